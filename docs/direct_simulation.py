@@ -160,7 +160,7 @@ def rough(runs, arguments):
     with tempfile.TemporaryDirectory() as folder:
         surfaces = [(f"seed {seed}", [generated(runs, folder, seed, 256)], ROUGH_SLOPE) for seed in (1, 2, 3)]
         if arguments.measured:
-            found = runs.answer("info", arguments.measured)
+            found = runs.answer("statistics", arguments.measured)
             surfaces.append((arguments.measured_name, [arguments.measured, "--boundary", "periodic"],
                              found["rms_slope"]))
 

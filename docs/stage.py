@@ -103,20 +103,19 @@ def copy(source, target):
 
 
 def help_of(program, *command):
-    done = subprocess.run([program, *command, "--help"], capture_output=True, text=True, check=True)
+    done = subprocess.run([program, "help", *command], capture_output=True, text=True, check=True)
     return done.stdout.strip()
 
 
 def command_reference(program):
     """docs/cli.md: --help of the program and of each command that it lists."""
     overview = help_of(program)
-    # Commands stand under the headings of their kinds, options begin with a dash, and the chart of commands comes after them.
-    listed = overview.split("Which command?", 1)[0].splitlines()
-    names = [line.split()[0] for line in listed if line.startswith("  ") and line[2].islower()]
+    # Commands stand behind the headings of their kinds, and the chart of commands comes after them.
+    names = re.findall(r"^(?:[A-Z]\w+| +) +([a-z]\w+)  ", overview.split("Which command?", 1)[0], re.M)
     if len(names) < 10:
         sys.exit(f"stage.py: the help of {program} lists {len(names)} commands; has its form changed?")
-    text = "# Commands\n\nWhat `salebra --help` and `salebra <command> --help` print.\n\n"
-    for name, page in [("salebra", overview)] + [(n, help_of(program, n)) for n in names]:
+    text = "# Commands\n\nWhat `salebra help`, `salebra help COMMAND` and `salebra help options` print.\n\n"
+    for name, page in [("salebra", overview)] + [(n, help_of(program, n)) for n in [*names, "options"]]:
         title = name if name == "salebra" else f"salebra {name}"
         text += f"## {title}\n\n```text\n{page}\n```\n\n"
     return text

@@ -266,7 +266,7 @@ std::string other_models() {
 void add_compare_command(Program& program) {
   auto arguments = std::make_shared<CompareArguments>();
   Command& command = program.add_command(
-      "compare", "every contact model on the same surfaces, down to the damping constant",
+      "compare", "all contact models on the same surfaces",
       {"salebra compare data/paper.toml -o paper.h5 --plot paper.png",
        "salebra compare data/quickstart.toml --target-precision 5% --json"},
       [arguments](Session& session) { run(*arguments, session); },

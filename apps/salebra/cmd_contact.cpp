@@ -266,7 +266,7 @@ void run(const ContactArguments& arguments, Session& session) {
 void add_contact_command(Program& program) {
   auto arguments = std::make_shared<ContactArguments>();
   Command& command = program.add_command(
-      "contact", "press a surface to one load, or to many: a force-gap curve",
+      "contact", "press a surface to one load, or to many",
       {"salebra contact rough.h5 --pressure 10MPa --contact-modulus 115GPa",
        "salebra contact rough.h5 --pressure 1:100MPa:16 --contact-modulus 115GPa --poisson 0.3 "
        "--stiffness -o curve.h5"},
@@ -283,84 +283,66 @@ void add_contact_command(Program& program) {
   add_choice(command, "--model", arguments->model, models,
              "boundary elements, or Greenwood and Williamson's summits, as spectral moments tell "
              "of them or each by itself; default bem");
-  const std::string position = "Position (several pressures or forces give a curve)";
-  add_values(command, "--pressure", arguments->pressure, Dimension::pressure, "nominal pressure")
-      ->group(position);
-  add_values(command, "--normal-force", arguments->force, Dimension::force, "normal force")
-      ->group(position);
+  command.under("Position (several pressures or forces give a curve)");
+  add_values(command, "--pressure", arguments->pressure, Dimension::pressure, "nominal pressure");
+  add_values(command, "--normal-force", arguments->force, Dimension::force, "normal force");
   add_values(command, "--mean-gap", arguments->mean_gap, Dimension::length,
-             "mean gap of the deformed surfaces")
-      ->group(position);
+             "mean gap of the deformed surfaces");
   add_values(command, "--indentation", arguments->indentation, Dimension::length,
-             "from first touch")
-      ->group(position);
+             "from first touch");
   arguments->material.add_to(command);
 
-  command
-      .add_flag("--stiffness", arguments->stiffness,
-                "also K by a linear solve on the contact set, and K_t = (G*/E*)K where G* is "
-                "known; null in full contact of a periodic surface, where both are infinite")
-      ->group(boundary_elements);
-  command
-      .add_flag("--stick", arguments->stick,
-                "with --stiffness: K_t by a stick solve on each contact")
-      ->group(boundary_elements);
-  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic")
-      ->group(boundary_elements);
+  command.under(boundary_elements);
+  command.add_flag("--stiffness", arguments->stiffness,
+                   "also K by a linear solve on the contact set, and K_t = (G*/E*)K where G* is "
+                   "known; null in full contact of a periodic surface, where both are infinite");
+  command.add_flag("--stick", arguments->stick,
+                   "with --stiffness: K_t by a stick solve on each contact");
+  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
   add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
                "of the softer body: cells saturate there and sink in. One position ends the first "
                "loading; of several, the largest is first loaded to, and the curve is that of "
-               "unloading; default none")
-      ->group(boundary_elements);
+               "unloading; default none");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
-               "of the complementarity residual; default 1e-10")
-      ->group(boundary_elements);
-  command.add_option("--max-iterations", arguments->max_iterations, "on the finest grid")
-      ->show_default()
-      ->group(boundary_elements);
+               "of the complementarity residual; default 1e-10");
+  command.add_option("--max-iterations", arguments->max_iterations,
+                     fmt::format("on the finest grid; default {}", arguments->max_iterations));
   add_choice<Precision>(command, "--precision", arguments->precision,
-                        "of the iterations; residuals are in double always; default mixed")
-      ->group(boundary_elements);
+                        "of the iterations; residuals are in double always; default mixed");
 
+  command.under(once);
   command
       .add_option("--residual", arguments->residual,
                   "with --hardness: write the surface that unloading leaves, whose later contacts "
                   "up to this load are elastic; read it back with --detrend none")
-      ->file(FileUse::output)
-      ->group(once);
+      ->file(FileUse::output);
   command
       .add_option("--initial", arguments->initial,
                   "result of this command to start from, of the same grid; saves iterations and "
                   "changes no result")
-      ->file(FileUse::input)
-      ->group(once);
-  arguments->checkpoint.add_to(command, once);
+      ->file(FileUse::input);
+  arguments->checkpoint.add_to(command);
   add_choice(command, "--fields", arguments->fields, {"none", "pressure", "all"},
-             "of the output: none leaves its numbers; default all")
-      ->group(once);
+             "of the output: none leaves its numbers; default all");
   add_choice(command, "--field-type", arguments->field_type, {"double", "float"},
-             "of the fields of the output; default double")
-      ->group(once);
+             "of the fields of the output; default double");
 
+  command.under(often);
   add_groups(command, arguments->groups,
              "holds the surface and presses some of the loads; default: with --recipe as many as "
-             "memory holds, else 1")
-      ->group(often);
+             "memory holds, else 1");
 
+  command.under(summits);
   add_choice(command, "--distribution", arguments->distribution, {"gaussian", "exponential"},
-             "of summit heights; default gaussian")
-      ->group(summits);
+             "of summit heights; default gaussian");
   add_values(command, "--separation", arguments->separation, Dimension::length,
-             "position of the smooth plane above the mean plane of summits")
-      ->group(summits);
+             "position of the smooth plane above the mean plane of summits");
+  command.under(parameters);
   add_quantity(command, "--summit-density", arguments->summit_density,
-               Dimension::inverse_length_squared, "summits per area")
-      ->group(parameters);
-  add_quantity(command, "--radius", arguments->radius, Dimension::length, "of the summits")
-      ->group(parameters);
+               Dimension::inverse_length_squared, "summits per area");
+  add_quantity(command, "--radius", arguments->radius, Dimension::length, "of the summits");
   add_quantity(command, "--summit-rms", arguments->summit_rms, Dimension::length,
-               "standard deviation of their heights")
-      ->group(parameters);
+               "standard deviation of their heights");
   arguments->dry_run.add_to(command);
 }
 

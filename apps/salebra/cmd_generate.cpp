@@ -292,47 +292,36 @@ void add_generate_command(Program& program) {
   add_seed(command, arguments->seed, "any whole number >= 0; default 1");
   arguments->spectrum.add_to(command);
 
-  const std::string heights = "Heights that are not Gaussian";
+  command.under("Heights that are not Gaussian");
   add_quantity(command, "--skewness", arguments->skewness, Dimension::dimensionless,
-               "of Johnson's distribution; default 0")
-      ->group(heights);
+               "of Johnson's distribution; default 0");
   add_quantity(command, "--kurtosis", arguments->kurtosis, Dimension::dimensionless,
-               "the same; 3 for a Gaussian")
-      ->group(heights);
+               "the same; 3 for a Gaussian");
   add_quantity(command, "--weibull", arguments->weibull, Dimension::dimensionless,
-               "shape of Weibull's distribution")
-      ->group(heights);
+               "shape of Weibull's distribution");
   command
       .add_option("--heights-from", arguments->heights_from,
                   "the distribution of heights of this surface, less its trend")
-      ->file(FileUse::input)
-      ->group(heights);
+      ->file(FileUse::input);
   add_choice<Exact>(command, "--exact", arguments->exact,
-                    "which of the two holds exactly; default heights")
-      ->group(heights);
-  command.add_option("--max-iterations", arguments->max_iterations, "at most; default 200")
-      ->group(heights);
+                    "which of the two holds exactly; default heights");
+  command.add_option("--max-iterations", arguments->max_iterations, "at most; default 200");
 
   arguments->shape.add_to(command);
 
-  const std::string after = "Post-processing";
-  command
-      .add_flag("--profile", arguments->profile,
-                "a line of heights in place of a surface: --points N, self-affine")
-      ->group(after);
+  command.under("Post-processing");
+  command.add_flag("--profile", arguments->profile,
+                   "a line of heights in place of a surface: --points N, self-affine");
   command
       .add_option("--composite", arguments->composite,
                   "add the heights of this surface, which has the same points")
-      ->file(FileUse::input)
-      ->group(after);
+      ->file(FileUse::input);
   command
       .add_option("--crop", arguments->crop,
                   "keep so many points, as a surface that is not periodic")
-      ->type_name("NX[,NY]")
-      ->group(after);
+      ->type_name("NX[,NY]");
   command.add_option("--crop-from", arguments->crop_from, "first point kept; default 0,0")
-      ->type_name("X[,Y]")
-      ->group(after);
+      ->type_name("X[,Y]");
   arguments->dry_run.add_to(command);
 }
 

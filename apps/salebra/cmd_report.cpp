@@ -35,7 +35,7 @@ void run(const ReportArguments& arguments, Session& session) {
 void add_report_command(Program& program) {
   auto arguments = std::make_shared<ReportArguments>();
   Command& command = program.add_command(
-      "report", "the results of a study as one HTML page that needs no network",
+      "report", "the results of a study as one HTML page",
       {"salebra report quickstart.h5 -o report.html",
        "salebra report scan.h5 --title 'Brake disc, 3 h in service' --overwrite"},
       [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);

@@ -28,7 +28,7 @@ namespace {
 struct StatisticsArguments {
   SurfaceOptions surface;
   std::string window = "default", convention = "salebra";
-  bool fill = false;
+  bool all = false, fill = false;
   std::optional<double> tip_radius, resolution;
 };
 
@@ -52,12 +52,6 @@ std::vector<ResultTable> height_tables(const Surface& surface) {
           table_of("histogram", lists_of(height_histogram(curve)))};
 }
 
-Json moments_json(const SpectralMoments& moments) {
-  Json object = {{"rms_height", moments.rms_height()}};
-  object.add(json_of(moments));
-  return object;
-}
-
 Json interval_json(const IntervalEstimate& estimate) {
   return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
 }
@@ -70,6 +64,98 @@ constexpr std::string_view needs_whole =
     "of several processes: no correlation, bearing curve, histogram, Sal, Str, Std, Sk, Spk, Svk, "
     "Smr1, Smr2, Spd and Spc, which need the surface whole";
 
+/// What is printed always.
+Json summary(const StatisticsArguments& arguments, const Surface& surface, Index undefined,
+             const SelfAffineFit& fit) {
+  const HeightStatistics heights = height_statistics(surface);
+  Json answer = json_of(surface.grid);
+  answer.add({{"periodic", surface.periodic},
+              {"undefined_points", undefined},
+              {"filled_points", arguments.fill ? undefined : 0},
+              {"mean", heights.mean}});
+  answer.add(json_of(heights));
+  answer.add(json_of(undefined > 0 ? difference_moments(surface) : surface_moments(surface)));
+  answer["hurst"] = interval_json(fit.hurst);
+  answer["rolloff"] = interval_json(fit.rolloff);
+  answer["short_cutoff"] = interval_json(fit.short_cutoff);
+  answer["summits"] = json_of(summit_statistics(find_summits(surface)));
+  answer["reliability"] = json_of(short_wavelength_limit(
+      surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution}));
+  return answer;
+}
+
+/// Those of the surface without holes, if there are any.
+std::vector<ResultTable> spectra(const Surface& complete, const PowerSpectrum& spectrum,
+                                 Window window, PsdConvention convention) {
+  const RadialSpectrum radial = radial_spectrum(spectrum);
+  std::vector<ResultTable> tables{
+      psd_table("psd", converted(radial, complete.grid, convention), radial.modes)};
+  // Integer wave numbers and cycles in a sample are conventions of surfaces alone.
+  const bool of_profiles =
+      convention != PsdConvention::tamaas && convention != PsdConvention::rfgen;
+  for (const Axis axis : {Axis::x, Axis::y}) {
+    const ProfilePsd profiles = profile_psd(complete, axis, window);
+    if (profiles.wavenumber.empty()) continue;
+    tables.push_back(psd_table(
+        axis == Axis::x ? "profile_psd_x" : "profile_psd_y",
+        converted(profiles, of_profiles ? convention : PsdConvention::salebra), profiles.modes));
+  }
+  return tables;
+}
+
+/// Those that need no filling.
+std::vector<ResultTable> other_statistics(const Surface& surface) {
+  std::vector<ResultTable> tables;
+  const bool whole = surface.ranks.alone();
+  if (whole) {
+    const CorrelationMap map = correlation_map(surface);
+    tables.push_back(table_of("correlation", lists_of(radial_correlation(map))));
+    tables.push_back(table_of("correlation_x", lists_of(profile_correlation(map, Axis::x))));
+    tables.push_back(table_of("correlation_y", lists_of(profile_correlation(map, Axis::y))));
+  }
+  tables.push_back(table_of("scale_x", lists_of(scale_dependence(surface, Axis::x))));
+  tables.push_back(table_of("scale_y", lists_of(scale_dependence(surface, Axis::y))));
+  if (whole)
+    for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
+  return tables;
+}
+
+void analyse(const StatisticsArguments& arguments, const Surface& surface, Session& session) {
+  const PsdConvention convention = *value_of<PsdConvention>(arguments.convention);
+  const Window window = *value_of<Window>(arguments.window);
+  const bool all = arguments.all || session.has_output();
+  const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
+  std::vector<ResultTable> tables;
+  std::optional<PowerSpectrum> spectrum;
+  SelfAffineFit fit;
+  if (undefined == 0 || arguments.fill) {
+    Surface without_holes;
+    const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
+    spectrum = power_spectrum(complete, window);
+    fit = fit_self_affine(*spectrum);
+    if (all) tables = spectra(complete, *spectrum, window, convention);
+  }
+  const Json answer = summary(arguments, surface, undefined, fit);
+  if (!spectrum)
+    session.note(fmt::format(
+        "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
+        undefined));
+  Json whole = answer;
+  if (all) {
+    if (!surface.ranks.alone()) session.note(needs_whole);
+    whole["areal"] = json_of(areal_parameters(surface));
+    whole["differences"] = json_of(difference_moments(surface));
+    for (ResultTable& table : other_statistics(surface)) tables.push_back(std::move(table));
+  }
+  write_tables(session, "statistics", whole, tables);
+  if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));
+  if (!arguments.all) return session.answer(answer);
+  std::string text = to_text(whole);
+  for (const ResultTable& table : tables)
+    if (table.name == "psd" || table.name == "correlation") text += to_text(table);
+  session.answer(with_tables(whole, tables), text);
+}
+
 void run(const StatisticsArguments& arguments, Session& session) {
   for (const auto& [given, option] :
        {std::pair(arguments.fill, "--fill"), {session.has_plot(), "--plot"}})
@@ -78,72 +164,16 @@ void run(const StatisticsArguments& arguments, Session& session) {
   std::vector<std::string> names = spectrum_tables;
   names.insert(names.end(), other_tables.begin(), other_tables.end());
   require_tables(session, names);
-  const PsdConvention convention = *value_of<PsdConvention>(arguments.convention);
-
   const Surface surface = arguments.surface.read(session);
-  const bool whole = surface.ranks.alone();
-  const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
-  Json answer = json_of(surface.grid);
-  answer.add({{"periodic", surface.periodic},
-              {"undefined_points", undefined},
-              {"filled_points", arguments.fill ? undefined : 0},
-              {"filter", "none"},
-              {"areal", json_of(areal_parameters(surface))},
-              {"differences", moments_json(difference_moments(surface))}});
-  if (surface.periodic && undefined == 0)
-    answer["spectral"] = moments_json(spectral_moments(surface));
-  answer["summits"] = json_of(summit_statistics(find_summits(surface)));
-  answer["reliability"] = json_of(short_wavelength_limit(
-      surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution}));
-
-  std::vector<ResultTable> tables;
-  Surface without_holes;
-  std::optional<PowerSpectrum> spectrum;
-  SelfAffineFit fit;
-  if (undefined == 0 || arguments.fill) {
-    const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
-    const Window window = *value_of<Window>(arguments.window);
-    spectrum = power_spectrum(complete, window);
-    const RadialSpectrum radial = radial_spectrum(*spectrum);
-    fit = fit_self_affine(*spectrum);
-    tables.push_back(psd_table("psd", converted(radial, surface.grid, convention), radial.modes));
-    // Integer wave numbers and cycles in a sample are conventions of surfaces alone.
-    const bool of_profiles =
-        convention != PsdConvention::tamaas && convention != PsdConvention::rfgen;
-    for (const Axis axis : {Axis::x, Axis::y}) {
-      const ProfilePsd profiles = profile_psd(complete, axis, window);
-      if (profiles.wavenumber.empty()) continue;
-      tables.push_back(psd_table(
-          axis == Axis::x ? "profile_psd_x" : "profile_psd_y",
-          converted(profiles, of_profiles ? convention : PsdConvention::salebra), profiles.modes));
-    }
-  } else {
-    session.note(fmt::format(
-        "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
-        undefined));
+  try {
+    analyse(arguments, surface, session);
+  } catch (const InvalidInput& refusal) {
+    // A grid of two rows has no curvature: the statistics do not know which file it came from.
+    if (refusal.field() != "nx" && refusal.field() != "ny") throw;
+    throw InvalidInput(
+        arguments.surface.file.empty() ? arguments.surface.recipe : arguments.surface.file,
+        refusal.what());
   }
-  answer["hurst"] = interval_json(fit.hurst);
-  answer["rolloff"] = interval_json(fit.rolloff);
-  answer["short_cutoff"] = interval_json(fit.short_cutoff);
-  if (whole) {
-    const CorrelationMap map = correlation_map(surface);
-    tables.push_back(table_of("correlation", lists_of(radial_correlation(map))));
-    tables.push_back(table_of("correlation_x", lists_of(profile_correlation(map, Axis::x))));
-    tables.push_back(table_of("correlation_y", lists_of(profile_correlation(map, Axis::y))));
-  } else {
-    session.note(needs_whole);
-  }
-  tables.push_back(table_of("scale_x", lists_of(scale_dependence(surface, Axis::x))));
-  tables.push_back(table_of("scale_y", lists_of(scale_dependence(surface, Axis::y))));
-  if (whole)
-    for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
-
-  write_tables(session, "statistics", answer, tables);
-  if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));
-  std::string text = to_text(answer);
-  for (const ResultTable& table : tables)
-    if (table.name == "psd" || table.name == "correlation") text += to_text(table);
-  session.answer(with_tables(answer, tables), text);
 }
 
 }  // namespace
@@ -151,15 +181,17 @@ void run(const StatisticsArguments& arguments, Session& session) {
 void add_statistics_command(Program& program) {
   auto arguments = std::make_shared<StatisticsArguments>();
   Command& command = program.add_command(
-      "statistics", "spectrum, correlation, bearing curve and areal parameters of a surface",
-      {"salebra statistics scan.txt -o scan.csv --plot scan.png",
+      "statistics", "size, roughness and spectra of a surface",
+      {"salebra statistics scan.txt",
        "salebra statistics scan.sur --detrend quadratic --fill --tip-radius 10nm --convention "
-       "surface-topography --json"},
+       "surface-topography -o scan.csv --plot scan.png"},
       [arguments](Session& session) { run(*arguments, session); },
       "heights, power spectral density with the fitted law, distribution of heights",
       OutputCheck::any_name);
   arguments->surface.add_to(command, false);
   arguments->surface.add_recipe_to(command);
+  command.add_flag("--all", arguments->all,
+                   "print areal parameters, spectra and all other tables too, which files have");
   add_choice<Window>(command, "--window", arguments->window,
                      "of the spectra; default none if periodic, hann if not");
   add_choice<PsdConvention>(

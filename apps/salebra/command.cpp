@@ -83,11 +83,6 @@ Option* Option::delimiter(char separator) {
   return this;
 }
 
-Option* Option::show_default() {
-  shows_default_ = true;
-  return this;
-}
-
 bool Option::help_lists_choices() const { return help_.find(" | ") != std::string::npos; }
 
 Command::Command(std::string name, std::string what, std::array<std::string, 2> examples,
@@ -96,7 +91,8 @@ Command::Command(std::string name, std::string what, std::array<std::string, 2> 
       what_(std::move(what)),
       examples_(std::move(examples)),
       action_(std::move(action)) {
-  add("-h,--help", std::monostate(), "Print this help message and exit");
+  add("-h,--help", std::monostate(), "what the command does, with its options")
+      ->group(common_options);
 }
 
 void Command::require_none_of(std::string_view group, std::string_view reason) const {
@@ -106,7 +102,7 @@ void Command::require_none_of(std::string_view group, std::string_view reason) c
 }
 
 Option* Command::add(const std::string& names, Option::Target target, std::string help) {
-  return &options_.emplace_back(names, std::move(target), std::move(help));
+  return options_.emplace_back(names, std::move(target), std::move(help)).group(heading_);
 }
 
 }  // namespace salebra::cli

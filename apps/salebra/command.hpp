@@ -15,6 +15,9 @@
 /// the command line, and hands it over. Help and completion read the same declarations.
 namespace salebra::cli {
 
+/// Heading of the options that every command has.
+inline constexpr const char* common_options = "Options of every command";
+
 /// What a command does with a file that an option names.
 enum class FileUse {
   none,   ///< the option names no file
@@ -35,7 +38,7 @@ class Option {
   /// names: "-o,--output", or the one name of a positional argument.
   Option(const std::string& names, Target target, std::string help);
 
-  /// Heading under which the help lists it.
+  /// Heading under which the help lists it, in place of that of the command.
   Option* group(std::string name);
   /// Kind of value, such as FILE.
   Option* type_name(std::string name);
@@ -49,8 +52,6 @@ class Option {
   Option* check(Check check);
   /// One argument may hold several values, with this between them.
   Option* delimiter(char separator);
-  /// The help shows the target's present value.
-  Option* show_default();
 
   const std::vector<std::string>& names() const { return names_; }
   const Target& target() const { return target_; }
@@ -70,7 +71,6 @@ class Option {
   std::vector<std::string> files() const;
   bool positional() const { return names_.front().front() != '-'; }
   bool required() const { return required_; }
-  bool shows_default() const { return shows_default_; }
   /// Whether the command line has it.
   bool given() const { return given_; }
   void note_given() { given_ = true; }
@@ -78,13 +78,13 @@ class Option {
  private:
   std::vector<std::string> names_;
   Target target_;
-  std::string help_, group_ = "Options", type_name_, partner_;
+  std::string help_, group_, type_name_, partner_;
   FileUse file_use_ = FileUse::none;
   std::vector<std::string> choices_;
   std::optional<std::pair<int, int>> range_;
   Check check_;
   std::optional<char> delimiter_;
-  bool required_ = false, shows_default_ = false, given_ = false;
+  bool required_ = false, given_ = false;
 };
 
 class Command {
@@ -93,6 +93,8 @@ class Command {
   Command(std::string name, std::string what, std::array<std::string, 2> examples,
           std::function<void()> action);
 
+  /// Heading under which the help lists what is declared from here on. Returns the one before.
+  std::string under(std::string heading) { return std::exchange(heading_, std::move(heading)); }
   /// Targets must outlive the parsing. An option stays where it is.
   template <class T>
   Option* add_option(const std::string& names, T& target, std::string help) {
@@ -124,6 +126,21 @@ class Command {
   std::array<std::string, 2> examples_;
   std::function<void()> action_;
   std::deque<Option> options_;
+  std::string heading_ = "Options";
+};
+
+/// Options that are declared while it lives stand under this heading.
+class Heading {
+ public:
+  Heading(Command& command, std::string name)
+      : command_(command), before_(command.under(std::move(name))) {}
+  ~Heading() { command_.under(before_); }
+  Heading(const Heading&) = delete;
+  Heading& operator=(const Heading&) = delete;
+
+ private:
+  Command& command_;
+  std::string before_;
 };
 
 }  // namespace salebra::cli

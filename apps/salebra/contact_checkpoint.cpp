@@ -23,17 +23,15 @@ bool is_there(const Session& session, const std::string& file) {
 
 }  // namespace
 
-void ContactCheckpoint::add_to(Command& command, const std::string& group) {
+void ContactCheckpoint::add_to(Command& command) {
   command
       .add_option(
           "--checkpoint", file,
           "file that keeps the pressure while the contact is solved, for --initial; removed "
           "once it has converged")
-      ->file(FileUse::output, "--initial")
-      ->group(group);
+      ->file(FileUse::output, "--initial");
   add_quantity(command, "--checkpoint-every", every, Dimension::time,
-               "time between checkpoints; default 10 min, 0 for every iteration")
-      ->group(group);
+               "time between checkpoints; default 10 min, 0 for every iteration");
 }
 
 void ContactCheckpoint::check(const Session& session, const std::string& initial) const {

@@ -17,7 +17,7 @@ struct ContactCheckpoint {
   std::string file;             ///< empty: none
   std::optional<double> every;  ///< s
 
-  void add_to(Command& command, const std::string& group);
+  void add_to(Command& command);
   /// Refuses what cannot be written before the work. Collective.
   void check(const Session& session, const std::string& initial) const;
   /// Whether --initial names this file, which is not there yet: the first run of a command that is

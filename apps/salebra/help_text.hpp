@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string_view>
+#include <deque>
+#include <string>
 
+#include "command.hpp"
+
+/// What `salebra help` prints, before it is wrapped.
 namespace salebra::cli {
 
-/// What the help of a command says beyond its one line: what it needs, what it computes, and where
-/// one goes from there. The same text is in its manual page.
-struct CommandHelp {
-  std::string_view name;
-  std::string_view group;  ///< heading of the list of commands under which it stands
-  std::string_view text;   ///< paragraphs, parted by an empty line
-};
+/// One screen: the commands under what they are for, which one to take, and the first steps.
+std::string program_help(const std::deque<Command>& commands);
 
-/// nullptr for a command that is not described.
-const CommandHelp* find_help(std::string_view command);
+/// What a command does, two examples, the options most used, and the others under their headings.
+std::string command_help(const Command& command);
 
-/// What the help of the program itself ends with.
-std::string_view first_steps();
+/// The options that every command has, of any of them.
+std::string options_help(const Command& command);
 
 }  // namespace salebra::cli

@@ -77,18 +77,14 @@ void require_options(const std::vector<std::string>& missing, const std::string&
 }
 
 void MaterialOptions::add_to(Command& app) {
-  const std::string group = "Material";
+  const Heading under(app, "Material");
   add_values(app, "--young", young, Dimension::pressure,
-             "Young's modulus E1[,E2]; one: the other side is rigid")
-      ->group(group);
-  add_values(app, "--poisson", poisson, Dimension::dimensionless, "Poisson's ratio NU1[,NU2]")
-      ->group(group);
+             "Young's modulus E1[,E2]; one: the other side is rigid");
+  add_values(app, "--poisson", poisson, Dimension::dimensionless, "Poisson's ratio NU1[,NU2]");
   add_quantity(app, "--contact-modulus", contact_modulus, Dimension::pressure,
-               "E*, instead of --young")
-      ->group(group);
+               "E*, instead of --young");
   add_quantity(app, "--tangential-modulus", tangential_modulus, Dimension::pressure,
-               "G*, with --contact-modulus")
-      ->group(group);
+               "G*, with --contact-modulus");
 }
 
 std::vector<std::string> MaterialOptions::missing(bool tangential) const {
@@ -171,28 +167,25 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
   app.add_option(field, file, "file with heights, recognised by its content: " + read_extensions())
       ->required(needed)
       ->file(FileUse::input);
-  const std::string group = "Surface";
-  add_quantity(app, "--size-x", size_x, Dimension::length, "for files that do not state their size")
-      ->group(group);
-  add_quantity(app, "--size-y", size_y, Dimension::length, "as --size-x")->group(group);
+  const Heading under(app, "Surface");
+  add_quantity(app, "--size-x", size_x, Dimension::length,
+               "for files that do not state their size");
+  add_quantity(app, "--size-y", size_y, Dimension::length, "as --size-x");
   app.add_option("--height-unit", height_unit,
                  "such as nm, for files that do not name one; default m")
-      ->type_name("UNIT")
-      ->group(group);
+      ->type_name("UNIT");
   add_choice<Detrend>(app, "--detrend", detrend,
                       "default: plane if measured, mean if generated; lines and "
                       "median-differences flatten a scan line by line, which changes statistics "
-                      "along y")
-      ->group(group);
+                      "along y");
 }
 
 void SurfaceOptions::add_recipe_to(Command& app) {
-  const std::string group = "Surface";
+  const Heading under(app, "Surface");
   app.add_option("--recipe", recipe,
                  "study file that says how to generate the surface, in place of SURFACE")
-      ->file(FileUse::input)
-      ->group(group);
-  add_seed(app, seed, "of --recipe; default 1")->group(group);
+      ->file(FileUse::input);
+  add_seed(app, seed, "of --recipe; default 1");
 }
 
 namespace {
@@ -250,37 +243,29 @@ SurfaceOutline SurfaceOptions::outline(Session& session) const {
   return {surface.grid, surface_moments(surface).rms_slope(), file};
 }
 
-Option* add_groups(Command& command, int& groups, const std::string& work) {
-  return command
-      .add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
+void add_groups(Command& command, int& groups, const std::string& work) {
+  command.add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
       ->range(1, 1 << 20);
 }
 
 void DryRunOptions::add_to(Command& command, bool of_processes) {
-  const std::string group = "Estimate";
-  command
-      .add_flag("--dry-run", dry_run,
-                "print what would run, with its memory and time, and run nothing")
-      ->group(group);
+  const Heading under(command, "Estimate");
+  command.add_flag("--dry-run", dry_run,
+                   "print what would run, with its memory and time, and run nothing");
   if (!of_processes) return;
   command
       .add_option("--ranks", ranks,
                   "with --dry-run: of so many processes of salebra-mpi, default those that run")
-      ->range(1, 1 << 20)
-      ->group(group);
-  command.add_option("--nodes", nodes, "with --dry-run: on so many machines")
-      ->range(1, 1 << 20)
-      ->group(group);
+      ->range(1, 1 << 20);
+  command.add_option("--nodes", nodes, "with --dry-run: on so many machines")->range(1, 1 << 20);
 }
 
 void PositionOptions::add_to(Command& app) {
-  const std::string group = "Position";
-  add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure")->group(group);
-  add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces")
-      ->group(group);
-  add_quantity(app, "--normal-force", force, Dimension::force, "normal force")->group(group);
-  add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch")
-      ->group(group);
+  const Heading under(app, "Position");
+  add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure");
+  add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces");
+  add_quantity(app, "--normal-force", force, Dimension::force, "normal force");
+  add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch");
 }
 
 int PositionOptions::count() const {
@@ -293,6 +278,7 @@ std::optional<double> PositionOptions::nominal_pressure(const Grid2D& grid) cons
 }
 
 void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) {
+  const Heading under(app, group);
   struct {
     const char* name;
     std::vector<double>& values;
@@ -303,8 +289,7 @@ void FrequencyOptions::add_to(Command& app, const std::string& group, bool one) 
                   "in rad/s, instead of --frequency"}};
   for (const auto& [name, values, dimension, help] : both)
     (one ? add_one(app, name, values, dimension, help)
-         : add_values(app, name, values, dimension, help))
-        ->group(group);
+         : add_values(app, name, values, dimension, help));
 }
 
 std::vector<double> FrequencyOptions::angular() const {
@@ -319,6 +304,7 @@ std::vector<double> FrequencyOptions::angular() const {
 
 void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
   const std::string group = "Motion (one quantity may be a range from:to:count or a list)";
+  const Heading under(app, group);
   std::vector<std::string> modes = {"drag", "equal-frequency"};
   if (with_two_frequencies) modes.push_back("two-frequencies");
   app.add_option_function(
@@ -330,22 +316,18 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
          fmt::format("drag: slow tangential oscillation; default {}: {}", mode,
                      fmt::join(modes, " | ")))
       ->type_name("NAME")
-      ->choices(modes)
-      ->group(group);
-  add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z")->group(group);
+      ->choices(modes);
+  add_values(app, "--normal-amplitude", normal_amplitude, Dimension::length, "u_z");
   add_values(app, "--tangential-amplitude", tangential_amplitude, Dimension::length,
-             "u_x, not with drag")
-      ->group(group);
-  add_values(app, "--phase", phase, Dimension::angle, "phase of x at a maximum of z, not with drag")
-      ->group(group);
+             "u_x, not with drag");
+  add_values(app, "--phase", phase, Dimension::angle,
+             "phase of x at a maximum of z, not with drag");
   add_values(app, "--drag-velocity", drag_velocity, Dimension::velocity,
-             "v of the slow oscillation, drag")
-      ->group(group);
+             "v of the slow oscillation, drag");
   frequency.add_to(app, group);
   if (with_two_frequencies)
     add_values(app, "--tangential-frequency", tangential_frequency, Dimension::frequency,
-               "two-frequencies: of the tangential motion, in Hz")
-        ->group(group);
+               "two-frequencies: of the tangential motion, in Hz");
 }
 
 std::pair<std::string, std::vector<double>> MotionOptions::varied() const {

@@ -104,7 +104,7 @@ struct SurfaceOptions {
 };
 
 /// --groups of processes; 0: not given. `work` says what each of them does.
-Option* add_groups(Command& command, int& groups, const std::string& work);
+void add_groups(Command& command, int& groups, const std::string& work);
 
 /// --dry-run, and the processes that it is for.
 struct DryRunOptions {

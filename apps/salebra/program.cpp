@@ -18,11 +18,11 @@
 #include <salebra/base/suggestion.hpp>
 #include <salebra/base/undefined_points.hpp>
 #include <salebra/base/version.hpp>
-#include <sstream>
 
 #include "confinement/confinement.hpp"
 #include "help_text.hpp"
 #include "option_words.hpp"
+#include "options.hpp"
 #include "scarce_memory.hpp"
 #include "terminal.hpp"
 
@@ -84,23 +84,7 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
                      chosen.front()->get_name(), did_you_mean(name, options));
 }
 
-/// CLI11's help with the text of a command below its one line, headings emphasised on a terminal.
-class HelpFormatter : public CLI::Formatter {
- public:
-  std::string make_description(const CLI::App* app) const override {
-    std::string description = CLI::Formatter::make_description(app);
-    if (const CommandHelp* help = app->get_parent() ? find_help(app->get_name()) : nullptr)
-      description += "\n" + std::string(help->text) + "\n\n";
-    return description;
-  }
-  std::string make_group(std::string group, bool is_positional,
-                         std::vector<const CLI::Option*> options) const override {
-    return CLI::Formatter::make_group(emphasised(group, Emphasis::heading, STDOUT_FILENO),
-                                      is_positional, std::move(options));
-  }
-};
-
-CLI::Validator validator_of(const std::vector<std::string>& choices, bool shown) {
+CLI::Validator validator_of(const std::vector<std::string>& choices) {
   return CLI::Validator(
       [choices](const std::string& text) {
         return std::ranges::find(choices, text) != choices.end()
@@ -108,7 +92,7 @@ CLI::Validator validator_of(const std::vector<std::string>& choices, bool shown)
                    : fmt::format("'{}' is not one of {}{}", text, fmt::join(choices, ", "),
                                  did_you_mean(text, choices));
       },
-      shown ? fmt::format("{{{}}}", fmt::join(choices, ",")) : "");
+      "");
 }
 
 CLI::Option* declare(CLI::App& app, const Option& option) {
@@ -126,27 +110,19 @@ CLI::Option* declare(CLI::App& app, const Option& option) {
           return app.add_option_function<std::string>(names, target, option.help());
       },
       option.target());
-  made->group(option.group());
   if (!option.type_name().empty()) made->type_name(option.type_name());
   if (option.required()) made->required();
   if (option.check()) made->check(option.check());
   if (option.range()) made->check(CLI::Range(option.range()->first, option.range()->second));
-  if (!option.choices().empty())
-    made->check(validator_of(option.choices(), !option.help_lists_choices()));
+  if (!option.choices().empty()) made->check(validator_of(option.choices()));
   if (option.delimiter()) made->delimiter(*option.delimiter());
-  if (option.shows_default()) made->capture_default_str();
   return made;
 }
 
-/// Commands under the headings of their kinds; what is not described stays under CLI11's own.
 void declare(CLI::App& app, Command& command) {
   CLI::App* made = app.add_subcommand(command.name(), command.what());
-  made->footer(
-      "Values take units (10um, 20kHz, 115GPa, 90deg); a bare number is SI.\n\nExamples:\n  " +
-      command.examples()[0] + "\n  " + command.examples()[1]);
   std::vector<std::pair<Option*, CLI::Option*>> declared;
   for (Option& option : command.options()) declared.emplace_back(&option, declare(*made, option));
-  if (const CommandHelp* help = find_help(command.name())) made->group(std::string(help->group));
   made->callback([declared, &command] {
     for (const auto& [option, parsed] : declared)
       if (parsed->count() > 0) option->note_given();
@@ -178,30 +154,24 @@ Command& Program::add_command(const std::string& name, const std::string& what,
         session.name_files(std::ranges::find(commands_, name, &Command::name)->options());
         action(session);
       });
-  const std::string group = "Common options";
-  command.add_flag("--json", common->json, "print exactly one JSON object, in SI units")
-      ->group(group);
-  command.add_option("-o,--output", common->output, "file to write")
-      ->file(FileUse::output)
-      ->group(group);
-  if (!picture.empty())
-    command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
-        ->file(FileUse::output)
-        ->group(group);
-  command.add_flag("--overwrite", common->overwrite, "replace an existing output file")
-      ->group(group);
+  command.under(common_options);
+  command.add_flag("--json", common->json, "print exactly one JSON object, in SI units");
+  command.add_option("-o,--output", common->output, "file to write")->file(FileUse::output);
+  command.add_flag("--overwrite", common->overwrite, "replace an existing output file");
   command.add_option("--threads", common->threads, "threads to use; 0 means all")
-      ->group(group)
       ->check([](const std::string& text) {
         int threads = 0;
         return CLI::detail::lexical_cast(text, threads) && threads >= 0
                    ? std::string()
                    : text + " must be a whole number >= 0";
       });
-  command.add_flag("--quiet", common->quiet, "nothing on stderr but errors")->group(group);
-  command.add_option("--progress", common->progress, "auto: on a terminal only; always; never")
-      ->group(group)
-      ->choices({"auto", "always", "never"});
+  command.add_flag("--quiet", common->quiet, "nothing on stderr but errors");
+  add_choice(command, "--progress", common->progress, {"auto", "always", "never"},
+             "default auto, on a terminal only");
+  command.under("Options");
+  if (!picture.empty())
+    command.add_option("--plot", common->plot, "picture to draw, .png, .svg or .pdf: " + picture)
+        ->file(FileUse::output);
   return command;
 }
 
@@ -231,6 +201,7 @@ constexpr FormerCommand former_commands[]{
     {"figure3", "oscillate, with --shape cylinder,parabola,pyramids,sinusoids"},
     {"friction", "sliding, with the same options"},
     {"gw", "contact, with --model gw_moments or gw_deterministic"},
+    {"info", "statistics"},
     {"manual", "help, with the name of a command"},
     {"slider", "sliding, with --velocities for --velocity"},
     {"sweep", "contact, with several values of --pressure"},
@@ -243,22 +214,24 @@ void run(int argc, char** argv, const Launch& launch) {
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", name);
   app.set_version_flag("--version", name + " " + std::string(version()));
   app.require_subcommand(1);
-  app.formatter(std::make_shared<HelpFormatter>());
-  app.get_formatter()->column_width(34);
-  app.footer(std::string(first_steps()));
   Program program(join(argc, argv), launch);
 #define SALEBRA_COMMAND(name) add_##name##_command(program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
   for (Command& command : program.commands()) declare(app, command);
 
+  const auto show = [&](const std::string& text) {
+    if (launch.ranks.is_root()) print_answer(wrapped(text, text_width()));
+  };
   std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) words = {"--help"};
   // salebra help [COMMAND]
-  if (words.front() == "help") {
+  if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
+    if (words == std::vector<std::string>{"options"})
+      return show(options_help(program.commands().front()));
     words.emplace_back("--help");
   }
+  if (words.empty()) words = {"--help"};
   std::vector<std::string> names;
   for (const Command& command : program.commands()) names.push_back(command.name());
   const std::string word = words.front();
@@ -274,10 +247,11 @@ void run(int argc, char** argv, const Launch& launch) {
   try {
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(words);
-  } catch (const CLI::Success& request) {
-    std::ostringstream text;
-    app.exit(request, text, text);
-    if (launch.ranks.is_root()) print_answer(wrapped(text.str(), text_width()));
+  } catch (const CLI::CallForHelp&) {
+    show(chosen == program.commands().end() ? program_help(program.commands())
+                                            : command_help(*chosen));
+  } catch (const CLI::CallForVersion& version) {
+    show(std::string(version.what()) + "\n");
   } catch (const CLI::ParseError& error) {
     throw NotUnderstood(fmt::format("{}; {}", describe(app, error), help_hint(app)));
   }

@@ -75,14 +75,13 @@ Shape shape_named(const std::string& name) {
 }  // namespace
 
 void ShapeOptions::add_to(Command& app) {
-  const std::string group = "Shape, in place of a spectrum";
+  const Heading under(app, "Shape, in place of a spectrum");
   add_choice(app, "--shape", shape,
              {"sphere", "paraboloid", "elliptic-paraboloid", "ellipsoid", "cone", "wedge", "ridge",
               "cylinder", "rounded-cylinder", "pyramids", "sinusoid"},
-             "shape")
-      ->group(group);
+             "shape");
   const auto length = [&](const char* name, std::optional<double>& value, const char* help) {
-    add_quantity(app, name, value, Dimension::length, help)->group(group);
+    add_quantity(app, name, value, Dimension::length, help);
   };
   length("--radius", radius, "sphere, paraboloid, ridge, cylinder, rounded-cylinder");
   length("--radius-x", radius_x, "elliptic-paraboloid: of curvature along x");
@@ -96,17 +95,13 @@ void ShapeOptions::add_to(Command& app) {
   length("--center-x", center_x, "of the axis, or shift of pyramids and sinusoid");
   length("--center-y", center_y, "as --center-x");
   add_quantity(app, "--angle", angle, Dimension::angle,
-               "cone, wedge, pyramids: of the flank to the plane")
-      ->group(group);
+               "cone, wedge, pyramids: of the flank to the plane");
   add_quantity(app, "--count-x", count_x, Dimension::dimensionless,
-               "pyramids, sinusoid: how many along x")
-      ->group(group);
-  add_quantity(app, "--count-y", count_y, Dimension::dimensionless, "the same along y")
-      ->group(group);
+               "pyramids, sinusoid: how many along x");
+  add_quantity(app, "--count-y", count_y, Dimension::dimensionless, "the same along y");
   add_choice(app, "--center", center, {"off-grid", "middle"},
              "default off-grid: (0.31, 0.17) of a cell off the middle, which makes the contact "
-             "area grow smoothly")
-      ->group(group);
+             "area grow smoothly");
 }
 
 Surface ShapeOptions::surface(const Grid2D& grid) const {

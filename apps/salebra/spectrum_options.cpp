@@ -24,48 +24,36 @@ void require_absent(const std::optional<double>& value, std::string_view option,
 }  // namespace
 
 void SpectrumOptions::add_to(Command& app) {
-  const std::string group = "Spectrum";
+  const Heading under(app, "Spectrum");
   add_quantity(app, "--hurst", hurst, Dimension::dimensionless,
-               "self-affine: Hurst exponent, 0 < H <= 1")
-      ->group(group);
-  add_quantity(app, "--long-cutoff", long_cutoff, Dimension::length,
-               "self-affine: longest wavelength; default: the longer side, with --rolloff no limit")
-      ->group(group);
+               "self-affine: Hurst exponent, 0 < H <= 1");
+  add_quantity(
+      app, "--long-cutoff", long_cutoff, Dimension::length,
+      "self-affine: longest wavelength; default: the longer side, with --rolloff no limit");
   add_quantity(app, "--rolloff", rolloff, Dimension::length,
-               "self-affine: wavelength where the plateau ends; default: --long-cutoff")
-      ->group(group);
+               "self-affine: wavelength where the plateau ends; default: --long-cutoff");
   add_quantity(app, "--short-cutoff", short_cutoff, Dimension::length,
-               "shortest wavelength, at least two cells")
-      ->group(group);
+               "shortest wavelength, at least two cells");
   add_quantity(app, "--rms-height", rms_height, Dimension::length,
-               "of the spectrum; or --rms-slope")
-      ->group(group);
+               "of the spectrum; or --rms-slope");
   add_quantity(app, "--rms-slope", rms_slope, Dimension::dimensionless,
-               "of the spectrum, sqrt(<|grad h|^2>)")
-      ->group(group);
+               "of the spectrum, sqrt(<|grad h|^2>)");
   add_choice(app, "--correlation", correlation, {"gaussian", "exponential"},
-             "in place of --hurst, with --correlation-length and --rms-height")
-      ->group(group);
+             "in place of --hurst, with --correlation-length and --rms-height");
   add_quantity(app, "--correlation-length", correlation_length, Dimension::length,
-               "where the correlation has fallen by e")
-      ->group(group);
+               "where the correlation has fallen by e");
   app.add_option("--psd-table", table,
                  "in place of --hurst: file with two columns, wave number in rad/m and density; "
                  "--rms-height scales it")
-      ->file(FileUse::input)
-      ->group(group);
+      ->file(FileUse::input);
   add_choice(app, "--convention", convention, {"salebra", "surface-topography", "gwyddion"},
-             "of --psd-table; default salebra, rms_height^2 = integral of C d^2q")
-      ->group(group);
+             "of --psd-table; default salebra, rms_height^2 = integral of C d^2q");
   add_quantity(app, "--stretch-along", stretch_along, Dimension::dimensionless,
-               "factor on the correlation length along the lay; default 1")
-      ->group(group);
+               "factor on the correlation length along the lay; default 1");
   add_quantity(app, "--stretch-across", stretch_across, Dimension::dimensionless,
-               "the same across the lay; default 1")
-      ->group(group);
+               "the same across the lay; default 1");
   add_quantity(app, "--lay-angle", lay_angle, Dimension::angle,
-               "from the x axis to the lay; default 0")
-      ->group(group);
+               "from the x axis to the lay; default 0");
 }
 
 SelfAffineParameters SpectrumOptions::self_affine(double cell) const {

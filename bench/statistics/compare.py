@@ -17,7 +17,7 @@ from SurfaceTopography.FFTTricks import get_window_2D
 
 
 def salebra(program, file, *options):
-    command = [program, "statistics", str(file), "--json", "--quiet", "--detrend", "plane", *options]
+    command = [program, "statistics", str(file), "--all", "--json", "--quiet", "--detrend", "plane", *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
 
 

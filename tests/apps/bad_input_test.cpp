@@ -79,7 +79,7 @@ TEST_CASE("A study file with a fault is refused with key and line, and nothing i
 TEST_CASE("A grid that is too small for statistics is refused with its file", "[bad-input]") {
   const ProgramTest test;
   test.write("two_rows.txt", "1 2 3\n4 5 6\n");
-  check_refused(test.run("info two_rows.txt"), "two_rows.txt: nx: 2");
+  check_refused(test.run("statistics two_rows.txt"), "two_rows.txt: nx: 2");
 }
 
 TEST_CASE("A fit window that holds fewer than three pressures is refused", "[bad-input]") {
@@ -128,11 +128,12 @@ TEST_CASE("Surfaces that are absent, truncated or without a size are refused", "
 
 TEST_CASE("The measured surfaces that are broken on purpose are refused", "[bad-input]") {
   const ProgramTest test;
-  check_refused(test.run("info " + std::string(SALEBRA_SURFACES "/nonsense_txt_file.txt")),
+  check_refused(test.run("statistics " + std::string(SALEBRA_SURFACES "/nonsense_txt_file.txt")),
                 "nonsense_txt_file.txt");
-  check_refused(test.run("info " + std::string(SALEBRA_SURFACES "/wrongnpyfile.npy")),
+  check_refused(test.run("statistics " + std::string(SALEBRA_SURFACES "/wrongnpyfile.npy")),
                 "wrongnpyfile.npy");
-  check_refused(test.run("info " + std::string(SALEBRA_SURFACES "/example-2d.npy")), "size_x");
+  check_refused(test.run("statistics " + std::string(SALEBRA_SURFACES "/example-2d.npy")),
+                "size_x");
 }
 
 TEST_CASE("Grids and spectra that cannot be are refused, and nothing is written", "[bad-input]") {
@@ -223,7 +224,7 @@ TEST_CASE("An existing output is refused before any work, and replaced with --ov
   check_refused(test.run(recipe + "-o ."), ".");
   CHECK(test.files() == std::set<std::string>{"rough.h5"});
   CHECK(test.run(recipe + "-o rough.h5 --overwrite").status == 0);
-  CHECK(test.run("info rough.h5").status == 0);
+  CHECK(test.run("statistics rough.h5").status == 0);
 }
 
 TEST_CASE("A curve's file that names no format is refused before the surface is read",
@@ -333,10 +334,10 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
         "a nominal pressure of 1 MPa is 0.87 times E* = 1.15 MPa");
   warns("contact s.h5 --pressure 1MPa,20GPa --contact-modulus 100GPa",
         "a nominal pressure of 20 GPa is 0.2 times E* = 100 GPa");
-  warns("info s.h5 --size-x 2um", "size_x: 2 µm was given, and s.h5 states 1 µm");
+  warns("statistics s.h5 --size-x 2um", "size_x: 2 µm was given, and s.h5 states 1 µm");
   warns("generate --points 16,16 --size-x 1um --size-y 1nm -o thin.h5" + surface,
         "cells of 62.5 nm x 62.5 pm have sides of 1000 to 1");
-  warns("info thin.h5", "cells of 62.5 nm x 62.5 pm");
+  warns("statistics thin.h5", "cells of 62.5 nm x 62.5 pm");
   // A scan in micrometres whose unit nobody gave, in every command that reads a surface.
   REQUIRE(test.run("generate --points 32 --size-x 10um -o r.h5 --hurst 0.8 --rolloff 5um "
                    "--short-cutoff 1.2um --rms-height 60nm --quiet")
@@ -358,7 +359,7 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
       "um.txt: rms slope 1.04e+05 is above 1: heights in \u00b5m? rms slope would be 0.1; see "
       "--height-unit";
   for (const std::string command :
-       {"info um.txt", "statistics um.txt", "convert um.txt um.nc",
+       {"statistics um.txt", "convert um.txt um.nc",
         "contact um.txt --pressure 1GPa --contact-modulus 115GPa",
         "contact um.txt --pressure 1GPa,2GPa --contact-modulus 115GPa",
         "contact --model gw_moments um.txt --pressure 1MPa,2MPa --contact-modulus 115GPa"})
@@ -366,14 +367,14 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
   warns("study --surface um.txt --no-stick --levels 0 " + size + steel + motion, doubt);
   CHECK_THAT(test.run("study --dry-run --surface um.txt" + size + steel + motion).out,
              Catch::Contains(doubt));
-  CHECK(test.run("info um.txt --height-unit um" + size).err.empty());
+  CHECK(test.run("statistics um.txt --height-unit um" + size).err.empty());
   // Loads of a study: E*h' was 0.01 times E*, of which these are 10 to 20 times as much.
   warns("study --surface r.h5 --no-stick --levels 0 --pressures 12GPa,15GPa,18GPa,21GPa " + steel +
             motion,
         "a nominal pressure of 21 GPa is 0.18 times E* = 115 GPa");
   // Within what is usual nothing is said.
   CHECK(test.run("contact s.h5 --pressure 9MPa --contact-modulus 100MPa").err.empty());
-  CHECK(test.run("info s.h5 --size-x 1.0001um").err.empty());
+  CHECK(test.run("statistics s.h5 --size-x 1.0001um").err.empty());
 }
 
 TEST_CASE("A value of a hundred thousand letters is quoted in part", "[bad-input]") {
@@ -385,7 +386,7 @@ TEST_CASE("A value of a hundred thousand letters is quoted in part", "[bad-input
   for (const std::string& arguments :
        {"contact --model gw_moments --pressure " + values, "damping --law " + word,
         "damping --" + word + " 1", "generate --size-x 1um --points " + word,
-        "generate --seed " + word, word, "info " + word, "verify --threads " + word,
+        "generate --seed " + word, word, "statistics " + word, "verify --threads " + word,
         "verify " + word, std::string("study study.toml"), std::string("study names.toml")}) {
     INFO(arguments.substr(0, 30));
     const auto result = test.run(arguments);

@@ -235,7 +235,7 @@ TEST_CASE("The output of a contact has the fields asked for, in double or float"
     CHECK(test.run(press + "--initial " + file).json()["iterations"] < whole["iterations"]);
   check_refused(test.run(press + "--initial none.h5"), "none.h5 has no contact pressure");
   check_refused(test.run(press + "--fields none"), "--fields: given without --output");
-  check_refused(test.run("info none.h5"), "none.h5: has no dataset heights");
+  check_refused(test.run("statistics none.h5"), "none.h5: has no dataset heights");
   check_refused(test.run("report none.h5 -o none.html"), "none.h5: contains no study");
 }
 

@@ -363,8 +363,7 @@ TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
   test.write(
       "flat.txt",
       "# Width: 4 um\n# Height: 4 um\n# Value units: nm\n1 1 1 1\n1 1 1 1\n1 1 1 1\n1 1 1 1\n");
-  for (const std::string command :
-       {"info flat.txt", "statistics flat.txt", "convert flat.txt o.h5"}) {
+  for (const std::string command : {"statistics flat.txt", "convert flat.txt o.h5"}) {
     INFO(command);
     const Drawing drawing(test, command);
     CHECK_THAT(drawing.script(), Contains("'heights'") && !Contains("power spectral density"));

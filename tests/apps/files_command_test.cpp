@@ -60,7 +60,7 @@ TEST_CASE(
   };
   for (const std::string& from : written) {
     REQUIRE(test.run("convert scan.txt from" + from).status == 0);
-    const auto described = test.run("info from" + from + " --detrend none --json");
+    const auto described = test.run("statistics from" + from + " --detrend none --json");
     REQUIRE(described.status == 0);
     CHECK(described.json()["nx"] == 4);
     CHECK(described.json()["undefined_points"] == 1);
@@ -71,7 +71,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("info refuses each broken file with status 2 and one line", "[files][bad-input]") {
+TEST_CASE("statistics refuses each broken file with status 2 and one line", "[files][bad-input]") {
   const ProgramTest test;
   test.write("scan.txt", scan);
   for (const std::string& format : written) {
@@ -80,7 +80,7 @@ TEST_CASE("info refuses each broken file with status 2 and one line", "[files][b
     for (const std::size_t part : {whole.size() - 1, whole.size() / 2, whole.size() / 8}) {
       test.write("cut" + format, whole.substr(0, part));
       std::filesystem::remove(test.folder() / ("cut" + format + ".json"));
-      const auto result = test.run("info cut" + format);
+      const auto result = test.run("statistics cut" + format);
       INFO(format << " cut to " << part << ": " << result.err);
       // Text that loses its last line end is whole.
       if (part + 1 == whole.size() && (format == ".txt" || format == ".xyz")) {
@@ -92,7 +92,7 @@ TEST_CASE("info refuses each broken file with status 2 and one line", "[files][b
   }
 }
 
-TEST_CASE("info refuses files that declare what cannot be", "[files][bad-input]") {
+TEST_CASE("statistics refuses files that declare what cannot be", "[files][bad-input]") {
   const ProgramTest test;
   const auto nul = [](std::size_t count) { return std::string(count, '\0'); };
   const auto number = [](double value) {
@@ -154,10 +154,10 @@ TEST_CASE("info refuses files that declare what cannot be", "[files][bad-input]"
   }));
   INFO(name);
   test.write(name, content);
-  check_refused(test.run("info " + name), expected);
+  check_refused(test.run("statistics " + name), expected);
 }
 
-TEST_CASE("info reads text with a byte order mark, CR LF and decimal commas", "[files]") {
+TEST_CASE("statistics reads text with a byte order mark, CR LF and decimal commas", "[files]") {
   const ProgramTest test;
   const auto content = GENERATE(as<std::string>(),
                                 "\xef\xbb\xbf# Width: 3 um\r\n# Height: 3 um\r\n"
@@ -166,7 +166,7 @@ TEST_CASE("info reads text with a byte order mark, CR LF and decimal commas", "[
                                 "1.5\t2\t3\r3\t4.25\t1\r5\t6\t7.25\r",
                                 "# Width: 3e-6 m\n# Height: 3e-6 m\n1.5,2,3\n3,4.25,1\n5,6,7.25\n");
   test.write("scan.txt", content);
-  const auto result = test.run("info scan.txt --detrend none --json");
+  const auto result = test.run("statistics scan.txt --detrend none --json");
   INFO(result.err);
   REQUIRE(result.status == 0);
   CHECK(result.json()["size_x"].get<double>() == Approx(3e-6));

@@ -74,7 +74,7 @@ TEST_CASE("Hostile HDF5 files are read right or refused in one line, at a bounde
     INFO(file.name);
     const std::uint64_t bytes = fs::file_size(test.folder() / file.name);
     for (const std::string& command :
-         {"info " + file.name, "convert " + file.name + " " + file.name + ".npy"}) {
+         {"statistics " + file.name, "convert " + file.name + " " + file.name + ".npy"}) {
       INFO(command);
       const auto result = run_bounded(test, command, bytes);
       INFO(result.err);
@@ -127,10 +127,10 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
                    "0.2um --rms-height 1nm -o s.npy")
               .status == 0);
   fs::copy_file(test.folder() / "s.npy", test.folder() / "a.npy");
-  check_harmless(test.run("info a.npy"), "a.npy.json: is not a regular file");
+  check_harmless(test.run("statistics a.npy"), "a.npy.json: is not a regular file");
   for (const std::string file : {"pipe", "/dev/zero", "/dev/tty", "."}) {
     for (const std::string& command :
-         {"info " + file, "convert " + file + " b.npy", "statistics " + file, "fit " + file,
+         {"statistics " + file, "convert " + file + " b.npy", "statistics " + file, "fit " + file,
           "study " + file + " -o r.h5", "study --surface " + file + " -o r.h5",
           "damping --curve " + file + " --pressure 1MPa" + motion, "report " + file + " -o r.html",
           "mdr --profile table --table " + file +
@@ -161,9 +161,9 @@ TEST_CASE(
     CHECK(result.status >= 0);
   };
   const auto surface = [&](const std::string& name, const std::string& content) {
-    tried(name, content, "info " + name);
+    tried(name, content, "statistics " + name);
     tried(name, content, "convert " + name + " x.npy --overwrite");
-    tried(name, content, "info --size-x 1um --size-y 1um " + name);
+    tried(name, content, "statistics --size-x 1um --size-y 1um " + name);
   };
   const auto npy = [](const std::string& description) {
     std::string header = description + std::string(118 - description.size() - 1, ' ') + "\n";
@@ -190,10 +190,10 @@ TEST_CASE(
   const std::string deep = "{\"size_x\":" + std::string(500000, '[');
   test.write("deep.npy.json", deep);
   tried("deep.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"),
-        "info deep.npy");
+        "statistics deep.npy");
   test.write("tiny.npy.json", R"({"size_x": 1e-320, "size_y": 1e-320, "units": "m"})");
   tried("tiny.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 4), }"),
-        "info tiny.npy");
+        "statistics tiny.npy");
 
   std::string key = "a";
   for (int i = 0; i < 60000; ++i) key += ".a";
@@ -224,8 +224,9 @@ TEST_CASE("Names of files neither break the line nor command the terminal", "[ho
     for (const char symbol : name)
       quoted += symbol == '\'' ? std::string("'\\''") : std::string(1, symbol);
     quoted += "'";
-    for (const std::string& command : {"info ./" + quoted, "fit ./" + quoted,
-                                       "study ./" + quoted + " --dry-run", "info " + quoted}) {
+    for (const std::string& command :
+         {"statistics ./" + quoted, "fit ./" + quoted, "study ./" + quoted + " --dry-run",
+          "statistics " + quoted}) {
       INFO(command);
       const auto result = test.run(command);
       INFO(result.err);

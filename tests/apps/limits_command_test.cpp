@@ -65,7 +65,7 @@ TEST_CASE("A file whose heights a limit of memory does not hold is refused in on
   header += '\n';
   test.write("big.npy", std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header);
   std::filesystem::resize_file(test.folder() / "big.npy", 10 + header.size() + 8000 * 8000);
-  check_refused(test.run("info big.npy --size-x 1um --threads 1", "ulimit -d 400000;"),
+  check_refused(test.run("statistics big.npy --size-x 1um --threads 1", "ulimit -d 400000;"),
                 "big.npy: holds 8000 x 8000 points, which need 512 MB of memory, and ");
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("A text whose values a limit of memory does not hold is refused in one
   std::string text;
   for (int k = 0; k < 4000; ++k) text += row;
   test.write("big.txt", text);
-  check_refused(test.run("info big.txt --size-x 1um --threads 1", "ulimit -d 150000;"),
+  check_refused(test.run("statistics big.txt --size-x 1um --threads 1", "ulimit -d 150000;"),
                 "big.txt: holds more than ");
 }
 

@@ -272,8 +272,7 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "--stretch-along 3 "
            "--rms-height 1um --skewness -1 --kurtosis 5 -o skew.h5",
            "generate --shape sphere --radius 2um --points 32 --size-x 1um -o sphere.h5",
-           "info rough.h5 -o info.h5",
-           "statistics rough.h5 --tip-radius 10nm -o statistics.h5",
+           "statistics rough.h5 --tip-radius 10nm --all -o statistics.h5",
            "contact rough.h5 --pressure 20MPa --stiffness -o contact.h5" + body,
            "contact rough.h5 --pressure 2:60MPa:10 --stiffness --stick -o curve.h5" + body,
            "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5 -o gw.h5" + body,

@@ -237,7 +237,7 @@ TEST_CASE("What is misspelt is told with what was probably meant", "[suggestion]
   check_refused(test.run("statistcs a.txt"), "did you mean statistics?");
   check_refused(test.run("generate --short-cutof 1"), "did you mean --short-cutoff?");
   check_refused(test.run("generate --short-cutof=1"), "did you mean --short-cutoff?");
-  check_refused(test.run("info a.txt b.txt"), "b.txt");
+  check_refused(test.run("statistics a.txt b.txt"), "b.txt");
   test.write("typo.toml", std::regex_replace(small_study, std::regex("hurst"), "hirst"));
   check_refused(test.run("study typo.toml"), "did you mean hurst?");
   test.write("typo.toml", std::regex_replace(small_study, std::regex("poisson"), "poison"));
@@ -251,11 +251,13 @@ TEST_CASE("What is misspelt is told with what was probably meant", "[suggestion]
 
 TEST_CASE("The program's help lists the commands by what they are for", "[help]") {
   const std::string help = ProgramTest().run("--help").out;
-  for (const char* heading : {"Start here:", "Surfaces:", "Contact:", "Damping:", "First steps:"})
-    CHECK_THAT(help, Contains(heading));
-  CHECK(help.find("Start here:") < help.find("Surfaces:"));
-  // No command is without a heading of its own.
-  CHECK_THAT(help, !Contains("Subcommands:"));
+  std::size_t before = 0;
+  for (const char* heading :
+       {"\nStart    init", "\nSurface  generate", "\nContact  contact", "\nDamping  damping"}) {
+    CHECK(help.find(heading) > before);
+    before = help.find(heading);
+  }
+  CHECK(before < help.find("\nFirst steps:"));
   CHECK_THAT(ProgramTest().run("contact --help").out, Contains("salebra fit for the decay length"));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <sstream>
 
@@ -23,15 +25,36 @@ double integral(const nlohmann::json& x, const nlohmann::json& y) {
 
 }  // namespace
 
-TEST_CASE("The statistics of a surface agree with each other and with info", "[statistics]") {
+TEST_CASE("The statistics of a surface agree with each other", "[statistics]") {
   const ProgramTest test;
   REQUIRE(test.run(rough).status == 0);
-  const auto found = test.run("statistics rough.h5 --json").json();
-  const auto info = test.run("info rough.h5 --json").json();
-  const double rms_height = info["rms_height"];
+  const auto found = test.run("statistics rough.h5 --all --json").json();
+  const double rms_height = found["rms_height"];
   CHECK(found["areal"]["Sq"].get<double>() == Approx(rms_height).epsilon(1e-12));
-  CHECK(found["spectral"]["rms_slope"].get<double>() ==
-        Approx(info["rms_slope"].get<double>()).epsilon(1e-12));
+  // What is printed without --all is a part of it, in the same words.
+  const auto shown = test.run("statistics rough.h5 --json").json();
+  for (const auto& [name, value] : shown.items()) CHECK(found[name] == value);
+  CHECK(keys(shown) == std::set<std::string>{"nx",
+                                             "ny",
+                                             "size_x",
+                                             "size_y",
+                                             "periodic",
+                                             "undefined_points",
+                                             "filled_points",
+                                             "mean",
+                                             "rms_height",
+                                             "skewness",
+                                             "kurtosis",
+                                             "moment0",
+                                             "moment2",
+                                             "moment4",
+                                             "rms_slope",
+                                             "nayak",
+                                             "hurst",
+                                             "rolloff",
+                                             "short_cutoff",
+                                             "summits",
+                                             "reliability"});
   CHECK(found["correlation"]["autocorrelation"][0].get<double>() ==
         Approx(rms_height * rms_height).epsilon(1e-12));
   // S(dx) = dx² ⟨(Δh/dx)²⟩, and the first entry of the scale-dependent slope is the slope by
@@ -63,7 +86,9 @@ TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[st
   for (const char* name : {"scan.csv", "scan.psd.csv", "scan.correlation_x.csv", "scan.bearing.csv",
                            "scan.histogram.csv", "scan.scale_y.csv", "scan.profile_psd_x.csv"})
     CHECK(files.count(name) == 1);
+  // A file holds everything, with --all or without.
   const auto json = nlohmann::json::parse(test.read("scan.json"));
+  CHECK(json == test.run("statistics rough.h5 --all --json").json());
   std::istringstream csv(test.read("scan.psd.csv"));
   std::string line;
   while (std::getline(csv, line) && line.starts_with("#")) {
@@ -82,13 +107,14 @@ TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[st
 TEST_CASE("A convention changes the numbers of the spectrum and says so", "[statistics]") {
   const ProgramTest test;
   REQUIRE(test.run(rough).status == 0);
-  const auto own = test.run("statistics rough.h5 --json").json()["psd"];
+  const auto own = test.run("statistics rough.h5 --all --json").json()["psd"];
   const auto theirs =
-      test.run("statistics rough.h5 --convention surface-topography --json").json()["psd"];
+      test.run("statistics rough.h5 --convention surface-topography --all --json").json()["psd"];
   CHECK(theirs["psd"][3].get<double>() ==
         Approx(4 * std::pow(std::numbers::pi, 2) * own["psd"][3].get<double>()).epsilon(1e-12));
   CHECK(own["note"] != theirs["note"]);
-  const auto gwyddion = test.run("statistics rough.h5 --convention gwyddion --json").json()["psd"];
+  const auto gwyddion =
+      test.run("statistics rough.h5 --convention gwyddion --all --json").json()["psd"];
   CHECK(gwyddion["units"]["psd"] == "m^3");
 }
 
@@ -102,16 +128,44 @@ TEST_CASE("Undefined points take no part, and are filled on request only", "[sta
     matrix += "\n";
   }
   test.write("scan.txt", matrix);
-  const auto without = test.run("statistics scan.txt --json --detrend mean");
+  const auto without = test.run("statistics scan.txt --all --json --detrend mean");
   REQUIRE(without.status == 0);
   CHECK(without.err.find("--fill") != std::string::npos);
   const auto found = without.json();
   CHECK(found["undefined_points"] == 1);
   CHECK(found.count("psd") == 0);
   CHECK(found["hurst"]["value"].is_null());
-  const auto filled = test.run("statistics scan.txt --json --detrend mean --fill").json();
+  const auto filled = test.run("statistics scan.txt --all --json --detrend mean --fill").json();
   CHECK(filled["filled_points"] == 1);
   CHECK(filled.count("psd") == 1);
   // What needs no filling is the same.
   CHECK(filled["areal"]["Sq"] == found["areal"]["Sq"]);
+}
+
+TEST_CASE("Measured surfaces are read as another program reads them", "[statistics]") {
+  const std::filesystem::path folder = SALEBRA_SURFACES;
+  const ProgramTest test;
+  const auto reference = nlohmann::json::parse(std::ifstream(folder / "reference.json"));
+  int compared = 0;
+  for (const auto& [name, expected] : reference.items()) {
+    const auto result =
+        test.run("statistics " + (folder / name).string() + " --detrend none --json");
+    INFO(name << ": " << result.err);
+    REQUIRE(result.status == 0);
+    const auto found = result.json();
+    CHECK(found["nx"] == expected["nx"]);
+    CHECK(found["ny"] == expected["ny"]);
+    CHECK(found["undefined_points"] == expected["undefined_points"]);
+    // Both sides sum some 10⁵ doubles and multiply by the unit in different places.
+    CHECK(found["size_x"].get<double>() ==
+          Approx(expected["size_x_m"].get<double>()).epsilon(1e-12));
+    CHECK(found["size_y"].get<double>() ==
+          Approx(expected["size_y_m"].get<double>()).epsilon(1e-12));
+    const double rms_height = expected["rms_height_m"];
+    CHECK(found["rms_height"].get<double>() == Approx(rms_height).epsilon(1e-10));
+    CHECK(found["mean"].get<double>() ==
+          Approx(expected["mean_m"].get<double>()).margin(1e-10 * rms_height));
+    ++compared;
+  }
+  CHECK(compared == 10);
 }

@@ -291,15 +291,12 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
                                      "bearing",       "height_counts", "height_histogram",
                                      "histogram"};
   for (const std::string& command : std::vector<std::string>{
-           rough,
-           "generate --shape sphere --radius 2um --points 32 --size-x 1um",
-           std::string("info rough.h5"),
-           std::string("statistics rough.h5 --tip-radius 10nm"),
+           rough, "generate --shape sphere --radius 2um --points 32 --size-x 1um",
+           std::string("statistics rough.h5 --tip-radius 10nm --all"),
            "contact rough.h5 --pressure 20MPa --stiffness" + body,
            "contact rough.h5 --pressure 2:60MPa:4 --stiffness --stick" + body,
            "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5" + body,
-           std::string("fit curve.h5"),
-           "damping --normal-amplitude 5nm" + law + drag,
+           std::string("fit curve.h5"), "damping --normal-amplitude 5nm" + law + drag,
            "damping --normal-amplitude 1:50nm:4" + law + drag,
            "damping --normal-amplitude 5nm --friction 0.3" + law + drag,
            "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
@@ -312,8 +309,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
            "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m" +
                law,
            "damper --normal-amplitude 20nm --frequency 1:100kHz:3 --falling-slope 5" + law,
-           "damper --frequency 1:100kHz:3 --falling-slope 5" + law,
-           shape,
+           "damper --frequency 1:100kHz:3 --falling-slope 5" + law, shape,
            shape + "--method levels --relative-error 5% --decay-length 1um",
            shape + "--friction 0.5 --coupled"}) {
     const auto json = test.run(command + " --json --quiet"), text = test.run(command + " --quiet");

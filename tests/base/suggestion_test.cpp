@@ -24,7 +24,7 @@ TEST_CASE("Another word for a name comes before names that are near", "[suggesti
   CHECK(did_you_mean("--force", {"--overwrite", "--quiet"}) == " (did you mean --overwrite?)");
   CHECK(did_you_mean("--E", {"--young", "--contact-modulus"}) ==
         " (did you mean --contact-modulus or --young?)");
-  CHECK(nearest_name("roughness", {"statistics", "info"}) == "statistics");
+  CHECK(nearest_name("roughness", {"statistics", "init"}) == "statistics");
   CHECK(did_you_mean("friction", {"friction"}).empty());
 }
 

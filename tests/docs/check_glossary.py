@@ -62,8 +62,8 @@ def main():
         return subprocess.run([program, *words], check=True, capture_output=True, text=True).stdout
 
     known = {name: unit for name, (unit, _) in names_of_results().items()}
-    commands = [line.split()[0] for line in answer("--help").split("Which command?")[0].splitlines() if re.match(r"  [a-z]", line)]
-    options = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", "".join(answer(command, "--help") for command in commands)))
+    commands = re.findall(r"^(?:[A-Z]\w+| +) +([a-z]\w+)  ", answer("--help").split("Which command?")[0], re.M)
+    options = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", "".join(answer("help", command) for command in [*commands, "options"])))
 
     glossary = list(tables_of(DOCS / "glossary.md"))
     symbols = [row for row in tables_of(DOCS / "theory.md") if "name in code and files" in row]

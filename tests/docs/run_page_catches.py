@@ -54,7 +54,7 @@ WRONG = {
     "another unit": "```console\n$ echo 1.2345 nm\n1.2345 um\n```\n",
     "a line too many": "```console\n$ printf 'a\\nb\\n'\na\n```\n",
     "a line too few": "```console\n$ printf 'a\\n'\na\nb\n```\n",
-    "an option that is not there": "```sh\nsalebra info --no-such-option data/surfaces/afm-scan.txt\n```\n",
+    "an option that is not there": "```sh\nsalebra statistics --no-such-option data/surfaces/afm-scan.txt\n```\n",
     "a block without a language": "```\ntrue\n```\n",
     "C++ that is in no example": "```cpp\nint in_no_example();\n```\n",
     "a Python block that fails": "```python\nassert 1 == 2\n```\n",

@@ -153,7 +153,7 @@ std::vector<Case> all_cases() {
       {"report", {"study small.toml -o study.h5 --no-report"}, "report IN/study.h5 -o out.html"},
       {"init", {}, "init out.toml"},
       {"completion", {}, "completion bash -o out.bash"},
-      {"plot", in, "info IN/s.h5 --plot out.svg"},
+      {"plot", in, "statistics IN/s.h5 --plot out.svg"},
       {"plot_sliding",
        {},
        "sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
@@ -444,7 +444,7 @@ class CaseRun {
       return now.contains(name) && now.at(name) == after_.at(name);
     };
     if (!now.contains("out.npy") || is_new("out.npy") == is_new("out.npy.json")) return "";
-    const Outcome read = bench_.run("info out.npy", bench_.folder(), nullptr);
+    const Outcome read = bench_.run("statistics out.npy", bench_.folder(), nullptr);
     return read.status == 2 ? "" : "leaves halves of two pairs, which are read together";
   }
 

@@ -143,7 +143,7 @@ TEST_CASE("A contact and a force curve over processes have the numbers of one pr
 TEST_CASE("Statistics of a surface over processes have the numbers of one process", "[mpi]") {
   const ProgramTest test;
   REQUIRE(run_alone(test, "generate " + surface + "-o rough.h5 --quiet").status == 0);
-  const auto alone = run_alone(test, "statistics rough.h5 --json " + quiet);
+  const auto alone = run_alone(test, "statistics rough.h5 --all --json " + quiet);
   INFO(alone.err);
   REQUIRE(alone.status == 0);
   nlohmann::json expected = alone.json();
@@ -156,7 +156,7 @@ TEST_CASE("Statistics of a surface over processes have the numbers of one proces
     expected["areal"][name] = nullptr;
   for (const int ranks : {2, 3}) {
     const std::string file = fmt::format("spread{}.json", ranks);
-    const auto spread = run(test, ranks, "statistics rough.h5 --threads 1 --json -o " + file);
+    const auto spread = run(test, ranks, "statistics rough.h5 --all --threads 1 --json -o " + file);
     INFO(spread.err);
     REQUIRE(spread.status == 0);
     CHECK_THAT(spread.err, Contains("of several processes: no correlation"));
@@ -252,7 +252,7 @@ TEST_CASE("More threads than the machine has cores are warned of once", "[mpi]")
 
 TEST_CASE("Bad input is said once, with status 2, and leaves no file", "[mpi]") {
   const ProgramTest test;
-  check_refused_once(run(test, 2, "info none.h5"), "is computed by one process alone");
+  check_refused_once(run(test, 2, "fit none.h5"), "is computed by one process alone");
   check_refused_once(run(test, 2, "generate " + surface + "-o none/a.h5 " + quiet),
                      "does not exist; create it first");
   check_refused_once(

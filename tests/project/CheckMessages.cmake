@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.[hc]pp ${ROOT}/include/*.hpp ${ROOT}/generators/src/*.[hc]pp
   ${ROOT}/generators/include/*.hpp ${ROOT}/python/src/*.[hc]pp ${ROOT}/python/salebra/*.py)
-set(commands "compare|contact|convert|damper|damping|fit|generate|gw|info|mdr|oscillate|report|statistics|study|sweep|verify")
+set(commands "compare|contact|convert|damper|damping|fit|generate|mdr|oscillate|report|sliding|statistics|study|verify")
 set(seen 0)
 foreach(file IN LISTS files)
   if(file STREQUAL src/io/plot.cpp)
