@@ -123,7 +123,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
       at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
 
   std::vector<ViscoelasticCase> cases;
-  PremiseReport premises{.list = true};
+  PremiseReport premises{.list = true, .body = "relaxed elastic body"};
   const std::vector<Oscillation> motions = arguments.motion.motions();
   const Progress progress = session.progress();
   for (const Oscillation& motion : motions) {

@@ -95,6 +95,7 @@ void PremiseReport::add_to(Json& answer) const {
         premises, [](const Premise& premise) { return !premise.needs.empty(); });
     one["needs"] = lacking == premises.end() ? Json() : option_of(lacking->needs);
   }
+  if (!body.empty()) answer["premises_of"] = body;
   const std::vector<LargestMotion>& judged = any_largest(cases);
   if (!judged.empty())
     answer["regime"] = column([](const Premises& p) -> Json {
@@ -123,6 +124,7 @@ std::string PremiseReport::open_points() const {
   std::string open = in_options(salebra::open_points(cases));
   if (!list && cases.front().regime != Regime::unknown)
     open += "Regime: " + std::string(word_of(cases.front().regime)) + "\n";
+  if (!body.empty()) open += "The premises are those of the " + body + "\n";
   return open.empty() ? "" : "\n" + open;
 }
 
@@ -139,10 +141,10 @@ void PremiseReport::answer(Session& session, Json object) const {
 PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
                                    const Oscillation& motion, const ContactFacts& facts) {
   Premises premises = premises_of(law, indentation, motion, facts);
-  premises.slip_of_opening_levels.verdict = premises.slip_of_closed_levels.verdict = Verdict::holds;
-  premises.slip_of_opening_levels.needs = premises.slip_of_closed_levels.needs = {};
-  // What slides on does not turn back.
-  premises.slow_motion = {.verdict = Verdict::holds};
+  // What slides on does not turn back, and the loss is that at its amplitude.
+  for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
+                             &Premises::slow_motion, &Premises::amplitude})
+    premises.*premise = {.verdict = Verdict::holds};
   premises.largest.clear();
   premises.regime = Regime::unknown;
   return {{premises}};

@@ -27,8 +27,10 @@ struct PremiseReport {
   std::vector<Premises> cases = {};
   bool list = false;
   std::vector<double> pressures = {};  ///< of the cases of a study, Pa
+  std::string body = {};               ///< that was judged, where it is not the one of the answer
 
-  /// Adds the keys `premises`, `largest_motion` and, unless slip is computed, `regime`.
+  /// Adds the keys `premises`, `largest_motion` and, unless slip is computed, `regime`; of another
+  /// body `premises_of`.
   void add_to(Json& answer) const;
   /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if
   /// nothing is.
@@ -40,8 +42,8 @@ struct PremiseReport {
   void answer(Session& session, Json object) const;
 };
 
-/// Judges a case whose slip is computed, not left out: the premises of slip hold, and the others
-/// are judged.
+/// Judges a loss whose slip and amplitude are computed, not left out: the premises of slip, of a
+/// slow motion and of a small amplitude hold, without a value, and the others are judged.
 PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
                                    const Oscillation& motion, const ContactFacts& facts);
 

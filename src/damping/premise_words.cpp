@@ -23,6 +23,10 @@ std::string runs_of(const std::vector<bool>& chosen, std::span<const double> pre
   return text;
 }
 
+double first_limit(const Premise& premise) {
+  return std::isnan(premise.onset) ? premise.limit_5_percent : premise.onset;
+}
+
 /// "M = 0.054 (5 % of the loss at 9.4)", of the case that is worst.
 std::string one_objection(const PremiseName& name, std::span<const Premises> cases,
                           std::span<const double> pressures, Verdict verdict) {
@@ -33,7 +37,7 @@ std::string one_objection(const PremiseName& name, std::span<const Premises> cas
     objected.push_back(premise.verdict == verdict);
     if (!objected.back()) continue;
     const auto beyond = [](const Premise& p) {
-      return std::abs(std::log(p.value / p.limit_5_percent));
+      return std::abs(std::log(p.value / first_limit(p)));
     };
     if (worst == nullptr || beyond(premise) > beyond(*worst)) worst = &premise;
   }
@@ -45,8 +49,9 @@ std::string one_objection(const PremiseName& name, std::span<const Premises> cas
   if (worst->limit_20_percent == 0)
     text = fmt::format("{}, at this velocity on any {}", name.meaning, name.value);
   else
-    text = fmt::format("{}, {} {} (5 % of the loss at {})", name.meaning, name.value,
-                       quantity(worst->value), quantity(worst->limit_5_percent));
+    text = fmt::format("{}, {} {} ({} at {})", name.meaning, name.value, quantity(worst->value),
+                       std::isnan(worst->onset) ? "5 % of the loss" : "flow begins",
+                       quantity(first_limit(*worst)));
   const auto count = std::ranges::count(objected, true);
   if (cases.size() == 1) return text;
   if (pressures.empty()) return text + fmt::format(" in {} of {}", count, cases.size());

@@ -496,18 +496,23 @@ void check(const ContactFacts& facts) {
 // Poisson's ratio of one elastic body with this G*/E* = 2(1 − ν)/(2 − ν).
 double poisson_of(double modulus_ratio) { return (2 - 2 * modulus_ratio) / (2 - modulus_ratio); }
 
+void judge_flow(Premise& premise) {
+  if (std::isnan(premise.value)) return;
+  premise.verdict = premise.value > 1               ? Verdict::broken
+                    : premise.value > premise.onset ? Verdict::doubtful
+                                                    : Verdict::holds;
+}
+
 Premise plasticity_of(const ContactFacts& facts, double mean_force) {
   if (!std::isnan(facts.first_load)) {
     constexpr double round_off = 1e-6;
     const double share = mean_force / facts.first_load;
-    Premise premise{.value = std::abs(share - 1) < round_off ? 1 : share,
-                    .limit_5_percent = 1,
-                    .limit_20_percent = 1};
-    judge(premise);
+    Premise premise{.value = std::abs(share - 1) < round_off ? 1 : share, .onset = 1};
+    judge_flow(premise);
     return premise;
   }
   // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
-  Premise premise{.limit_5_percent = 0.6, .limit_20_percent = 1};
+  Premise premise{.onset = 0.6};
   // A paraboloid has this ratio.
   constexpr double largest_over_mean = 1.5;
   double stress = unknown;
@@ -519,7 +524,7 @@ Premise plasticity_of(const ContactFacts& facts, double mean_force) {
     premise.needs = "hardness";
   else if (std::isnan(stress))
     premise.needs = "largest_pressure";
-  judge(premise);
+  judge_flow(premise);
   return premise;
 }
 

@@ -79,6 +79,7 @@ const Quantity others[] = {
     Quantity{"transverse", length, "displacement along y"},
     Quantity{"limit_5_percent", dimensionless, "value at which the loss changes by 5 %"},
     Quantity{"limit_20_percent", dimensionless, "value at which the loss changes by 20 %"},
+    Quantity{"onset", dimensionless, "value from which the contact flows, in place of both limits"},
 };
 
 /// Of the first struct that has a name.

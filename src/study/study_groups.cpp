@@ -253,6 +253,11 @@ void write_premises(ResultGroup group, const StudyResult& result) {
   };
   for (const PremiseName& name : premise_names())
     for_each_column<Premise>([&](const auto& column, const Quantity& quantity) {
+      // Flow has an onset, the other premises have limits.
+      const bool flows = name.premise == &Premises::plasticity;
+      if (quantity.name == (flows ? "limit_5_percent" : "onset") ||
+          (flows && quantity.name == "limit_20_percent"))
+        return;
       std::string dataset(name.name), meaning(name.meaning), unit(si_unit(name.value_dimension));
       if (quantity.name != "value") {
         dataset += "_" + std::string(quantity.name);

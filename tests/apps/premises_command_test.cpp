@@ -44,7 +44,7 @@ void check_premises(const json& object) {
     INFO(name);
     const json& premise = object["premises"][name];
     CHECK(keys(premise) == std::set<std::string>{"value", "limit_5_percent", "limit_20_percent",
-                                                 "verdict", "needs"});
+                                                 "onset", "verdict", "needs"});
     const json verdicts =
         premise["verdict"].is_array() ? premise["verdict"] : json::array({premise["verdict"]});
     for (const json& verdict : verdicts)
@@ -251,6 +251,64 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       CHECK(commands.contains(first));
     }
   }
+}
+
+TEST_CASE(
+    "No verdict contradicts the limits beside it, and a joint has no amplitude that nobody gave",
+    "[premises]") {
+  const ProgramTest test;
+  const std::string law =
+      " --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+      "--friction-coefficient 0.3 --json ";
+  const std::string drag = "--normal-amplitude 80nm --frequency 20kHz ";
+  for (const std::string command :
+       {"joint" + law + "--tangential-amplitudes 5nm",
+        "joint" + law + "--tangential-amplitudes 5nm --normal-amplitude 80nm --phase 45deg",
+        "sliding" + law + drag + "--velocities 10mm/s",
+        "sliding" + law + drag +
+            "--mass 1kg --spring-stiffness 1MN/m --velocities 1mm/s --support-damping 300",
+        "damping" + law + drag + "--drag-velocity 10mm/s"}) {
+    INFO(command);
+    const auto run = test.run(command);
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    const json judged = run.json()["premises"];
+    for (const auto& [name, premise] : judged.items()) {
+      INFO(name << ' ' << premise.dump());
+      if (premise["value"].is_null() || premise["limit_5_percent"].is_null()) continue;
+      const bool large_is_good = name == "slip_of_opening_levels" || name == "slow_motion";
+      const double value = premise["value"], limit = premise["limit_5_percent"];
+      CHECK((premise["verdict"] == "holds") == (large_is_good ? value >= limit : value <= limit));
+    }
+    if (command.starts_with("damping")) continue;
+    for (const char* name : {"slip_of_opening_levels", "slip_of_closed_levels", "amplitude"}) {
+      CHECK(judged[name]["verdict"] == "holds");
+      CHECK(judged[name]["value"].is_null());
+    }
+  }
+}
+
+TEST_CASE(
+    "Plasticity has an onset, not limits of the loss, and a viscoelastic loss says whose its "
+    "premises are",
+    "[premises]") {
+  const ProgramTest test;
+  const std::string sphere =
+      " --profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s "
+      "--contact-modulus 100GPa --poisson 0.3 --normal-amplitude 1nm --frequency 20kHz ";
+  const std::string hardness = "--hardness 700MPa ";
+  const json flow = test.run("mdr" + sphere + hardness + "--json").json()["premises"]["plasticity"];
+  CHECK(flow["onset"] == 0.6);
+  CHECK(flow["limit_5_percent"].is_null());
+  CHECK(flow["limit_20_percent"].is_null());
+  CHECK_THAT(test.run("mdr" + sphere + hardness).out,
+             Catch::Contains("plasticity, pressure over hardness") &&
+                 Catch::Contains(" (flow begins at 0.6)"));
+  const std::string viscoelastic = "viscoelastic" + sphere + "--prony 3GPa:1ms ";
+  CHECK_THAT(test.run(viscoelastic).out,
+             Catch::Contains("The premises are those of the relaxed elastic body"));
+  CHECK(test.run(viscoelastic + "--json").json()["premises_of"] == "relaxed elastic body");
+  CHECK(!test.run("mdr" + sphere + "--json").json().contains("premises_of"));
 }
 
 TEST_CASE("A study prints the loss with slip, and refuses a hardness below its pressures",

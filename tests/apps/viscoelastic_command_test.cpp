@@ -23,6 +23,7 @@ TEST_CASE("viscoelastic tells the losses of material and relaxation apart over f
   const auto answer =
       test.run(cone + shear + "--prony 3MPa:20ms --angular-frequency 5e-3,50,5e6 --json").json();
   CHECK(keys(answer) == std::set<std::string>{"premises",
+                                              "premises_of",
                                               "largest_motion",
                                               "regime",
                                               "indentation",

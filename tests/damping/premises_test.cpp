@@ -350,6 +350,8 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
   const Premises known = premises_of(law, 0, motion, facts);
   CHECK(known.plasticity.value == Approx(0.75));
   CHECK(known.plasticity.verdict == Verdict::doubtful);
+  CHECK(known.plasticity.onset == 0.6);
+  CHECK(std::isnan(known.plasticity.limit_5_percent));
   // ν = 1/3, G = G*(2 − ν)/4 = 33.3 GPa, c_s = 2041 m/s.
   CHECK(known.inertia.value == Approx(1e5 * 1e-3 / 2041).epsilon(1e-3));
   // ν = 0 has G* = E*; there the coupling is largest.

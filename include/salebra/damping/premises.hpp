@@ -87,12 +87,16 @@ struct Words<Verdict> {
                                                            {Verdict::unknown, "unknown"}});
 };
 
+/// One that an answer does not need holds, and has neither value nor limits.
 struct Premise {
   double value = ContactFacts::unknown;
   /// NaN: the loss does not change so much at any value that the law covers, or a fact is missing
   /// without which there is no limit.
   double limit_5_percent = ContactFacts::unknown;
   double limit_20_percent = ContactFacts::unknown;
+  /// Of plasticity in place of both: the value from which the contact flows. How much this changes
+  /// the loss is not known. NaN: of another premise.
+  double onset = ContactFacts::unknown;
   Verdict verdict = Verdict::unknown;
   std::string needs =
       {};  ///< member of ContactFacts, or "drag_velocity", that a verdict needs; empty: none
@@ -106,6 +110,8 @@ constexpr void describe(auto&& visit, std::type_identity<Premise>) {
         Quantity{"limit_5_percent", dimensionless, "value at which the loss changes by 5 %"});
   visit(&S::limit_20_percent,
         Quantity{"limit_20_percent", dimensionless, "value at which the loss changes by 20 %"});
+  visit(&S::onset, Quantity{"onset", dimensionless,
+                            "value from which the contact flows, in place of both limits"});
   visit(&S::verdict, Quantity{"verdict", dimensionless, "holds, doubtful, broken or unknown"});
   visit(&S::needs,
         Kept{"needs", "keyword of ContactFacts that a verdict needs; empty where none does"});
@@ -181,9 +187,10 @@ struct Premises {
   Premise amplitude;
   /// value  the largest that is known of: largest pressure/H, 1.5 mean pressure of the contact/H (a
   ///        paraboloid's), E*h'/H.
-  /// limits estimated: 0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood
-  /// and Williamson's ψ) and 1. After a first loading: the mean force over the first load, which
-  /// both limits are: below it the residual surface is elastic.
+  /// onset  0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and
+  ///        Williamson's ψ), beyond which the premise is doubtful; it is broken beyond 1. After a
+  ///        first loading: the mean force over the first load, 1: below it the residual surface is
+  ///        elastic.
   Premise plasticity;
   /// value  ω a/c_s, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
   /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1
