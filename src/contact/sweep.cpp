@@ -73,6 +73,14 @@ std::vector<std::size_t> loads_of(const Groups& groups, std::size_t count) {
   return mine;
 }
 
+void validate(const std::vector<double>& pressures) {
+  require_that(!pressures.empty(), "pressures", "none given; name at least one");
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    require_positive(pressures[k], "pressures");
+    require(k == 0 || pressures[k] > pressures[k - 1], "pressures", pressures[k], "must increase");
+  }
+}
+
 using Samples = std::vector<std::optional<ForceSample>>;
 
 /// The samples of all groups, in all processes.
@@ -103,11 +111,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options) {
   const Groups groups = options.groups.value_or(Groups(surface.ranks, 1));
   collectively(groups.all(), [&] { surface.require_complete_rows("a contact calculation"); });
-  require_that(!pressures.empty(), "pressures", "none given; name at least one");
-  for (std::size_t k = 0; k < pressures.size(); ++k) {
-    require_positive(pressures[k], "pressures");
-    require(k == 0 || pressures[k] > pressures[k - 1], "pressures", pressures[k], "must increase");
-  }
+  validate(pressures);
   require(options.concurrent_loads >= 0, "concurrent_loads", options.concurrent_loads,
           "must be >= 0");
 

@@ -69,112 +69,143 @@ template const StuckState* resumed<StuckState>(const CycleOptions& options, cons
 template const SlidingState* resumed<SlidingState>(const CycleOptions& options, const Grid2D& grid);
 template const CoupledState* resumed<CoupledState>(const CycleOptions& options, const Grid2D& grid);
 
-CycleResult run_cycle(CycleBody& body, const Grid2D& grid, const Trajectory& trajectory,
-                      const CycleOptions& options, bool first_is_steady) {
-  const int steps = options.steps;
-  const double start = trajectory.tangential(0);
-  CycleState state;
-  if (options.resume) {
-    state = *options.resume;
-    state.body = {};  // the body has its own
-  }
-  CycleResult result;
+namespace {
 
-  const auto start_period = [&] {
-    body.start_period();
-    const CycleReading now = body.reading();
-    state.samples.clear();
-    state.smallest = state.largest = now.contact;
-    state.tangential = start;
-    state.energy_at_period_start = body.stored_energy();
-    state.work_at_period_start = now.work;
-    state.normal_work_at_period_start = now.normal_work;
-    state.gap_work_at_period_start = now.gap_work;
-    if (now.loss) state.loss_at_period_start = *now.loss;
-  };
-  const auto lost = [&](const CycleReading& now) { return *now.loss - state.loss_at_period_start; };
-  const auto take_step = [&](int k) {
-    state.tangential = body.advance(k, state.tangential);
-    state.step = k;
-    const CycleReading now = body.reading();
-    state.smallest = state.smallest && now.contact;
-    state.largest = state.largest || now.contact;
-    const double t = static_cast<double>(k) / steps;
-    state.samples.push_back(
+/// One run of a cycle until it is steady: the state that can be kept, and the result so far.
+class CycleRun {
+ public:
+  CycleRun(CycleBody& body, const Grid2D& grid, const Trajectory& trajectory,
+           const CycleOptions& options)
+      : body_(body),
+        grid_(grid),
+        trajectory_(trajectory),
+        options_(options),
+        start_(trajectory.tangential(0)) {
+    if (options.resume) {
+      state_ = *options.resume;
+      state_.body = {};  // the body has its own
+    } else {
+      start_period();
+    }
+  }
+
+  CycleResult go(bool first_is_steady) {
+    const int steps = options_.steps;
+    bool sampled = options_.resume != nullptr;  // whether the step k has its sample already
+    for (int k = state_.step;; sampled = false) {
+      if (!sampled) take_step(k);
+      if (body_.interrupted() ||
+          (options_.on_progress &&
+           !options_.on_progress({"cycle", static_cast<double>(k) / steps, k, 0}))) {
+        result_.interrupted = true;
+        finish_period();
+        break;
+      }
+      if (++k <= steps) continue;
+      finish_period();
+      const double change = std::abs(result_.work_per_cycle - state_.last_work);
+      result_.steady = first_is_steady ||
+                       (state_.period > 0 &&
+                        change <= options_.steady_tolerance * std::abs(result_.work_per_cycle));
+      if (result_.steady || state_.period + 1 == options_.max_periods) break;
+      state_.last_work = result_.work_per_cycle;
+      ++state_.period;
+      start_period();
+      k = 0;
+    }
+    return finished();
+  }
+
+ private:
+  void start_period() {
+    body_.start_period();
+    const CycleReading now = body_.reading();
+    state_.samples.clear();
+    state_.smallest = state_.largest = now.contact;
+    state_.tangential = start_;
+    state_.energy_at_period_start = body_.stored_energy();
+    state_.work_at_period_start = now.work;
+    state_.normal_work_at_period_start = now.normal_work;
+    state_.gap_work_at_period_start = now.gap_work;
+    if (now.loss) state_.loss_at_period_start = *now.loss;
+  }
+
+  Field lost(const CycleReading& now) const { return *now.loss - state_.loss_at_period_start; }
+
+  void take_step(int k) {
+    state_.tangential = body_.advance(k, state_.tangential);
+    state_.step = k;
+    const CycleReading now = body_.reading();
+    state_.smallest = state_.smallest && now.contact;
+    state_.largest = state_.largest || now.contact;
+    const double t = static_cast<double>(k) / options_.steps;
+    state_.samples.push_back(
         {.t = t,
-         .indentation = trajectory.indentation(t),
-         .tangential = state.tangential - start,
+         .indentation = trajectory_.indentation(t),
+         .tangential = state_.tangential - start_,
          .tangential_force = now.tangential_force,
          .normal_force = now.normal_force,
-         .work = now.work - state.work_at_period_start,
+         .work = now.work - state_.work_at_period_start,
          .dissipated = now.loss ? lost(now).sum() : now.released,
-         .contact_area = grid.cell_area() * static_cast<double>(now.contact.count()),
-         .slip_area = grid.cell_area() * static_cast<double>(now.slipping),
+         .contact_area = grid_.cell_area() * static_cast<double>(now.contact.count()),
+         .slip_area = grid_.cell_area() * static_cast<double>(now.slipping),
          .tangential_stiffness = now.tangential_stiffness});
-  };
-  const auto finish_period = [&] {
-    const CycleReading now = body.reading();
+    if (options_.on_state && !body_.interrupted()) {
+      CycleState copy = state_;
+      copy.body = body_.state();
+      options_.on_state(std::move(copy));
+    }
+  }
+
+  void finish_period() {
+    const CycleReading now = body_.reading();
     if (now.loss) {
       const Field loss = lost(now);
-      result.loss = loss / grid.cell_area();
-      result.dissipated = loss.sum();
-      result.slip_work = state.smallest.select(loss, 0.0).sum();
-      result.relaxation_work = state.smallest.select(0.0, loss).sum();
+      result_.loss = loss / grid_.cell_area();
+      result_.dissipated = loss.sum();
+      result_.slip_work = state_.smallest.select(loss, 0.0).sum();
+      result_.relaxation_work = state_.smallest.select(0.0, loss).sum();
     } else {
-      result.dissipated = result.relaxation_work = now.released;
+      result_.dissipated = result_.relaxation_work = now.released;
     }
-    result.stored_energy_change = body.stored_energy() - state.energy_at_period_start;
-    result.normal_work = now.normal_work - state.normal_work_at_period_start;
-    result.gap_work = now.gap_work - state.gap_work_at_period_start;
-    result.work_per_cycle =
-        now.work - state.work_at_period_start + result.normal_work - result.stored_energy_change;
-  };
-
-  if (!options.resume) start_period();
-  bool sampled = options.resume != nullptr;  // whether the step k has its sample already
-  for (int k = state.step;; sampled = false) {
-    if (!sampled) {
-      take_step(k);
-      if (options.on_state && !body.interrupted()) {
-        CycleState copy = state;
-        copy.body = body.state();
-        options.on_state(std::move(copy));
-      }
-    }
-    if (body.interrupted() ||
-        (options.on_progress &&
-         !options.on_progress({"cycle", static_cast<double>(k) / steps, k, 0}))) {
-      result.interrupted = true;
-      finish_period();
-      break;
-    }
-    if (++k <= steps) continue;
-    finish_period();
-    const double change = std::abs(result.work_per_cycle - state.last_work);
-    result.steady =
-        first_is_steady ||
-        (state.period > 0 && change <= options.steady_tolerance * std::abs(result.work_per_cycle));
-    if (result.steady || state.period + 1 == options.max_periods) break;
-    state.last_work = result.work_per_cycle;
-    ++state.period;
-    start_period();
-    k = 0;
+    result_.stored_energy_change = body_.stored_energy() - state_.energy_at_period_start;
+    result_.normal_work = now.normal_work - state_.normal_work_at_period_start;
+    result_.gap_work = now.gap_work - state_.gap_work_at_period_start;
+    result_.work_per_cycle =
+        now.work - state_.work_at_period_start + result_.normal_work - result_.stored_energy_change;
   }
 
-  result.periods = state.period + 1;
-  result.contact_area_min = std::numeric_limits<double>::infinity();
-  for (const CycleSample& sample : state.samples) {
-    result.contact_area_min = std::min(result.contact_area_min, sample.contact_area);
-    result.contact_area_max = std::max(result.contact_area_max, sample.contact_area);
+  CycleResult finished() {
+    result_.periods = state_.period + 1;
+    result_.contact_area_min = std::numeric_limits<double>::infinity();
+    for (const CycleSample& sample : state_.samples) {
+      result_.contact_area_min = std::min(result_.contact_area_min, sample.contact_area);
+      result_.contact_area_max = std::max(result_.contact_area_max, sample.contact_area);
+    }
+    result_.smallest = std::move(state_.smallest);
+    result_.largest = std::move(state_.largest);
+    result_.samples = std::move(state_.samples);
+    const CycleReading end = body_.reading();
+    result_.iterations = end.iterations;
+    result_.fft_count = end.fft_count;
+    result_.converged = end.converged && !result_.interrupted;
+    return std::move(result_);
   }
-  result.smallest = std::move(state.smallest);
-  result.largest = std::move(state.largest);
-  result.samples = std::move(state.samples);
-  const CycleReading end = body.reading();
-  result.iterations = end.iterations;
-  result.fft_count = end.fft_count;
-  result.converged = end.converged && !result.interrupted;
-  return result;
+
+  CycleBody& body_;
+  const Grid2D& grid_;
+  const Trajectory& trajectory_;
+  const CycleOptions& options_;
+  const double start_;
+  CycleState state_;
+  CycleResult result_;
+};
+
+}  // namespace
+
+CycleResult run_cycle(CycleBody& body, const Grid2D& grid, const Trajectory& trajectory,
+                      const CycleOptions& options, bool first_is_steady) {
+  return CycleRun(body, grid, trajectory, options).go(first_is_steady);
 }
 
 }  // namespace detail

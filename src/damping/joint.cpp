@@ -114,26 +114,57 @@ struct Followed {
   double work = 0, slip_work = 0, storage_stiffness = 0;
 };
 
-Followed follow(const ContactLaw& law, double mean, const TangentialOscillation& motion,
-                double friction_coefficient, double normal_amplitude, double phase, int steps,
+// A period from the least indentation on, whose last sample is the first again.
+struct JointPath {
+  double lowest = 0, highest = 0;               // indentation
+  bool by_force = false;                        // or by displacement
+  double amplitude = 0;                         // of that
+  std::vector<double> level = {}, target = {};  // indentation, and that
+};
+
+JointPath path_of(double mean, const TangentialOscillation& motion, double normal_amplitude,
+                  double phase, int steps) {
+  JointPath path{.lowest = mean - normal_amplitude, .highest = mean + normal_amplitude};
+  path.by_force = std::holds_alternative<TangentialForce>(motion);
+  std::visit([&](const auto& one) { path.amplitude = one.amplitude; }, motion);
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = pi + 2 * pi * double(i % steps) / steps;
+    path.level.push_back(mean + normal_amplitude * std::cos(angle));
+    path.target.push_back(path.amplitude * std::cos(angle + phase));
+  }
+  return path;
+}
+
+double half_range_of(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return 0.5 * (high - low);
+}
+
+// Slope of the straight line through force over x, of a period whose last sample is the first.
+double slope_of(const std::vector<double>& force, const std::vector<double>& x) {
+  const std::size_t steps = x.size() - 1;
+  double middle = 0;
+  for (std::size_t i = 0; i < steps; ++i) middle += x[i] / double(steps);
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double out = x[i] - middle;
+    product += force[i] * out;
+    square += out * out;
+  }
+  return product / square;
+}
+
+Followed follow(const ContactLaw& law, const JointPath& path, double friction_coefficient,
                 const Progress& on_progress) {
-  const auto* by_force = std::get_if<TangentialForce>(&motion);
-  const double amplitude =
-      by_force ? by_force->amplitude : std::get<TangentialAmplitude>(motion).amplitude;
-  std::vector<double> level(std::size_t(steps) + 1), target(level.size());
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    // The path begins at the least indentation.
-    const double angle = pi + 2 * pi * double(i % std::size_t(steps)) / steps;
-    level[i] = mean + normal_amplitude * std::cos(angle);
-    target[i] = amplitude * std::cos(angle + phase);
-    if (by_force)
+  const auto& [lowest, highest, by_force, amplitude, level, target] = path;
+  if (by_force)
+    for (std::size_t i = 0; i < level.size(); ++i)
       check_below_sliding(std::abs(target[i]), friction_coefficient * law.force(level[i]),
                           " in the course of the normal oscillation");
-  }
   // By force, x is not known before: as far as all springs of the least contact could be stretched.
   const double range = by_force ? std::numeric_limits<double>::infinity() : 2 * amplitude;
   TangentialContact contact(
-      law, mean - normal_amplitude, mean + normal_amplitude,
+      law, lowest, highest,
       {.friction_coefficient = friction_coefficient, .tangential_range = range});
   contact.start(level[0], by_force ? 0 : target[0]);
   std::vector<double> x(level.size()), force(level.size());
@@ -161,22 +192,10 @@ Followed follow(const ContactLaw& law, double mean, const TangentialOscillation&
     result.work = work;
     result.slip_work = contact.dissipated_in_permanent_contact() - slipped;
     if (steady && period > 0) {
-      const auto half_range = [](const std::vector<double>& values) {
-        const auto [low, high] = std::ranges::minmax(values);
-        return 0.5 * (high - low);
-      };
       // What is given need not have its greatest value at a step.
-      result.force = by_force ? amplitude : half_range(force);
-      result.displacement = by_force ? half_range(x) : amplitude;
-      double middle = 0;
-      for (int i = 0; i < steps; ++i) middle += x[std::size_t(i)] / steps;
-      double product = 0, square = 0;
-      for (int i = 0; i < steps; ++i) {
-        const double out = x[std::size_t(i)] - middle;
-        product += force[std::size_t(i)] * out;
-        square += out * out;
-      }
-      result.storage_stiffness = product / square;
+      result.force = by_force ? amplitude : half_range_of(force);
+      result.displacement = by_force ? half_range_of(x) : amplitude;
+      result.storage_stiffness = slope_of(force, x);
       return result;
     }
   }
@@ -250,7 +269,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   const auto at = [&](double factor) {
     TangentialOscillation scaled = motion;
     std::visit([&](auto& one) { one.amplitude *= factor; }, scaled);
-    return follow(law, mean, scaled, friction_coefficient, normal_amplitude, phase, steps,
+    return follow(law, path_of(mean, scaled, normal_amplitude, phase, steps), friction_coefficient,
                   on_progress);
   };
   const Followed one = at(1), less = at(0.99);

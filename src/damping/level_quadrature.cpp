@@ -131,6 +131,165 @@ struct LevelValues {
   double ratio = ForceSample::unknown;  // K_t/((G*/E*)K)
 };
 
+// The question, and the contacts that are solved for it.
+class LevelSolver {
+ public:
+  LevelSolver(const ContactLevels& levels, const Grid2D& grid, const Material& material,
+              const LevelQuadratureOptions& options, LevelQuadratureResult& result)
+      : levels_(levels), grid_(grid), material_(material), options_(options), result_(result) {}
+
+  LevelValues at(double indentation, bool with_stiffness) {
+    LevelValues values;
+    values.sample.indentation = indentation;
+    const ContactSetAt level = levels_(indentation);
+    values.sample.force = level.force;
+    values.sample.pressure = level.force / grid_.area();
+    values.sample.contact_area_fraction =
+        static_cast<double>(level.contact.count()) / static_cast<double>(grid_.points());
+    values.sample.converged = level.converged;
+    if (with_stiffness) add_stiffness(level, values);
+    result_.converged = result_.converged && values.sample.converged;
+    return values;
+  }
+
+ private:
+  void add_stiffness(const ContactSetAt& level, LevelValues& values) {
+    const double modulus_ratio = material_.modulus_ratio();
+    Field pressure;
+    const PunchStiffness punch = punch_stiffness(level.contact, grid_, material_.contact_modulus,
+                                                 {.tolerance = options_.stick.tolerance,
+                                                  .max_iterations = options_.stick.max_iterations,
+                                                  .boundary = options_.stick.boundary,
+                                                  .on_progress = options_.stick.on_progress},
+                                                 &pressure);
+    const StickStiffness stick =
+        stick_stiffness(level.contact, grid_, material_, options_.stick, options_.direction == 0,
+                        Field(pressure * modulus_ratio));
+    const double c = std::cos(options_.direction), s = std::sin(options_.direction);
+    values.sample.tangential_stiffness =
+        options_.direction == 0 ? stick.xx
+                                : c * c * stick.xx + 2 * c * s * stick.xy + s * s * stick.yy;
+    values.sample.normal_stiffness = punch.normal_stiffness;
+    if (punch.normal_stiffness > 0)
+      values.ratio = values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
+    values.sample.converged = level.converged && stick.converged && punch.converged;
+    result_.iterations += stick.iterations + punch.iterations;
+    result_.fft_count += stick.fft_count + punch.fft_count;
+  }
+
+  const ContactLevels& levels_;
+  const Grid2D& grid_;
+  const Material& material_;
+  const LevelQuadratureOptions& options_;
+  LevelQuadratureResult& result_;
+};
+
+// Levels from the greatest indentation to the least, the nodes between the two ends.
+struct Levels {
+  std::vector<Node> nodes;
+  std::vector<double> theta;
+  std::vector<LevelValues> values;
+};
+
+// What the levels say of W. In a drag the stiffness at the least of them counts too.
+class LossOfLevels {
+ public:
+  LossOfLevels(const Levels& levels, const Oscillation& motion, double modulus_ratio)
+      : levels_(levels),
+        motion_(motion),
+        drag_(std::holds_alternative<Drag>(motion)),
+        amplitude_(normal_amplitude(motion)),
+        modulus_ratio_(modulus_ratio) {
+    // F and K = F' are known together. F feels the cells that enter one by one less than K does.
+    normal_.slope_weight = 0.1;
+    for (std::size_t k = 0; k < levels.values.size(); ++k) {
+      const auto& [sample, ratio] = levels.values[k];
+      normal_.theta.push_back(levels.theta[k]);
+      normal_.values.push_back(sample.force);
+      if (!std::isfinite(sample.normal_stiffness)) continue;
+      normal_.slope_theta.push_back(levels.theta[k]);
+      normal_.slopes.push_back(sample.normal_stiffness * amplitude_);
+      if (!std::isfinite(ratio)) continue;
+      ratios_.theta.push_back(levels.theta[k]);
+      ratios_.values.push_back(ratio);
+    }
+    // Eighth degree: what follows the indentation faster is noise of the cells.
+    highest_degree_ = std::min(static_cast<int>(levels.nodes.size()) / 2, 8);
+    force_ = best_fit(normal_, highest_degree_);
+  }
+
+  void fill(LevelQuadratureResult& result) const {
+    result.work_by_levels = of_levels(&ForceSample::tangential_stiffness, 1);
+    result.work_by_force = by_force(force_);
+    result.force = force_(pi / 2);
+    // The loss is an integral and forgives a fit that follows the cells; a second derivative at a
+    // point does not.
+    const Series smooth = best_fit(normal_, std::min(highest_degree_, 5));
+    result.force_curvature = smooth.second_slope_at_middle() / (amplitude_ * amplitude_);
+    result.small_amplitude_work = std::visit(
+        [&](const auto& m) {
+          return closed_form::work_per_cycle(modulus_ratio_, result.force_curvature, m);
+        },
+        motion_);
+    if (ratios_.theta.size() >= 2) add_ratio(result);
+    result.stiffness_ratio =
+        result.work_by_force != 0 ? result.work_per_cycle / result.work_by_force : 0;
+  }
+
+ private:
+  double by_force(const Series& series) const {
+    return loss_of(motion_,
+                   [&](double t) { return modulus_ratio_ * series.slope(t) / amplitude_; });
+  }
+  double of_levels(double ForceSample::*stiffness, double factor) const {
+    const auto at = [&](const LevelValues& level) { return factor * (level.sample.*stiffness); };
+    return loss(
+        motion_, levels_.nodes, [&](std::size_t k) { return at(levels_.values[k + 1]); },
+        drag_ ? at(levels_.values.back()) : 0);
+  }
+
+  void add_ratio(LevelQuadratureResult& result) const {
+    // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.
+    const Series ratio = best_fit(ratios_, std::min(3, static_cast<int>(ratios_.theta.size()) / 4));
+    Eigen::VectorXd gradient(ratio.coefficients.size());
+    for (Index l = 0; l < gradient.size(); ++l)
+      gradient(l) = loss_of(motion_, [&](double t) {
+        return modulus_ratio_ * std::cos(static_cast<double>(l) * t) * force_.slope(t) / amplitude_;
+      });
+    result.work_per_cycle = gradient.dot(ratio.coefficients);
+    const double statistical =
+        ratio.scatter * std::sqrt(std::max(0.0, gradient.dot(ratio.normal_inverse * gradient)));
+    result.error_estimate = 2 * statistical + normal_error(result.work_by_force);
+  }
+
+  // Two more values of the integral: from the stiffness of the levels as they are, and from a fit
+  // of more freedom.
+  double normal_error(double work_by_force) const {
+    const double by_stiffness = of_levels(&ForceSample::normal_stiffness, modulus_ratio_);
+    const int degree = static_cast<int>(force_.coefficients.size()) - 1;
+    // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how
+    // much it could differ.
+    const auto deviation = [&](std::size_t at) {
+      return modulus_ratio_ * (levels_.values[at].sample.normal_stiffness -
+                               force_.slope(levels_.theta[at]) / amplitude_);
+    };
+    std::vector<double> deviations;
+    for (std::size_t k = 0; k < levels_.nodes.size(); ++k) deviations.push_back(deviation(k + 1));
+    const double cells = scatter_of_loss(motion_, levels_.nodes, deviations,
+                                         drag_ ? deviation(levels_.nodes.size() + 1) : 0);
+    return std::max({std::abs(by_stiffness - work_by_force),
+                     std::abs(by_force(fit(normal_, degree + 1)) - work_by_force), 2 * cells});
+  }
+
+  const Levels& levels_;
+  const Oscillation& motion_;
+  const bool drag_;
+  const double amplitude_, modulus_ratio_;
+  FitData normal_, ratios_;
+  int highest_degree_ = 0;
+  Series force_;
+};
+
 }  // namespace
 
 LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D& grid,
@@ -141,137 +300,32 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   validate(motion, mean_indentation, options);
   const bool drag = std::holds_alternative<Drag>(motion);
   const int count = options.levels > 0 ? options.levels : (drag ? 32 : 16);
-  const double amplitude = normal_amplitude(motion), modulus_ratio = material.modulus_ratio();
   LevelQuadratureResult result;
   result.converged = true;
-
-  const auto at_level = [&](double theta, bool with_stiffness) {
-    LevelValues values;
-    values.sample.indentation = mean_indentation + amplitude * std::cos(theta);
-    const ContactSetAt level = levels(values.sample.indentation);
-    values.sample.force = level.force;
-    values.sample.pressure = level.force / grid.area();
-    values.sample.contact_area_fraction =
-        static_cast<double>(level.contact.count()) / static_cast<double>(grid.points());
-    values.sample.converged = level.converged;
-    if (with_stiffness) {
-      Field pressure;
-      const PunchStiffness punch = punch_stiffness(level.contact, grid, material.contact_modulus,
-                                                   {.tolerance = options.stick.tolerance,
-                                                    .max_iterations = options.stick.max_iterations,
-                                                    .boundary = options.stick.boundary,
-                                                    .on_progress = options.stick.on_progress},
-                                                   &pressure);
-      const StickStiffness stick =
-          stick_stiffness(level.contact, grid, material, options.stick, options.direction == 0,
-                          Field(pressure * modulus_ratio));
-      const double c = std::cos(options.direction), s = std::sin(options.direction);
-      values.sample.tangential_stiffness =
-          options.direction == 0 ? stick.xx
-                                 : c * c * stick.xx + 2 * c * s * stick.xy + s * s * stick.yy;
-      values.sample.normal_stiffness = punch.normal_stiffness;
-      if (punch.normal_stiffness > 0)
-        values.ratio =
-            values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
-      values.sample.converged = level.converged && stick.converged && punch.converged;
-      result.iterations += stick.iterations + punch.iterations;
-      result.fft_count += stick.fft_count + punch.fft_count;
-    }
-    result.converged = result.converged && values.sample.converged;
-    return values;
+  LevelSolver solver(levels, grid, material, options, result);
+  Levels solved{gauss_nodes(count), {}, {}};
+  const auto solve = [&](double theta, bool with_stiffness) {
+    solved.theta.push_back(theta);
+    solved.values.push_back(
+        solver.at(mean_indentation + normal_amplitude(motion) * std::cos(theta), with_stiffness));
   };
-
-  // The nodes go from the greatest indentation to the least.
-  const std::vector<Node> nodes = gauss_nodes(count);
-  std::vector<double> theta{0.0};
-  std::vector<LevelValues> values{at_level(0, false)};
-  for (const Node& node : nodes) {
+  solve(0, false);
+  for (const Node& node : solved.nodes) {
+    const auto done = static_cast<int>(solved.theta.size());
     if (options.on_progress &&
-        !options.on_progress({"levels", static_cast<double>(theta.size()) / (count + 2),
-                              static_cast<int>(theta.size()), 0})) {
+        !options.on_progress({"levels", static_cast<double>(done) / (count + 2), done, 0})) {
       result.interrupted = true;
       result.converged = false;
       return result;
     }
-    theta.push_back(node.theta);
-    values.push_back(at_level(node.theta, true));
+    solve(node.theta, true);
   }
-  theta.push_back(pi);
-  values.push_back(at_level(pi, drag));
+  solve(pi, drag);
 
-  // F and K = F' are known together. F feels the cells that enter one by one less than K does.
-  FitData normal, ratios;
-  normal.slope_weight = 0.1;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    normal.theta.push_back(theta[k]);
-    normal.values.push_back(values[k].sample.force);
-    if (!std::isfinite(values[k].sample.normal_stiffness)) continue;
-    normal.slope_theta.push_back(theta[k]);
-    normal.slopes.push_back(values[k].sample.normal_stiffness * amplitude);
-    if (!std::isfinite(values[k].ratio)) continue;
-    ratios.theta.push_back(theta[k]);
-    ratios.values.push_back(values[k].ratio);
-  }
-  result.work_by_levels = loss(
-      motion, nodes, [&](std::size_t k) { return values[k + 1].sample.tangential_stiffness; },
-      drag ? values.back().sample.tangential_stiffness : 0);
-
-  // Eighth degree: what follows the indentation faster is noise of the cells.
-  const int highest = std::min(count / 2, 8);
-  const Series force = best_fit(normal, highest);
-  const auto by_force = [&](const Series& series) {
-    return loss_of(motion, [&](double t) { return modulus_ratio * series.slope(t) / amplitude; });
-  };
-  result.work_by_force = by_force(force);
-  result.force = force(pi / 2);
-  // The loss is an integral and forgives a fit that follows the cells; a second derivative at a
-  // point does not.
-  const Series smooth = best_fit(normal, std::min(highest, 5));
-  result.force_curvature = smooth.second_slope_at_middle() / (amplitude * amplitude);
-  result.small_amplitude_work = std::visit(
-      [&](const auto& m) {
-        return closed_form::work_per_cycle(modulus_ratio, result.force_curvature, m);
-      },
-      motion);
-  // Two more values of the integral: from the stiffness of the levels as they are, and from a fit
-  // of more freedom.
-  const double by_stiffness = loss(
-      motion, nodes,
-      [&](std::size_t k) { return modulus_ratio * values[k + 1].sample.normal_stiffness; },
-      drag ? modulus_ratio * values.back().sample.normal_stiffness : 0);
-  const int degree = static_cast<int>(force.coefficients.size()) - 1;
-  // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how much
-  // it could differ.
-  const auto deviation = [&](std::size_t at) {
-    return modulus_ratio *
-           (values[at].sample.normal_stiffness - force.slope(theta[at]) / amplitude);
-  };
-  std::vector<double> deviations;
-  for (std::size_t k = 0; k < nodes.size(); ++k) deviations.push_back(deviation(k + 1));
-  const double cells =
-      scatter_of_loss(motion, nodes, deviations, drag ? deviation(nodes.size() + 1) : 0);
-  const double normal_error =
-      std::max({std::abs(by_stiffness - result.work_by_force),
-                std::abs(by_force(fit(normal, degree + 1)) - result.work_by_force), 2 * cells});
-
-  if (ratios.theta.size() >= 2) {
-    // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.
-    const Series ratio = best_fit(ratios, std::min(3, static_cast<int>(ratios.theta.size()) / 4));
-    Eigen::VectorXd gradient(ratio.coefficients.size());
-    for (Index l = 0; l < gradient.size(); ++l)
-      gradient(l) = loss_of(motion, [&](double t) {
-        return modulus_ratio * std::cos(static_cast<double>(l) * t) * force.slope(t) / amplitude;
-      });
-    result.work_per_cycle = gradient.dot(ratio.coefficients);
-    const double statistical =
-        ratio.scatter * std::sqrt(std::max(0.0, gradient.dot(ratio.normal_inverse * gradient)));
-    result.error_estimate = 2 * statistical + normal_error;
-  }
-  result.stiffness_ratio =
-      result.work_by_force != 0 ? result.work_per_cycle / result.work_by_force : 0;
+  LossOfLevels(solved, motion, material.modulus_ratio()).fill(result);
   result.curve.model = "bem";
   result.curve.nominal_area = grid.area();
-  for (auto level = values.rbegin(); level != values.rend(); ++level)
+  for (auto level = solved.values.rbegin(); level != solved.values.rend(); ++level)
     result.curve.samples.push_back(level->sample);
   return result;
 }

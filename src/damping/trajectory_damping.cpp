@@ -62,6 +62,19 @@ bool moves_on(const SampledMotion& path) {
   return std::abs(path.drift()) > 1e-9 * (high - low);
 }
 
+/// force, lost: of the period that was followed from the sample `first` on, at its samples. Those
+/// before `first` came last.
+void set_series(TrajectoryDamping& result, const std::vector<double>& force,
+                const std::vector<double>& lost, std::size_t first) {
+  result.tangential_force = force;
+  result.tangential_force.push_back(force[0]);
+  for (std::size_t i = 0; i < lost.size(); ++i) {
+    const bool came_first = first > 0 && i >= first;
+    result.dissipated.push_back(lost[i] - lost[0] + (came_first ? result.work_per_cycle : 0));
+  }
+  result.dissipated.push_back(result.work_per_cycle);
+}
+
 }  // namespace
 
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
@@ -87,8 +100,6 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
 
   // From the lowest point, where every level that ever opens is open: no history is missing.
   TrajectoryDamping result;
-  result.tangential_force.resize(count + 1);
-  result.dissipated.resize(count + 1);
   if (slides)
     contact.slide(path.indentation[first], path.displacement[first], drift > 0 ? 1 : -1);
   else
@@ -121,15 +132,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
     result.slip_work = contact.dissipated_in_permanent_contact() - slip_before;
   }
   result.relaxation_work = result.work_per_cycle - result.slip_work;
-
-  for (std::size_t i = 0; i < count; ++i) {
-    result.tangential_force[i] = force[i];
-    // The period was followed from the lowest point; its first samples came last.
-    const bool came_first = first > 0 && i >= first;
-    result.dissipated[i] = lost[i] - lost[0] + (came_first ? result.work_per_cycle : 0);
-  }
-  result.tangential_force[count] = force[0];
-  result.dissipated[count] = result.work_per_cycle;
+  set_series(result, force, lost, first);
   const Direction along[]{{path.displacement, result.tangential_force}};
   set_means(result, path, along, drifts);
   return result;

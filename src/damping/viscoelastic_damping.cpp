@@ -226,6 +226,21 @@ std::vector<double> differences(const std::vector<double>& values) {
   return steps;
 }
 
+/// What follows from the works and the force: means over the period, power, damping constant.
+void set_means(ViscoelasticDamping& result, const SpringPath& path,
+               const std::vector<double>& moves, double period) {
+  double square_velocity = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    square_velocity += moves[i] * moves[i] / path.duration[i] / period;
+    result.mean_force += 0.5 * (result.force[i] + result.force[i + 1]) * path.duration[i] / period;
+  }
+  const double tangential_work = result.tangential_material_work + result.relaxation_work;
+  result.work_per_cycle = result.normal_material_work + tangential_work;
+  result.power = result.work_per_cycle / period;
+  result.damping_constant = square_velocity > 0 ? tangential_work / period / square_velocity
+                                                : std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace
 
 ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeries& prony,
@@ -286,19 +301,7 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   }
 
   progress.finish();
-
-  const double duration = trajectory.period();
-  double square_velocity = 0;
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    square_velocity += moves[i] * moves[i] / path.duration[i] / duration;
-    result.mean_force +=
-        0.5 * (result.force[i] + result.force[i + 1]) * path.duration[i] / duration;
-  }
-  const double tangential_work = result.tangential_material_work + result.relaxation_work;
-  result.work_per_cycle = result.normal_material_work + tangential_work;
-  result.power = result.work_per_cycle / duration;
-  result.damping_constant = square_velocity > 0 ? tangential_work / duration / square_velocity
-                                                : std::numeric_limits<double>::quiet_NaN();
+  set_means(result, path, moves, trajectory.period());
   return result;
 }
 

@@ -234,6 +234,26 @@ ResidualSurface surface_to_press(const StudyConfiguration& configuration, std::u
   return residual;
 }
 
+/// The surface in numbers, before it is pressed.
+Realisation described(const ResidualSurface& loaded, const SummitList& summits) {
+  const Surface& surface = loaded.surface;
+  Realisation realisation;
+  realisation.first_loading = loaded.first_loading;
+  realisation.grid = surface.grid;
+  realisation.heights = height_statistics(surface);
+  realisation.periodic = surface.periodic;
+  if (!surface.periodic)
+    realisation.seam_step = seam_step(surface) / realisation.heights.rms_height;
+  realisation.moments = surface_moments(surface);
+  realisation.summits = summit_statistics(summits);
+  if (realisation.has_random_summits()) {
+    const SpectralMoments& moments = realisation.moments;
+    realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+    realisation.ensemble.rms_height = realisation.heights.rms_height;
+  }
+  return realisation;
+}
+
 /// What can be said of a model's curve. One that has too few samples in the window has no decay
 /// length, and no loss by Eq. (16).
 void analyse(ModelResult& result, const StudyConfiguration& configuration, double scale) {
@@ -361,25 +381,12 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   const ResidualSurface loaded =
       surface_to_press(configuration, seed, pressures.back(), progress, ranks);
   const Surface& surface = loaded.surface;
-  Realisation realisation;
-  realisation.seed = seed;
-  realisation.first_loading = loaded.first_loading;
-  realisation.grid = surface.grid;
-  realisation.heights = height_statistics(surface);
-  realisation.periodic = surface.periodic;
-  if (!surface.periodic)
-    realisation.seam_step = seam_step(surface) / realisation.heights.rms_height;
-  realisation.moments = surface_moments(surface);
   SummitList summits = find_summits(surface);
-  realisation.summits = summit_statistics(summits);
+  Realisation realisation = described(loaded, summits);
+  realisation.seed = seed;
   if (configuration.has(ContactModel::gw_deterministic))
     summits = gathered(std::move(summits), surface.grid);
-  const SpectralMoments& moments = realisation.moments;
-  const double scale = configuration.material.contact_modulus * moments.rms_slope();
-  if (realisation.has_random_summits()) {
-    realisation.ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
-    realisation.ensemble.rms_height = realisation.heights.rms_height;
-  }
+  const double scale = configuration.material.contact_modulus * realisation.moments.rms_slope();
   if (wants_picture(configuration, seed)) {
     realisation.picture = picture_of(surface, configuration);
     realisation.picture.mapped_load = Index(pressures.size() / 2);

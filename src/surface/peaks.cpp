@@ -39,6 +39,99 @@ class Hills {
   std::vector<std::int32_t> parent_;
 };
 
+/// The water falls from the highest point to the lowest; where two hills meet, the lower one ends.
+class PeakSearch {
+ public:
+  PeakSearch(const Surface& surface, double min_prominence)
+      : surface_(surface),
+        grid_(surface.grid),
+        heights_(surface.heights.data()),
+        min_prominence_(min_prominence),
+        hills_(static_cast<std::size_t>(grid_.points())) {}
+
+  std::vector<Peak> found() {
+    const std::vector<std::int32_t> order = points_from_the_highest();
+    for (const std::int32_t place : order) uncover(static_cast<std::size_t>(place));
+    for (const std::int32_t place : order)
+      if (const auto point = static_cast<std::size_t>(place); hills_.summit_of(point) == point)
+        keep(point, std::numeric_limits<double>::infinity());
+    return std::move(peaks_);
+  }
+
+ private:
+  bool is_higher(std::size_t a, std::size_t b) const {
+    return heights_[a] > heights_[b] || (heights_[a] == heights_[b] && a < b);
+  }
+
+  std::vector<std::int32_t> points_from_the_highest() const {
+    std::vector<std::int32_t> order;
+    order.reserve(static_cast<std::size_t>(grid_.points()));
+    for (Index k = 0; k < grid_.points(); ++k)
+      if (!std::isnan(heights_[k])) order.push_back(static_cast<std::int32_t>(k));
+    std::ranges::sort(order, [this](std::int32_t a, std::int32_t b) {
+      return is_higher(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    });
+    return order;
+  }
+
+  template <class Visit>
+  void visit_neighbours(Index ix, Index iy, const Visit& visit) const {
+    for (Index a = -1; a <= 1; ++a) {
+      for (Index b = -1; b <= 1; ++b) {
+        Index jx = ix + a, jy = iy + b;
+        if (a == 0 && b == 0) continue;
+        if (surface_.periodic) {
+          jx = (jx + grid_.nx) % grid_.nx;
+          jy = (jy + grid_.ny) % grid_.ny;
+        } else if (jx < 0 || jx >= grid_.nx || jy < 0 || jy >= grid_.ny) {
+          continue;
+        }
+        visit(static_cast<std::size_t>(jx * grid_.ny + jy));
+      }
+    }
+  }
+
+  void uncover(std::size_t point) {
+    std::size_t own = point;
+    hills_.rise(point);
+    const auto place = static_cast<Index>(point);
+    visit_neighbours(place / grid_.ny, place % grid_.ny, [&](std::size_t next) {
+      if (!hills_.uncovered(next)) return;
+      std::size_t other = hills_.summit_of(next);
+      if (other == own) return;
+      // The lower of two hills ends at this saddle. A point that is no summit joins the hill it
+      // lies on.
+      if (is_higher(own, other)) std::swap(own, other);
+      if (own != point) keep(own, heights_[own] - heights_[point]);
+      hills_.join(own, other);
+      own = other;
+    });
+  }
+
+  void keep(std::size_t point, double prominence) {
+    if (prominence < min_prominence_) return;
+    const Index ix = static_cast<Index>(point) / grid_.ny,
+                iy = static_cast<Index>(point) % grid_.ny;
+    Index defined = 0;
+    visit_neighbours(ix, iy, [&](std::size_t next) { defined += !std::isnan(heights_[next]); });
+    if (defined < 8) return;
+    const auto at = [&](Index jx, Index jy) {
+      return surface_.heights((jx + grid_.nx) % grid_.nx, (jy + grid_.ny) % grid_.ny) -
+             heights_[point];
+    };
+    const double second_x = (at(ix + 1, iy) + at(ix - 1, iy)) / (grid_.dx() * grid_.dx());
+    const double second_y = (at(ix, iy + 1) + at(ix, iy - 1)) / (grid_.dy() * grid_.dy());
+    peaks_.push_back({ix, iy, heights_[point], prominence, -(second_x + second_y) / 2});
+  }
+
+  const Surface& surface_;
+  const Grid2D& grid_;
+  const double* heights_;
+  const double min_prominence_;
+  Hills hills_;
+  std::vector<Peak> peaks_;
+};
+
 }  // namespace
 
 std::vector<Peak> significant_peaks(const Surface& surface, double min_prominence) {
@@ -49,72 +142,8 @@ std::vector<Peak> significant_peaks(const Surface& surface, double min_prominenc
   require(grid.points() <= std::numeric_limits<std::int32_t>::max(), "nx*ny", grid.points(),
           "must be below 2^31 points; crop the surface");
   require(min_prominence >= 0, "min_prominence", min_prominence, "must be >= 0");
-
-  const double* heights = surface.heights.data();
-  const auto points = static_cast<std::size_t>(grid.points());
-  std::vector<std::int32_t> order;
-  require_memory(grid, 16 * static_cast<double>(points), "a list of peaks");
-  order.reserve(points);
-  for (std::size_t k = 0; k < points; ++k)
-    if (!std::isnan(heights[k])) order.push_back(static_cast<std::int32_t>(k));
-  const auto is_higher = [&](std::int32_t a, std::int32_t b) {
-    return heights[a] > heights[b] || (heights[a] == heights[b] && a < b);
-  };
-  std::ranges::sort(order, is_higher);
-
-  const auto neighbours = [&](Index ix, Index iy, const auto& visit) {
-    for (Index a = -1; a <= 1; ++a) {
-      for (Index b = -1; b <= 1; ++b) {
-        Index jx = ix + a, jy = iy + b;
-        if (a == 0 && b == 0) continue;
-        if (surface.periodic) {
-          jx = (jx + grid.nx) % grid.nx;
-          jy = (jy + grid.ny) % grid.ny;
-        } else if (jx < 0 || jx >= grid.nx || jy < 0 || jy >= grid.ny) {
-          continue;
-        }
-        visit(static_cast<std::size_t>(jx * grid.ny + jy));
-      }
-    }
-  };
-
-  std::vector<Peak> peaks;
-  const auto keep = [&](std::size_t point, double prominence) {
-    if (prominence < min_prominence) return;
-    const Index ix = static_cast<Index>(point) / grid.ny, iy = static_cast<Index>(point) % grid.ny;
-    Index defined = 0;
-    neighbours(ix, iy, [&](std::size_t next) { defined += !std::isnan(heights[next]); });
-    if (defined < 8) return;
-    const auto at = [&](Index jx, Index jy) {
-      return surface.heights((jx + grid.nx) % grid.nx, (jy + grid.ny) % grid.ny) - heights[point];
-    };
-    const double second_x = (at(ix + 1, iy) + at(ix - 1, iy)) / (grid.dx() * grid.dx());
-    const double second_y = (at(ix, iy + 1) + at(ix, iy - 1)) / (grid.dy() * grid.dy());
-    peaks.push_back({ix, iy, heights[point], prominence, -(second_x + second_y) / 2});
-  };
-
-  Hills hills(points);
-  for (const std::int32_t place : order) {
-    const auto point = static_cast<std::size_t>(place);
-    std::size_t own = point;
-    hills.rise(point);
-    neighbours(place / grid.ny, place % grid.ny, [&](std::size_t next) {
-      if (!hills.uncovered(next)) return;
-      std::size_t other = hills.summit_of(next);
-      if (other == own) return;
-      // The lower of two hills ends at this saddle. A point that is no summit joins the hill it
-      // lies on.
-      if (is_higher(static_cast<std::int32_t>(own), static_cast<std::int32_t>(other)))
-        std::swap(own, other);
-      if (own != point) keep(own, heights[own] - heights[point]);
-      hills.join(own, other);
-      own = other;
-    });
-  }
-  for (const std::int32_t place : order)
-    if (const auto point = static_cast<std::size_t>(place); hills.summit_of(point) == point)
-      keep(point, std::numeric_limits<double>::infinity());
-  return peaks;
+  require_memory(grid, 16 * static_cast<double>(grid.points()), "a list of peaks");
+  return PeakSearch(surface, min_prominence).found();
 }
 
 }  // namespace salebra

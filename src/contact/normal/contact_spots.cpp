@@ -56,6 +56,18 @@ struct Found {
   std::vector<std::size_t> cells;  // before each block of rows, and in all
 };
 
+std::vector<Run> runs_of(const std::vector<Index>& row, const std::vector<Index>& part_of) {
+  std::vector<Run> runs;
+  for (Index iy = 0; iy < static_cast<Index>(row.size()); ++iy) {
+    const Index cell = row[static_cast<std::size_t>(iy)];
+    if (cell == none) continue;
+    if (runs.empty() || runs.back().end < iy)
+      runs.push_back({iy, iy, part_of[static_cast<std::size_t>(cell)]});
+    runs.back().end = iy + 1;
+  }
+  return runs;
+}
+
 Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
   // Contact cells are numbered row by row. Each row is compared with the one before it; an edge of
   // the contact lies between unlike cells.
@@ -103,19 +115,8 @@ Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
     found.part_of.push_back(root == cell ? found.parts++
                                          : found.part_of[static_cast<std::size_t>(root)]);
   }
-  const auto runs_of = [&](const Row& cells) {
-    std::vector<Run> runs;
-    for (Index iy = 0; iy < static_cast<Index>(cells.size()); ++iy) {
-      const Index cell = cells[static_cast<std::size_t>(iy)];
-      if (cell == none) continue;
-      if (runs.empty() || runs.back().end < iy)
-        runs.push_back({iy, iy, found.part_of[static_cast<std::size_t>(cell)]});
-      runs.back().end = iy + 1;
-    }
-    return runs;
-  };
-  found.first = runs_of(first);
-  found.last = runs_of(last);
+  found.first = runs_of(first, found.part_of);
+  found.last = runs_of(last, found.part_of);
   return found;
 }
 
@@ -149,42 +150,36 @@ Index compare_runs(const std::vector<Run>& first, const std::vector<Run>& second
   return edges;
 }
 
-}  // namespace
+/// The parts of all processes, joined to spots in the order of their first cells.
+struct Joined {
+  Index edges_across_x = 0, edges_across_y = 0, spots = 0;
+  std::vector<Index> spot_of;  // each part of this process
+};
 
-ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary boundary,
-                           const Communicator& ranks) {
-  const Share rows(ranks, grid.nx);
-  const bool periodic = boundary == Boundary::periodic;
-  const Index block_rows = parallel::block_rows(grid.nx);
-  Found mine;
-  collectively(ranks, [&] {
-    grid.validate();
-    require(pressure.rows() == rows.count() && pressure.cols() == grid.ny, "pressure",
-            pressure.rows(), "rows or the number of columns differ from those of the grid");
-    mine = find_parts(pressure, periodic, block_rows);
-  });
-
-  // Every process joins the parts of all of them by the runs of cells at the edges of their rows.
+/// Every process joins the parts of all of them by the runs of cells at the edges of their rows.
+Joined join_parts(const Found& mine, const Share& rows, bool periodic) {
+  const Communicator& ranks = rows.ranks();
   struct Counts {
     Index parts = 0, edges_across_x = 0, edges_across_y = 0;
   };
   const auto counts =
       gathered<Counts>(ranks, {{mine.parts, mine.edges_across_x, mine.edges_across_y}});
   const auto first = gathered(ranks, mine.first), last = gathered(ranks, mine.last);
+  Joined joined;
   Sets sets;
   std::vector<Index> before{0};  // parts of the processes before each
-  Index edges_across_x = 0, edges_across_y = 0, in_use = 0;
+  Index in_use = 0;
   for (int rank = 0; rank < ranks.ranks(); ++rank) {
     const Counts& of_rank = counts[static_cast<std::size_t>(rank)].front();
     for (Index part = 0; part < of_rank.parts; ++part) sets.add();
     before.push_back(before.back() + of_rank.parts);
-    edges_across_x += of_rank.edges_across_x;
-    edges_across_y += of_rank.edges_across_y;
+    joined.edges_across_x += of_rank.edges_across_x;
+    joined.edges_across_y += of_rank.edges_across_y;
     in_use += rows.end_of(rank) > rows.begin_of(rank);  // the last ones have no rows
   }
   const auto meet = [&](const std::vector<Run>& a, Index rank_of_a, const std::vector<Run>& b,
                         Index rank_of_b) {
-    edges_across_x += compare_runs(a, b, [&](Index part_of_a, Index part_of_b) {
+    joined.edges_across_x += compare_runs(a, b, [&](Index part_of_a, Index part_of_b) {
       sets.join(before[static_cast<std::size_t>(rank_of_a)] + part_of_a,
                 before[static_cast<std::size_t>(rank_of_b)] + part_of_b);
     });
@@ -200,42 +195,64 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
     meet(last_row, in_use - 1, {}, 0);
     meet({}, 0, first_row, 0);
   }
-  Index spots = 0;
-  std::vector<Index> spot_of(static_cast<std::size_t>(before.back()));  // each part
+  std::vector<Index> spot_of(static_cast<std::size_t>(before.back()));
   for (Index part = 0; part < before.back(); ++part) {
     const Index root = sets.root(part);
     spot_of[static_cast<std::size_t>(part)] =
-        root == part ? spots++ : spot_of[static_cast<std::size_t>(root)];
+        root == part ? joined.spots++ : spot_of[static_cast<std::size_t>(root)];
   }
+  const Index begin = before[static_cast<std::size_t>(ranks.rank())];
+  joined.spot_of.assign(spot_of.begin() + begin, spot_of.begin() + begin + mine.parts);
+  return joined;
+}
 
-  // Forces are added within each block of rows, then over the blocks.
-  struct Piece {
-    Index spot = 0, cells = 0;
-    double load = 0;
-  };
+/// What a block of rows has of a spot.
+struct Piece {
+  Index spot = 0, cells = 0;
+  double load = 0;
+};
+
+std::vector<Piece> pieces_of(const Found& mine, const Joined& joined) {
   std::vector<Piece> pieces;
-  std::vector<std::size_t> piece_of(static_cast<std::size_t>(spots));
-  const Index mine_before = before[static_cast<std::size_t>(ranks.rank())];
+  std::vector<std::size_t> piece_of(static_cast<std::size_t>(joined.spots));
   for (std::size_t block = 0; block + 1 < mine.cells.size(); ++block) {
     const std::size_t of_earlier_blocks = pieces.size();
     for (std::size_t cell = mine.cells[block]; cell < mine.cells[block + 1]; ++cell) {
-      const auto spot = static_cast<std::size_t>(
-          spot_of[static_cast<std::size_t>(mine_before + mine.part_of[cell])]);
-      std::size_t& piece = piece_of[spot];
-      if (piece < of_earlier_blocks || piece >= pieces.size() ||
-          pieces[piece].spot != static_cast<Index>(spot)) {
+      const Index spot = joined.spot_of[static_cast<std::size_t>(mine.part_of[cell])];
+      std::size_t& piece = piece_of[static_cast<std::size_t>(spot)];
+      if (piece < of_earlier_blocks || piece >= pieces.size() || pieces[piece].spot != spot) {
         piece = pieces.size();
-        pieces.push_back({static_cast<Index>(spot)});
+        pieces.push_back({spot});
       }
       ++pieces[piece].cells;
       pieces[piece].load += mine.loads[cell];
     }
   }
+  return pieces;
+}
+
+}  // namespace
+
+ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary boundary,
+                           const Communicator& ranks) {
+  const Share rows(ranks, grid.nx);
+  const bool periodic = boundary == Boundary::periodic;
+  const Index block_rows = parallel::block_rows(grid.nx);
+  Found mine;
+  collectively(ranks, [&] {
+    grid.validate();
+    require(pressure.rows() == rows.count() && pressure.cols() == grid.ny, "pressure",
+            pressure.rows(), "rows or the number of columns differ from those of the grid");
+    mine = find_parts(pressure, periodic, block_rows);
+  });
+
+  const Joined joined = join_parts(mine, rows, periodic);
+  // Forces are added within each block of rows, then over the blocks.
   ContactSpots result;
-  result.spots.resize(static_cast<std::size_t>(spots));
+  result.spots.resize(static_cast<std::size_t>(joined.spots));
   std::vector<Index> cells_of(result.spots.size(), 0);
   Index cells = 0;
-  for (const auto& of_rank : gathered(ranks, pieces)) {
+  for (const auto& of_rank : gathered(ranks, pieces_of(mine, joined))) {
     for (const Piece& piece : of_rank) {
       cells += piece.cells;
       cells_of[static_cast<std::size_t>(piece.spot)] += piece.cells;
@@ -250,11 +267,12 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
 
   const double points = static_cast<double>(grid.points());
   result.contact_area_fraction = static_cast<double>(cells) / points;
-  result.perimeter_along_x = static_cast<double>(edges_across_y) * grid.dx();
-  result.perimeter = static_cast<double>(edges_across_x) * grid.dy() + result.perimeter_along_x;
+  result.perimeter_along_x = static_cast<double>(joined.edges_across_y) * grid.dx();
+  result.perimeter =
+      static_cast<double>(joined.edges_across_x) * grid.dy() + result.perimeter_along_x;
   // Every edge takes its share of one cell.
   const double excess = (std::numbers::pi - 1 + std::numbers::ln2) / 24 *
-                        static_cast<double>(edges_across_x + edges_across_y) / points;
+                        static_cast<double>(joined.edges_across_x + joined.edges_across_y) / points;
   result.corrected_area_fraction = std::max(0.0, result.contact_area_fraction - excess);
   return result;
 }
