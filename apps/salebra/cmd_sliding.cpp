@@ -226,6 +226,42 @@ void run(const SlidingArguments& arguments, Session& session) {
     slide(arguments, session);
 }
 
+void add_slider(Command& command, SlidingArguments& arguments) {
+  const std::string body = "Slider on a spring";
+  add_quantity(command, "--mass", arguments.mass, Dimension::mass,
+               "m of a slider that a spring drags, in place of steady sliding")
+      ->group(body);
+  add_quantity(command, "--spring-stiffness", arguments.spring_stiffness, Dimension::stiffness,
+               "k of the spring that drags it")
+      ->group(body);
+  add_quantity(command, "--support-damping", arguments.support_damping, Dimension::damping,
+               "c of a dashpot in parallel with the spring; default 0")
+      ->group(body);
+  add_quantity(command, "--falling-slope", arguments.falling_slope, Dimension::damping,
+               "b of a friction force that falls by b per velocity; default 0")
+      ->group(body);
+  add_choice<SliderStart>(command, "--start", arguments.start,
+                          "where the motion begins: at rest, on the point of slipping, or sliding "
+                          "with a small disturbance; default rest")
+      ->group(body);
+  add_quantity(command, "--largest-amplitude", arguments.largest_amplitude, Dimension::length,
+               "to look for the threshold in; default 10 times that of the smallest effect")
+      ->group(body);
+  command
+      .add_option("--steps", arguments.steps,
+                  "in a period of the oscillation, doubled until the tolerance is met; default 32")
+      ->range(16, 100000)
+      ->group(body);
+  command
+      .add_option("--most-cycles", arguments.most_cycles,
+                  "slow cycles after which the motion is given up; default 200")
+      ->range(1, 1000000)
+      ->group(body);
+  add_quantity(command, "--tolerance", arguments.tolerance, Dimension::dimensionless,
+               "of the amplitude of a slow cycle; default 0.01")
+      ->group(body);
+}
+
 }  // namespace
 
 void add_sliding_command(Program& program) {
@@ -263,39 +299,7 @@ void add_sliding_command(Program& program) {
   add_choice<Hold>(command, "--hold", arguments->hold,
                    "what stays in the mean; default indentation")
       ->group(motion);
-  const std::string body = "Slider on a spring";
-  add_quantity(command, "--mass", arguments->mass, Dimension::mass,
-               "m of a slider that a spring drags, in place of steady sliding")
-      ->group(body);
-  add_quantity(command, "--spring-stiffness", arguments->spring_stiffness, Dimension::stiffness,
-               "k of the spring that drags it")
-      ->group(body);
-  add_quantity(command, "--support-damping", arguments->support_damping, Dimension::damping,
-               "c of a dashpot in parallel with the spring; default 0")
-      ->group(body);
-  add_quantity(command, "--falling-slope", arguments->falling_slope, Dimension::damping,
-               "b of a friction force that falls by b per velocity; default 0")
-      ->group(body);
-  add_choice<SliderStart>(command, "--start", arguments->start,
-                          "where the motion begins: at rest, on the point of slipping, or sliding "
-                          "with a small disturbance; default rest")
-      ->group(body);
-  add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
-               "to look for the threshold in; default 10 times that of the smallest effect")
-      ->group(body);
-  command
-      .add_option("--steps", arguments->steps,
-                  "in a period of the oscillation, doubled until the tolerance is met; default 32")
-      ->range(16, 100000)
-      ->group(body);
-  command
-      .add_option("--most-cycles", arguments->most_cycles,
-                  "slow cycles after which the motion is given up; default 200")
-      ->range(1, 1000000)
-      ->group(body);
-  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
-               "of the amplitude of a slow cycle; default 0.01")
-      ->group(body);
+  add_slider(command, *arguments);
   arguments->premises.add_to(command, false);
 }
 

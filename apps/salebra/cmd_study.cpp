@@ -83,12 +83,8 @@ std::string damping_text(const StatedMean& estimate) {
   return format_quantity(value, Dimension::damping);
 }
 
-std::string study_text(const StudyResult& result, const StudyPremises& premises,
-                       const StudyFiles& files) {
-  const PremiseReport judged{premises.premises, true, result.pressures};
+std::string decay_length_table(const StudyResult& result) {
   const bool sample = result.realisations.size() > 1;
-  std::string text = heading(result) + judged.above();
-  text += "Decay length l of pressure = p0 exp(-mean gap/l)\n";
   std::vector<std::vector<std::string>> rows{
       sample ? std::vector<std::string>{"model", "l", "95 % interval", "l/h_rms", "95 % interval"}
              : std::vector<std::string>{"model", "l", "l/h_rms", "closest … farthest",
@@ -105,17 +101,17 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
       rows.push_back(
           one_surface_row(model.title, l, relative, result.realisations.front().of(model.id)));
   }
-  text += to_table(rows, 2, true) +
-          (sample ? "  (" + result.interval_method() + ")\n"
-                  : "  (l/h_rms at the closest and the farthest gap of the window, and of fits to "
-                    "parts of it; an interval needs several surfaces)\n") +
-          law_verdict(result) + "\n";
+  return "Decay length l of pressure = p0 exp(-mean gap/l)\n" + to_table(rows, 2, true) +
+         (sample ? "  (" + result.interval_method() + ")\n"
+                 : "  (l/h_rms at the closest and the farthest gap of the window, and of fits to "
+                   "parts of it; an interval needs several surfaces)\n");
+}
 
-  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
-  text += "Damping constant: " + describe_motion(result.configuration.motion) + "\n";
-  const bool slip = !std::isnan(result.configuration.known.friction_coefficient);
-  rows = {{"pressure", "force", law, "computed", "error"}};
+std::string damping_table(const StudyResult& result, const StudyPremises& premises,
+                          const std::string& law) {
+  const bool sample = result.realisations.size() > 1,
+             slip = !std::isnan(result.configuration.known.friction_coefficient);
+  std::vector<std::vector<std::string>> rows{{"pressure", "force", law, "computed", "error"}};
   if (sample) rows[0].push_back("95 % interval");
   rows[0].push_back(law + " is off by");
   if (slip) rows[0].push_back("with slip");
@@ -137,13 +133,24 @@ std::string study_text(const StudyResult& result, const StudyPremises& premises,
       rows.back().push_back(
           format_quantity(premises.damping_constant_with_slip[i], Dimension::damping));
   }
-  text += to_table(rows) + "\n";
+  std::string text = "Damping constant: " + describe_motion(result.configuration.motion) + "\n" +
+                     to_table(rows) + "\n";
   if (unstated > 0)
     text += fmt::format(
         "n/a at {} of {} pressures: the error is larger than the number, because too few cells "
         "touch and part in the oscillation; a finer grid or --relative-error may help.\n",
         unstated, result.pressures.size());
-  text += verdict(result, law) + "\n";
+  return text;
+}
+
+std::string study_text(const StudyResult& result, const StudyPremises& premises,
+                       const StudyFiles& files) {
+  const PremiseReport judged{premises.premises, true, result.pressures};
+  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
+  const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
+  std::string text = heading(result) + judged.above() + decay_length_table(result) +
+                     law_verdict(result) + "\n" + damping_table(result, premises, law) +
+                     verdict(result, law) + "\n";
   if (const std::string slips = regimes(premises, result.pressures); !slips.empty())
     text += "Regime: " + slips + "\n";
   text += judged.open_points();

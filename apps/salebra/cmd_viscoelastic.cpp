@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <complex>
 #include <memory>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 #include <salebra/questions/contact.hpp>
 
@@ -48,24 +45,6 @@ std::vector<PronyTerm> parse_terms(const std::string& text) {
   return terms;
 }
 
-struct ViscoelasticCase {
-  double angular_frequency = 0, storage_modulus = 0, loss_modulus = 0, elastic_work = 0;
-  ViscoelasticDamping loss;
-};
-
-constexpr void describe(auto&& visit, std::type_identity<ViscoelasticCase>) {
-  using S = ViscoelasticCase;
-  visit(&S::angular_frequency, quantity::angular_frequency);
-  visit(&S::storage_modulus, find_quantity("storage_modulus"));
-  visit(&S::loss_modulus, find_quantity("loss_modulus"));
-  visit(&S::elastic_work, find_quantity("elastic_work"));
-  visit(&S::loss, Part{"loss", "losses of the viscoelastic body"});
-}
-
-double angular_frequency_of(const Oscillation& motion) {
-  return std::visit([](const auto& m) { return m.angular_frequency; }, motion);
-}
-
 Figure loss_figure(const ResultTable& table) {
   const auto values = [&](const char* name) {
     return std::ranges::find(table.columns, std::string(name), &ResultColumn::name)->values;
@@ -97,6 +76,30 @@ Figure loss_figure(const ResultTable& table) {
   return figure;
 }
 
+// Of each motion.
+std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
+                                        const IndenterLaw& law, const PronySeries& prony,
+                                        double indentation, Session& session) {
+  std::vector<ViscoelasticLoss> losses;
+  const std::vector<Oscillation> motions = arguments.motion.motions();
+  const Progress progress = session.progress();
+  for (const Oscillation& motion : motions)
+    losses.push_back(viscoelastic_loss(
+        law, prony, motion, indentation,
+        {.steps = arguments.steps, .springs = arguments.springs, .on_progress = [&](auto report) {
+           report.fraction = (double(losses.size()) + report.fraction) / double(motions.size());
+           return progress(report);
+         }}));
+  if (const auto lost = std::ranges::count_if(
+          losses, [](const ViscoelasticLoss& one) { return !one.damping.converged; });
+      lost > 0)
+    throw NotConverged(fmt::format(
+        "viscoelastic: {} of {} steady states were not found; relaxation times beyond 1e9 periods "
+        "belong to the relaxed modulus or are left out",
+        lost, losses.size()));
+  return losses;
+}
+
 void run(const ViscoelasticArguments& arguments, Session& session) {
   require_tables(session, {"motions"});
   std::vector<std::string> missing = arguments.motion.missing();
@@ -122,40 +125,18 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const ContactFacts facts =
       at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
 
-  std::vector<ViscoelasticCase> cases;
+  const std::vector<ViscoelasticLoss> losses =
+      losses_of(arguments, law, prony, indentation, session);
   PremiseReport premises{.list = true, .body = "relaxed elastic body"};
-  const std::vector<Oscillation> motions = arguments.motion.motions();
-  const Progress progress = session.progress();
-  for (const Oscillation& motion : motions) {
-    ViscoelasticCase& one = cases.emplace_back();
-    one.angular_frequency = angular_frequency_of(motion);
-    const std::complex<double> modulus = prony.complex_modulus(one.angular_frequency);
-    one.storage_modulus = modulus.real();
-    one.loss_modulus = modulus.imag();
-    // Refuses what lies outside the law, before the longer computation.
-    one.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
-    const auto of_all = [&](ProgressReport report) {
-      report.fraction = (double(cases.size() - 1) + report.fraction) / double(motions.size());
-      return progress(report);
-    };
-    one.loss = viscoelastic_damping(law, prony, sample(motion, indentation, arguments.steps),
-                                    arguments.springs, of_all);
+  for (const Oscillation& motion : arguments.motion.motions())
     premises.cases.push_back(premises_of(law, indentation, motion, facts));
-  }
-  if (const auto lost = std::ranges::count(
-          cases, false, [](const ViscoelasticCase& one) { return one.loss.converged; });
-      lost > 0)
-    throw NotConverged(fmt::format(
-        "viscoelastic: {} of {} steady states were not found; relaxation times beyond 1e9 periods "
-        "belong to the relaxed modulus or are left out",
-        lost, cases.size()));
 
   Json answer = {{"indentation", indentation},
                  {"force", law.force(indentation)},
                  {"normal_stiffness", law.normal_stiffness(indentation)},
                  {"tangential_stiffness", law.tangential_stiffness(indentation)}};
   answer.add(json_of(prony));
-  ResultTable table = table_of("motions", cases);
+  ResultTable table = table_of("motions", losses);
   const auto [quantity, values] = arguments.motion.varied();
   if (!values.empty() && quantity != "angular_frequency")
     table.columns.insert(table.columns.begin(), {quantity, values});

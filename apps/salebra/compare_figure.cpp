@@ -25,6 +25,32 @@ PlotCurve band(const std::string& name, const std::vector<double>& x,
           .high = column(y, &EnsembleMean::high)};
 }
 
+/// The window of the fit, what the theories of vanishing load say, and the law with the fitted l.
+void add_references(const StudyResult& result, const std::vector<double>& loads,
+                    const std::vector<double>& forces, std::array<PlotPanel, 4>& panels) {
+  auto& [gaps, areas, stiffness, damping] = panels;
+  if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
+  areas.lines = {{.at = bgt_slope, .name = "BGT"}};
+  if (!result.configuration.has(ContactModel::persson))
+    areas.lines.push_back({.at = persson_slope, .name = "Persson"});
+  PlotCurve edge = band("boundary elements, less the edge", loads,
+                        result.at_pressures([&](const Realisation& r, std::size_t k) {
+                          return r.spots[k].corrected_area_fraction / result.pressures[k] *
+                                 r.moments.rms_slope() *
+                                 result.configuration.material.contact_modulus;
+                        }));
+  edge.style = PlotStyle::dotted;
+  edge.color = 0;
+  areas.curves.push_back(std::move(edge));
+  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
+  PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
+                       result.damping(&DampingPoint::damping_constant_eq16));
+  law.low = law.high = {};
+  law.style = PlotStyle::dashed;
+  law.color = 7;
+  damping.curves.push_back(std::move(law));
+}
+
 /// Force–gap, area–load, stiffness–load and damping–force of one point, with bands of 95 %.
 std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   std::array<PlotPanel, 4> panels;
@@ -69,27 +95,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
         }));
     add(damping, forces, result.damping(&DampingPoint::damping_constant, model.id));
   }
-  // The window of the fit, and what the theories of vanishing load say.
-  if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
-  areas.lines = {{.at = bgt_slope, .name = "BGT"}};
-  if (!result.configuration.has(ContactModel::persson))
-    areas.lines.push_back({.at = persson_slope, .name = "Persson"});
-  PlotCurve edge = band("boundary elements, less the edge", loads,
-                        result.at_pressures([&](const Realisation& r, std::size_t k) {
-                          return r.spots[k].corrected_area_fraction / result.pressures[k] *
-                                 r.moments.rms_slope() *
-                                 result.configuration.material.contact_modulus;
-                        }));
-  edge.style = PlotStyle::dotted;
-  edge.color = 0;
-  areas.curves.push_back(std::move(edge));
-  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
-                       result.damping(&DampingPoint::damping_constant_eq16));
-  law.low = law.high = {};
-  law.style = PlotStyle::dashed;
-  law.color = 7;
-  damping.curves.push_back(std::move(law));
+  add_references(result, loads, forces, panels);
   return panels;
 }
 

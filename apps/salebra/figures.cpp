@@ -95,6 +95,32 @@ bool spans_decades(const std::vector<double>& values) {
   return low > 0 && high > 30 * low;
 }
 
+namespace {
+
+/// The springs of the foundation, side by side.
+PlotCurve coils_of(const IndenterLaw& law, double indentation) {
+  const double edge = law.contact_radius(indentation);
+  PlotCurve coils{.name = "springs", .color = 7};
+  for (int i = -24; i <= 24; ++i) {
+    const double x = 1.8 * edge * i / 25;
+    const double depth = std::abs(x) <= edge ? law.profile().image(std::abs(x)) - indentation : 0.0;
+    coils.x.insert(coils.x.end(), {x, x, nothing});
+    coils.y.insert(coils.y.end(), {-1.5 * indentation, std::min(0.0, depth), nothing});
+  }
+  return coils;
+}
+
+PlotCurve force_of(const IndenterLaw& law, double most) {
+  PlotCurve force{.x = {}, .y = {}};
+  for (int i = 0; i <= 200; ++i) {
+    force.x.push_back(most * i / 200);
+    force.y.push_back(law.force(most * i / 200));
+  }
+  return force;
+}
+
+}  // namespace
+
 Figure contact_figure(const IndenterLaw& law, double indentation) {
   constexpr int points = 400;
   const double edge = law.contact_radius(indentation);
@@ -122,13 +148,6 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
       pressure.y.push_back(law.pressure(indentation, distance * (1 - 1e-9)));
     }
   }
-  PlotCurve coils{.name = "springs", .color = 7};
-  for (int i = -24; i <= 24; ++i) {
-    const double x = 1.8 * edge * i / 25;
-    const double depth = std::abs(x) <= edge ? law.profile().image(std::abs(x)) - indentation : 0.0;
-    coils.x.insert(coils.x.end(), {x, x, nothing});
-    coils.y.insert(coils.y.end(), {-1.5 * indentation, std::min(0.0, depth), nothing});
-  }
   Figure figure;
   figure.columns = 2;
   const PlotAxis height = {.label = "height", .unit = "m"};
@@ -142,22 +161,16 @@ Figure contact_figure(const IndenterLaw& law, double indentation) {
        .x = {.label = "x", .unit = "m"},
        .y = {.label = "height", .unit = "m", .low = -1.5 * indentation, .high = 1.8 * indentation},
        .legend = PlotLegend::top_left});
-  figure.panels.back().curves = {coils, springs, image};
+  figure.panels.back().curves = {coils_of(law, indentation), springs, image};
   figure.panels.push_back({.title = "(c) pressure",
                            .x = {.label = "r", .unit = "m"},
                            .y = {.label = "p", .unit = "Pa", .low = 0}});
   figure.panels.back().curves = {pressure};
-  PlotCurve force{.x = {}, .y = {}};
-  const double most = std::min(1.5 * indentation, law.highest_indentation());
-  for (int i = 0; i <= 200; ++i) {
-    force.x.push_back(most * i / 200);
-    force.y.push_back(law.force(most * i / 200));
-  }
   figure.panels.push_back({.title = "(d) force",
                            .x = {.label = "indentation δ", .unit = "m"},
                            .y = {.label = "F", .unit = "N"}});
   figure.panels.back().curves = {
-      force,
+      force_of(law, std::min(1.5 * indentation, law.highest_indentation())),
       {.x = {indentation}, .y = {law.force(indentation)}, .style = PlotStyle::points, .color = 1}};
   return figure;
 }
@@ -215,23 +228,58 @@ Figure damping_figure(const std::string& quantity, const std::vector<double>& va
   return figure;
 }
 
+namespace {
+
+/// Both singularities would take all the colour: the scale ends where 2 % of the stressed points
+/// are beyond it.
+double colour_limit(const Field& shear) {
+  std::vector<double> sizes;
+  for (Index i = 0; i < shear.rows(); ++i)
+    for (Index j = 0; j < shear.cols(); ++j)
+      if (shear(i, j) != 0) sizes.push_back(std::abs(shear(i, j)));
+  std::ranges::sort(sizes);
+  return sizes.empty()
+             ? 1
+             : sizes[static_cast<std::size_t>(0.98 * static_cast<double>(sizes.size() - 1))];
+}
+
+/// The shear stress over the radius at one moment.
+PlotPanel section_of(const OscillatingStress& stress, double angle, double most, double limit,
+                     const char* title) {
+  const double least = stress.min_contact_radius();
+  PlotPanel panel{.title = title,
+                  .x = {.label = "r", .unit = "m", .low = 0, .high = 1.05 * most},
+                  .y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit}};
+  PlotCurve curve{.color = 1};
+  const double here = stress.contact_radius(angle);
+  // Cosine spacing on both sides of the least radius, where the logarithm is, and towards the
+  // edge.
+  for (const auto& [from, to] : {std::pair{0.0, least}, {least, here}}) {
+    for (int i = 0; i <= 300 && to > from; ++i) {
+      const double r = from + (to - from) * 0.5 * (1 - std::cos(pi * (0.003 + 0.994 * i / 300)));
+      curve.x.push_back(r);
+      curve.y.push_back(stress.shear(angle, r));
+    }
+  }
+  curve.x.push_back(here);
+  curve.y.push_back(0);
+  curve.x.push_back(1.05 * most);
+  curve.y.push_back(0);
+  panel.curves.push_back(curve);
+  for (const double at : {least, most}) panel.lines.push_back({.at = at, .vertical = true});
+  return panel;
+}
+
+}  // namespace
+
 Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillation& motion,
                      const StressMap& map) {
   const OscillatingStress stress(law, indentation, motion);
-  const double most = std::ranges::max(map.contact_radius), least = stress.min_contact_radius();
+  const double most = std::ranges::max(map.contact_radius);
   const std::vector<double> cycle = scaled(map.angle, 1 / (2 * pi));
   const PlotAxis radius = {.label = "r", .unit = "m"};
   const PlotAxis time = {.label = "ωt / 2π"};
-  // Both singularities would take all the colour: the scale ends where 2 % of the stressed points
-  // are beyond it.
-  std::vector<double> sizes;
-  for (Index i = 0; i < map.shear.rows(); ++i)
-    for (Index j = 0; j < map.shear.cols(); ++j)
-      if (map.shear(i, j) != 0) sizes.push_back(std::abs(map.shear(i, j)));
-  std::ranges::sort(sizes);
-  const double limit =
-      sizes.empty() ? 1
-                    : sizes[static_cast<std::size_t>(0.98 * static_cast<double>(sizes.size() - 1))];
+  const double limit = colour_limit(map.shear);
   PlotCurve edge{.x = map.contact_radius, .y = cycle, .color = 6};
   const auto in_contact = [&](const Field& field) {
     Field image = field.transpose();
@@ -256,33 +304,8 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
                           .palette = PlotPalette::diverging};
   shear.curves.push_back(edge);
 
-  const auto section = [&](double angle, std::string title) {
-    PlotPanel panel;
-    panel.title = std::move(title);
-    panel.x = radius;
-    panel.y = {.label = "τ", .unit = "Pa", .low = -3 * limit, .high = 3 * limit};
-    PlotCurve curve{.color = 1};
-    const double here = stress.contact_radius(angle);
-    // Cosine spacing on both sides of the least radius, where the logarithm is, and towards the
-    // edge.
-    for (const auto& [from, to] : {std::pair{0.0, least}, {least, here}}) {
-      for (int i = 0; i <= 300 && to > from; ++i) {
-        const double r = from + (to - from) * 0.5 * (1 - std::cos(pi * (0.003 + 0.994 * i / 300)));
-        curve.x.push_back(r);
-        curve.y.push_back(stress.shear(angle, r));
-      }
-    }
-    curve.x.push_back(here);
-    curve.y.push_back(0);
-    curve.x.push_back(1.05 * most);
-    curve.y.push_back(0);
-    panel.curves.push_back(curve);
-    panel.x.low = 0;
-    panel.x.high = 1.05 * most;
-    for (const double at : {least, most}) panel.lines.push_back({.at = at, .vertical = true});
-    return panel;
-  };
-  figure.panels.push_back(section(pi / 3, "(b) τ(r) while pulling out, ωt/2π = 1/6"));
+  figure.panels.push_back(
+      section_of(stress, pi / 3, most, limit, "(b) τ(r) while pulling out, ωt/2π = 1/6"));
   PlotPanel& pressure = figure.panels.emplace_back();
   pressure.title = "(c) pressure p";
   pressure.x = radius;
@@ -292,7 +315,8 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
                              .values = in_contact(map.contact_pressure),
                              .scale = {.label = "p", .unit = "Pa"}};
   pressure.curves.push_back(edge);
-  figure.panels.push_back(section(-pi / 3, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
+  figure.panels.push_back(
+      section_of(stress, -pi / 3, most, limit, "(d) τ(r) while pressing in, ωt/2π = −1/6"));
   for (const double at : {1.0 / 6, -1.0 / 6}) figure.panels[0].lines.push_back({.at = at});
   return figure;
 }

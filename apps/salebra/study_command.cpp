@@ -167,33 +167,39 @@ bool is_surface(const std::string& file) {
   }
 }
 
-}  // namespace
-
-StudyConfiguration StudyArguments::study() const {
-  const bool from_file = !configuration.empty();
-  if (!from_file && !surface.given())
-    throw InvalidInput("CONFIG", "none; give a study file, or --surface with material and motion");
+/// Of the file, or of the surface by itself, before the other options.
+StudyConfiguration study_of(const StudyArguments& arguments) {
+  const std::string& file = arguments.configuration;
+  const SurfaceOptions& surface = arguments.surface;
   StudyConfiguration study;
-  if (from_file) {
+  if (!file.empty()) {
     try {
-      study = read_study_configuration(configuration);
+      study = read_study_configuration(file);
     } catch (const InvalidInput&) {
-      require(!is_surface(configuration), "CONFIG", configuration,
-              "is a surface, no study file; give it as --surface " + configuration);
+      require(!is_surface(file), "CONFIG", file,
+              "is a surface, no study file; give it as --surface " + file);
       throw;
     }
   } else {
-    std::vector<std::string> missing = material.missing(true);
-    for (const std::string& option : motion.missing()) missing.push_back(option);
+    if (!surface.given())
+      throw InvalidInput("CONFIG",
+                         "none; give a study file, or --surface with material and motion");
+    std::vector<std::string> missing = arguments.material.missing(true);
+    for (const std::string& option : arguments.motion.missing()) missing.push_back(option);
     require_options(missing, "a study without a file");
     study.pressures = parse_values("5e-4:0.2:16", Dimension::dimensionless, "pressures");
     study.relative_pressures = true;
   }
-  if (surface.given()) {
-    study =
-        with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,
-                                        value_of<Detrend>(surface.detrend), surface.height_unit});
-  }
+  if (!surface.given()) return study;
+  return with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,
+                                         value_of<Detrend>(surface.detrend), surface.height_unit});
+}
+
+}  // namespace
+
+StudyConfiguration StudyArguments::study() const {
+  const bool from_file = !configuration.empty();
+  StudyConfiguration study = study_of(*this);
   if (!from_file || material.given()) study.material = material.material_with_tangential_modulus();
   if (!from_file || motion.given()) {
     const auto motions = (from_file ? motion.completed_from(study.motion) : motion).motions();
@@ -379,6 +385,49 @@ Provenance provenance_of(const StudyParts& parts, const Session& session) {
   return provenance;
 }
 
+/// Whether the output holds the results of all surfaces already, so that kept ones can go.
+bool is_complete(const StudyConfiguration& configuration, const std::filesystem::path& folder,
+                 Session& session) {
+  const Communicator& ranks = session.ranks();
+  bool complete = false;
+  collectively(ranks, [&] {
+    complete = ranks.is_root() && is_result_of(session.output(), configuration);
+    if (complete) StudyParts(folder, true).discard();
+  });
+  ranks.broadcast(&complete, sizeof complete);
+  return complete;
+}
+
+/// Throws Incomplete where surfaces are missing.
+void require_all(const StudyParts& parts, const std::vector<std::size_t>& missing,
+                 const std::vector<PartOrigin>& others, std::size_t surfaces) {
+  if (missing.empty()) return;
+  const std::string other = strangers(others);
+  throw Incomplete(fmt::format(
+      "{}: {} of {} surfaces are missing{}; {}, then --merge{}", parts.folder().string(),
+      missing.size(), surfaces,
+      parts.damaged() > 0 ? fmt::format(", {} of them damaged", parts.damaged()) : "",
+      shards_to_run(missing, parts.origins()), other.empty() ? "" : " (" + other + ")"));
+}
+
+/// Throws Interrupted where not all surfaces were computed, and says what is kept of them.
+void require_finished(const std::vector<StudyResult>& results,
+                      const StudyConfiguration& configuration, const StudyParts* parts,
+                      const Communicator& ranks) {
+  const bool interrupted = results.size() < parameter_combinations(configuration).size() ||
+                           std::ranges::any_of(results, &StudyResult::interrupted);
+  collectively(ranks, [&] {
+    if (interrupted && parts && parts->count() > 0)
+      throw Interrupted(fmt::format(
+          "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
+          "and --resume",
+          parts->count(), parts->folder().string()));
+  });
+  if (std::ranges::all_of(results,
+                          [](const StudyResult& result) { return result.realisations.empty(); }))
+    throw Interrupted("study: interrupted before the first surface was finished");
+}
+
 }  // namespace
 
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
@@ -390,13 +439,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       merge ? "needs the --output of the shards" : "needs the --output of the run to continue");
   const std::filesystem::path folder = parts_folder(session);
   const Communicator& ranks = session.ranks();
-  bool complete = false;
-  collectively(ranks, [&] {
-    complete = resume && ranks.is_root() && is_result_of(session.output(), configuration);
-    if (complete) StudyParts(folder, true).discard();
-  });
-  ranks.broadcast(&complete, sizeof complete);
-  if (complete) {
+  if (resume && is_complete(configuration, folder, session)) {
     const StudyFiles files{session.output().string(), page.complete()};
     session.answer(Json{{"files", files.json()}},
                    fmt::format("results: {}, complete already\n", files.results) +
@@ -423,31 +466,12 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       merge ? StudyParts::keys(configuration) : std::vector<std::uint64_t>();
   if (parts) {
     const std::vector<PartOrigin> others = merge ? parts->others(keys) : std::vector<PartOrigin>();
-    if (!missing.empty()) {
-      const std::string other = strangers(others);
-      throw Incomplete(fmt::format(
-          "{}: {} of {} surfaces are missing{}; {}, then --merge{}", folder.string(),
-          missing.size(), keys.size(),
-          parts->damaged() > 0 ? fmt::format(", {} of them damaged", parts->damaged()) : "",
-          shards_to_run(missing, parts->origins()), other.empty() ? "" : " (" + other + ")"));
-    }
+    require_all(*parts, missing, others, keys.size());
     warn_of_parts(*parts, others, merge, session);
   }
-  std::size_t finished = 0;
-  for (const StudyResult& result : results) {
-    finished += result.realisations.size();
+  for (const StudyResult& result : results)
     for (const std::string& warning : result.warnings) session.warn(warning);
-  }
-  const bool interrupted = results.size() < parameter_combinations(configuration).size() ||
-                           std::ranges::any_of(results, &StudyResult::interrupted);
-  collectively(ranks, [&] {
-    if (interrupted && parts && parts->count() > 0)
-      throw Interrupted(fmt::format(
-          "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
-          "and --resume",
-          parts->count(), parts->folder().string()));
-  });
-  if (finished == 0) throw Interrupted("study: interrupted before the first surface was finished");
+  require_finished(results, configuration, parts.get(), ranks);
   if (configuration.relative_error > 0) {
     try {
       require_relative_error(results);

@@ -3,9 +3,11 @@
 // let go.
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/loop_progress.hpp>
+#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 
 #include "contact/mdr/viscoelastic_spring.hpp"
@@ -303,6 +305,20 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   progress.finish();
   set_means(result, path, moves, trajectory.period());
   return result;
+}
+
+ViscoelasticLoss viscoelastic_loss(const IndenterLaw& law, const PronySeries& prony,
+                                   const Oscillation& motion, double indentation,
+                                   const ViscoelasticOptions& options) {
+  ViscoelasticLoss loss;
+  loss.angular_frequency = std::visit([](const auto& m) { return m.angular_frequency; }, motion);
+  const std::complex<double> modulus = prony.complex_modulus(loss.angular_frequency);
+  loss.storage_modulus = modulus.real();
+  loss.loss_modulus = modulus.imag();
+  loss.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+  loss.damping = viscoelastic_damping(law, prony, sample(motion, indentation, options.steps),
+                                      options.springs, options.on_progress);
+  return loss;
 }
 
 }  // namespace salebra

@@ -70,10 +70,6 @@ const Quantity others[] = {
     Quantity{"model", dimensionless, "contact model"},
     Quantity{"cells", length, "middles of the cells"},
     Quantity{"damping_constant_with_slip", damping, "damping constant P/v^2 with friction"},
-    Quantity{"elastic_work", energy,
-             "energy dissipated in a cycle by the elastic body of the relaxed modulus"},
-    Quantity{"storage_modulus", pressure, "real part of the complex shear modulus"},
-    Quantity{"loss_modulus", pressure, "imaginary part of the complex shear modulus"},
     Quantity{"stabilising_amplitude", length,
              "minimum normal amplitude that stabilises the slider"},
     Quantity{"transverse", length, "displacement along y"},
@@ -105,8 +101,7 @@ const Quantity* entry_of(std::string_view name) {
       EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, LossWithSlip,
       TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider, SliderMotion,
       SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap, RegimeMap,
-      PronyTerm, PronySeries, ViscoelasticDamping, SurfaceDamping, Anisotropy,
-      NonGaussianSurface>();
+      PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy, NonGaussianSurface>();
   const auto found = std::ranges::find(quantities, name, &Quantity::name);
   return found != quantities.end() ? &*found : nullptr;
 }

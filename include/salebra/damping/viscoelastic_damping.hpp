@@ -74,4 +74,39 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
                                          const SampledMotion& trajectory, int springs = 200,
                                          const Progress& on_progress = {});
 
+/// The same for a motion by its name, beside the moduli at its frequency and the loss of the elastic
+/// body of the relaxed modulus.
+struct ViscoelasticLoss {
+  double angular_frequency = 0;                  ///< of the normal motion, rad/s
+  double storage_modulus = 0, loss_modulus = 0;  ///< of the shear modulus at it, Pa
+  double elastic_work = 0;                       ///< J
+  ViscoelasticDamping damping = {};
+};
+
+constexpr void describe(auto&& visit, std::type_identity<ViscoelasticLoss>) {
+  using enum Dimension;
+  using S = ViscoelasticLoss;
+  visit(&S::angular_frequency, quantity::angular_frequency);
+  visit(&S::storage_modulus,
+        Quantity{"storage_modulus", pressure, "real part of the complex shear modulus"});
+  visit(&S::loss_modulus,
+        Quantity{"loss_modulus", pressure, "imaginary part of the complex shear modulus"});
+  visit(&S::elastic_work,
+        Quantity{"elastic_work", energy,
+                 "energy dissipated in a cycle by the elastic body of the relaxed modulus"});
+  visit(&S::damping, Part{"damping", "losses of the viscoelastic body"});
+}
+
+struct ViscoelasticOptions {
+  int steps = 512;    ///< straight ones of a cycle
+  int springs = 200;  ///< over the ring that opens and closes
+  Progress on_progress = {};
+};
+
+/// throws  as relaxation_damping() of the elastic body, which is computed first, and as
+///         viscoelastic_damping()
+ViscoelasticLoss viscoelastic_loss(const IndenterLaw& law, const PronySeries& prony,
+                                   const Oscillation& motion, double indentation,
+                                   const ViscoelasticOptions& options = {});
+
 }  // namespace salebra
