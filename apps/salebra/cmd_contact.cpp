@@ -172,17 +172,15 @@ std::size_t ContactArguments::positions() const {
   for (const auto& [option, values] : {std::pair("--pressure", &pressure),
                                        {"--normal-force", &force},
                                        {"--mean-gap", &mean_gap},
-                                       {"--indentation", &indentation},
-                                       {"--separation", &separation}}) {
+                                       {"--indentation", &indentation}}) {
     if (values->empty()) continue;
     ++kinds;
     count = values->size();
-    if (values != &separation)
-      for (const double value : *values) require_positive(value, option);
+    for (const double value : *values) require_positive(value, option);
   }
   require(kinds <= 1, "--pressure", kinds,
           "kinds of positions are given; give exactly one of --pressure, --normal-force, "
-          "--mean-gap, --indentation, --separation");
+          "--mean-gap, --indentation");
   return count;
 }
 
@@ -287,7 +285,7 @@ void add_contact_command(Program& program) {
   add_values(command, "--pressure", arguments->pressure, Dimension::pressure, "nominal pressure");
   add_values(command, "--normal-force", arguments->force, Dimension::force, "normal force");
   add_values(command, "--mean-gap", arguments->mean_gap, Dimension::length,
-             "mean gap of the deformed surfaces");
+             "mean gap of the deformed surfaces; of summits, of the undeformed ones");
   add_values(command, "--indentation", arguments->indentation, Dimension::length,
              "from first touch");
   arguments->material.add_to(command);
@@ -335,8 +333,6 @@ void add_contact_command(Program& program) {
   command.under(summits);
   add_choice(command, "--distribution", arguments->distribution, {"gaussian", "exponential"},
              "of summit heights; default gaussian");
-  add_values(command, "--separation", arguments->separation, Dimension::length,
-             "position of the smooth plane above the mean plane of summits");
   command.under(parameters);
   add_quantity(command, "--summit-density", arguments->summit_density,
                Dimension::inverse_length_squared, "summits per area");

@@ -30,32 +30,30 @@ namespace salebra::cli {
 namespace {
 
 struct GenerateArguments {
-  std::string points, crop, crop_from = "0", composite, heights_from, method, exact = "heights";
+  std::string points, crop, composite, heights_from, method, exact = "heights";
   std::optional<double> size_x, size_y, skewness, kurtosis, weibull;
   SpectrumOptions spectrum;
   ShapeOptions shape;
   bool profile = false;
   DryRunOptions dry_run;
   std::uint64_t seed = 1;
-  int max_iterations = NonGaussianOptions{}.max_iterations;
 
   bool non_gaussian() const { return skewness || kurtosis || weibull || !heights_from.empty(); }
 };
 
 /// One or two whole numbers, the second of which is the first where it is left out.
-std::pair<Index, Index> counts_of(const std::string& text, const std::string& option,
-                                  double least) {
+std::pair<Index, Index> counts_of(const std::string& text, const std::string& option) {
   const auto values = parse_values(text, Dimension::dimensionless, option);
   for (const double count : values)
-    require(count == std::floor(count) && count >= least && count <= 1 << 20, option, text,
-            fmt::format("must be one or two whole numbers >= {}, NX[,NY]", least));
+    require(count == std::floor(count) && count >= 1 && count <= 1 << 20, option, text,
+            "must be one or two whole numbers >= 1, NX[,NY]");
   require(values.size() <= 2, option, text, "has too many numbers; write NX[,NY]");
   return {static_cast<Index>(values.front()), static_cast<Index>(values.back())};
 }
 
 Grid2D grid_of(const GenerateArguments& arguments) {
   Grid2D grid;
-  std::tie(grid.nx, grid.ny) = counts_of(arguments.points, "--points", 1);
+  std::tie(grid.nx, grid.ny) = counts_of(arguments.points, "--points");
   grid.lx = *arguments.size_x;
   grid.ly = arguments.size_y.value_or(grid.lx * double(grid.ny) / double(grid.nx));
   grid.validate();
@@ -133,15 +131,14 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   if (arguments.non_gaussian()) {
     require(method == "random-phase", "--method", method,
             "has Gaussian heights only; leave it out with a distribution");
-    NonGaussianSurface made = non_gaussian(grid, *spectrum, *distribution, arguments.seed,
-                                           {.exact = *value_of<Exact>(arguments.exact),
-                                            .max_iterations = arguments.max_iterations,
-                                            .on_progress = session.progress()});
+    NonGaussianSurface made = non_gaussian(
+        grid, *spectrum, *distribution, arguments.seed,
+        {.exact = *value_of<Exact>(arguments.exact), .on_progress = session.progress()});
     if (made.interrupted) throw Interrupted("generate: interrupted; no surface was written");
     if (!made.converged)
       throw NotConverged(
           fmt::format("generate: the spectrum still changes after {} iterations; "
-                      "raise --max-iterations",
+                      "take heights closer to Gaussian ones",
                       made.iterations));
     answer["distribution"] = {{"name", distribution->name}};
     answer["distribution"].add(json_of(made));
@@ -157,14 +154,13 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
 }
 
 Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
-  const auto [nx, ny] = counts_of(arguments.crop, "--crop", 1);
-  const auto [first_x, first_y] = counts_of(arguments.crop_from, "--crop-from", 0);
-  return crop_surface(surface, first_x, first_y, nx, ny);
+  const auto [nx, ny] = counts_of(arguments.crop, "--crop");
+  return crop_surface(surface, 0, 0, nx, ny);
 }
 
 void make_profile(const GenerateArguments& arguments, Session& session) {
   require_tables(session, {"profile"});
-  const auto [points, lines] = counts_of(arguments.points, "--points", 1);
+  const auto [points, lines] = counts_of(arguments.points, "--points");
   require_that(lines == points && !arguments.size_y && arguments.crop.empty() &&
                    arguments.composite.empty() && !arguments.non_gaussian() && !session.has_plot(),
                "--profile", "given with an option that only surfaces have; leave that out");
@@ -305,7 +301,6 @@ void add_generate_command(Program& program) {
       ->file(FileUse::input);
   add_choice<Exact>(command, "--exact", arguments->exact,
                     "which of the two holds exactly; default heights");
-  command.add_option("--max-iterations", arguments->max_iterations, "at most; default 200");
 
   arguments->shape.add_to(command);
 
@@ -320,8 +315,6 @@ void add_generate_command(Program& program) {
       .add_option("--crop", arguments->crop,
                   "keep so many points, as a surface that is not periodic")
       ->type_name("NX[,NY]");
-  command.add_option("--crop-from", arguments->crop_from, "first point kept; default 0,0")
-      ->type_name("X[,Y]");
   arguments->dry_run.add_to(command);
 }
 

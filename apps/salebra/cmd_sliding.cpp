@@ -267,7 +267,7 @@ void add_slider(Command& command, SlidingArguments& arguments) {
 void add_sliding_command(Program& program) {
   auto arguments = std::make_shared<SlidingArguments>();
   Command& command = program.add_command(
-      "sliding", "friction under a normal oscillation, and stick–slip of a slider",
+      "sliding", "friction under vibration, and stick–slip of a slider",
       {"salebra sliding --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz --velocities "
        "1nm/s:10mm/s:60 --excursions 1pm:1um:60 -o regimes.csv --plot regimes.png",

@@ -21,7 +21,7 @@ struct ContactArguments {
   std::string model = "bem";
 
   /// Positions; one of them has values.
-  std::vector<double> pressure, force, mean_gap, indentation, separation;
+  std::vector<double> pressure, force, mean_gap, indentation;
 
   std::string boundary = "periodic", precision = "mixed";
   bool stiffness = false, stick = false;
@@ -36,8 +36,7 @@ struct ContactArguments {
   std::optional<double> summit_density, radius, summit_rms;
   std::string distribution = "gaussian";
 
-  /// The number of positions. Throws InvalidInput unless they are of one kind, and > 0 but for a
-  /// separation.
+  /// The number of positions. Throws InvalidInput unless they are of one kind and > 0.
   std::size_t positions() const;
   /// p, Pa, of pressures and forces, from the lowest; empty for other positions.
   std::vector<double> pressures_on(double area) const;

@@ -68,7 +68,7 @@ ForceCurve curve_of(const ContactArguments& arguments, const AsperityModel& mode
   const AsperityModel::Common& common = model.common();
   const std::vector<double> pressures = arguments.pressures_on(common.nominal_area);
   if (!pressures.empty()) return curve_at_pressures(model, pressures);
-  std::vector<double> separations = arguments.separation;
+  std::vector<double> separations;
   for (const double gap : arguments.mean_gap) separations.push_back(gap - common.mean_height);
   for (const double depth : arguments.indentation)
     separations.push_back(common.first_touch - depth);

@@ -47,8 +47,11 @@ constexpr Synonym synonyms[]{
     {"predicted", {"small_amplitude_work"}},
     {"predicted_finite", {"work_by_force"}},
     {"roughness", {"statistics"}},
+    {"separation", {"mean_gap"}},
+    {"separations", {"mean_gap"}},
     {"small_damping_constant", {"small_amplitude_damping_constant"}},
     {"small_work_per_cycle", {"small_amplitude_work"}},
+    {"summits", {"model"}},
 };
 
 /// Of an option, the key of the same name, in lower case.

@@ -190,7 +190,6 @@ TEST_CASE("Pressures, gaps and materials that cannot be are refused, and nothing
        "--groups: is of several positions"},
       {"contact rough.h5 --pressure 1MPa --contact-modulus 1GPa --radius 1um",
        "--radius: is of summits; give --model gw_moments"},
-      {"contact rough.h5 --separation 1nm --contact-modulus 1GPa", "--separation: is of summits"},
       {"contact rough.h5 --model gw_moments --pressure 1MPa --contact-modulus 1GPa --hardness 1GPa",
        "--hardness: is of boundary elements; leave it out with --model gw_moments"},
       {"contact rough.h5 --model gw_moments --pressure 1MPa --contact-modulus 1GPa --radius 1um",
@@ -275,6 +274,9 @@ TEST_CASE("What is called otherwise elsewhere is answered with its name", "[bad-
   check_refused(test.run("study --force 10N"), "(did you mean --pressures?)");
   check_refused(test.run("contact scan.txt --E 210GPa"),
                 "(did you mean --contact-modulus or --young?)");
+  check_refused(test.run("contact scan.txt --pressures 1MPa"), "(did you mean --pressure?)");
+  check_refused(test.run("contact scan.txt --separations 1nm"), "(did you mean --mean-gap?)");
+  check_refused(test.run("contact scan.txt --summits moments"), "(did you mean --model?)");
   check_refused(test.run("roughness scan.txt"), "is not a command (did you mean statistics?)");
 }
 

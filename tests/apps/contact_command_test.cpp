@@ -406,8 +406,7 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
     const auto& curve = answer["curve"];
     for (const auto& [option, column] : {std::pair("--normal-force", "force"),
                                          {"--mean-gap", "mean_gap"},
-                                         {"--indentation", "indentation"},
-                                         {"--separation", "separation"}}) {
+                                         {"--indentation", "indentation"}}) {
       INFO(option);
       const auto same = test.run(fmt::format(
           "contact rough.h5 --model {} {}={} --contact-modulus 10GPa --poisson 0.3 --json", model,
@@ -422,7 +421,7 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
       test.run(
               "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
               "--distribution exponential "
-              "--separation 10nm,30nm --contact-modulus 10GPa --json")
+              "--mean-gap 10nm,30nm --contact-modulus 10GPa --json")
           .json();
   // F ∝ exp(−s/σ), from the lowest force to the highest.
   CHECK(answer["curve"]["pressure"][1].get<double>() /

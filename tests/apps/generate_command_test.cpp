@@ -198,8 +198,7 @@ TEST_CASE("Shapes stand off the grid unless told otherwise", "[generate]") {
 TEST_CASE("A crop is a part of its surface, and a composite the sum of two", "[generate]") {
   const ProgramTest test;
   REQUIRE(test.run(recipe + "--seed 1 -o one.npy").status == 0);
-  const auto crop =
-      test.run(recipe + "--seed 1 --crop 32,16 --crop-from 5,7 -o part.h5 --json").json();
+  const auto crop = test.run(recipe + "--seed 1 --crop 32,16 -o part.h5 --json").json();
   CHECK(crop["nx"] == 32);
   CHECK(crop["size_y"].get<double>() == Approx(1e-6));
   CHECK(crop["periodic"] == false);

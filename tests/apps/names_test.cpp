@@ -277,7 +277,7 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "contact rough.h5 --pressure 2:60MPa:10 --stiffness --stick -o curve.h5" + body,
            "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5 -o gw.h5" + body,
            "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
-           "--separation "
+           "--mean-gap "
            "10nm,20nm,40nm" +
                body,
            "fit curve.h5 -o fit.h5",

@@ -95,7 +95,7 @@ std::vector<Case> all_cases() {
       {"contact_summits",
        {},
        "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
-       "--separation 10nm,20nm,40nm "
+       "--mean-gap 10nm,20nm,40nm "
        "-o out.h5" +
            material},
       {"fit", {in[0], curve + " -o curve.h5"}, "fit IN/curve.h5 -o out.h5"},
