@@ -7,10 +7,8 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/theories.hpp>
 #include <salebra/study/study.hpp>
 #include <utility>
 
@@ -38,28 +36,6 @@ std::string with_error(const EnsembleMean& estimate, double scale = 1) {
                      scale * (estimate.high - estimate.low) / 2);
 }
 
-std::vector<EnsembleMean> bearing_area(const StudyResult& result) {
-  return result.at_pressures([](const Realisation& r, std::size_t k) {
-    return bearing_area_fraction(r.of(ContactModel::bem).curve.samples[k].mean_gap,
-                                 r.heights.rms_height);
-  });
-}
-
-/// K of Campañá, Persson and Müser, pA0/u0, where Persson's theory was asked for.
-Json simple_stiffness(const StudyResult& result) {
-  if (!result.configuration.has(ContactModel::persson)) return nullptr;
-  return to_json(result.at_pressures([&](const Realisation& r, std::size_t k) {
-    return result.pressures[k] * result.grid.area() /
-           r.of(ContactModel::persson).asymptotic_decay_length;
-  }));
-}
-
-/// u0/h_rms of the same; unknown without the theory.
-EnsembleMean simple_decay_length(const StudyResult& result) {
-  if (!result.configuration.has(ContactModel::persson)) return {};
-  return result.fitted("asymptotic_decay_length_over_rms_height", ContactModel::persson);
-}
-
 Json model_json(const StudyResult& result, const StudyModel& model) {
   Json answer = {{"title", model.title}};
   answer["curve"] =
@@ -78,26 +54,27 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
 Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
   Json models = Json::object();
   for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
-  std::vector<double> relative;
-  for (const double pressure : result.pressures)
-    relative.push_back(pressure / result.contact_scale);
+  const StudyTheories theories = result.theories();
   Json spots =
       columns_json<SpotStatistics>([&](const auto& number) { return result.spots(number); });
   spots["corrected_area_slope"] = to_json(result.mean(&Realisation::corrected_area_slope));
-  Json answer = {{"realisations", result.realisations.size()},
-                 {"pressure", result.pressures},
-                 {"relative_pressure", relative},
-                 {"models", models},
-                 {"theories",
-                  {{"bgt_area_slope", bgt_slope},
-                   {"persson_area_slope", persson_slope},
-                   {"bearing_area_fraction", to_json(bearing_area(result))},
-                   {"campana_persson_muser",
-                    {{"decay_length_over_rms_height", to_json(simple_decay_length(result))},
-                     {"normal_stiffness", simple_stiffness(result)}}}}},
-                 {"spots", spots},
-                 {"flags", flags_json(result)},
-                 {"interval_method", result.interval_method()}};
+  Json answer = {
+      {"realisations", result.realisations.size()},
+      {"pressure", result.pressures},
+      {"relative_pressure", theories.relative_pressure},
+      {"models", models},
+      {"theories",
+       {{"bgt_area_slope", theories.bgt_area_slope},
+        {"persson_area_slope", theories.persson_area_slope},
+        {"bearing_area_fraction", to_json(theories.bearing_area_fraction)},
+        {"campana_persson_muser",
+         {{"decay_length_over_rms_height", to_json(theories.decay_length_over_rms_height)},
+          {"normal_stiffness", theories.normal_stiffness.empty()
+                                   ? Json(nullptr)
+                                   : to_json(theories.normal_stiffness)}}}}},
+      {"spots", spots},
+      {"flags", flags_json(result)},
+      {"interval_method", result.interval_method()}};
   add_first_loading(answer, result);
   add_premises(answer, premises);
   return answer;
@@ -128,11 +105,13 @@ std::string slopes_table(const StudyResult& result) {
                     number(slope.mean), limits(slope)});
   }
   const EnsembleMean corrected = result.mean(&Realisation::corrected_area_slope);
-  const EnsembleMean simple = simple_decay_length(result);
+  const StudyTheories theories = result.theories();
+  const EnsembleMean& simple = theories.decay_length_over_rms_height;
   rows.push_back({"boundary elements, area less its edge", "", "", "", number(corrected.mean),
                   limits(corrected)});
-  rows.push_back({"Bush, Gibson, Thomas (p -> 0)", "", "", "", number(bgt_slope, 4), ""});
-  rows.push_back({"Persson (p -> 0)", "", "", "", number(persson_slope, 4), ""});
+  rows.push_back(
+      {"Bush, Gibson, Thomas (p -> 0)", "", "", "", number(theories.bgt_area_slope, 4), ""});
+  rows.push_back({"Persson (p -> 0)", "", "", "", number(theories.persson_area_slope, 4), ""});
   rows.push_back(
       {"Campañá, Persson, Müser: K = p/u0", number(simple.mean), limits(simple), "", "", ""});
   return "Decay length of force with mean gap, and slope of A/A0 over p/(E* h')\n" +
@@ -149,7 +128,8 @@ std::string loads_table(const StudyResult& result) {
   const auto persson =
       by_persson ? result.curve(&ForceSample::contact_area_fraction, ContactModel::persson)
                  : std::vector<EnsembleMean>(result.pressures.size());
-  const auto bearing = bearing_area(result);
+  const StudyTheories theories = result.theories();
+  const auto& bearing = theories.bearing_area_fraction;
   const auto count = result.spots(&SpotStatistics::spot_count);
   const auto gap = result.at_pressures([](const Realisation& r, std::size_t k) {
     return r.of(ContactModel::bem).curve.samples[k].mean_gap / r.heights.rms_height;
@@ -160,7 +140,7 @@ std::string loads_table(const StudyResult& result) {
   });
   const auto largest = result.spots(&SpotStatistics::largest_spot_share);
   for (const std::size_t k : shown_pressures(result, 8)) {
-    rows.push_back({number(result.pressures[k] / result.contact_scale, 2), with_error(gap[k]),
+    rows.push_back({number(theories.relative_pressure[k], 2), with_error(gap[k]),
                     with_error(area[k], 100), number(100 * corrected[k].mean),
                     number(100 * persson[k].mean), number(100 * bearing[k].mean),
                     with_error(stiffness[k]), number(count[k].mean), number(largest[k].mean, 2)});

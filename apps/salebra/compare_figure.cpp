@@ -30,9 +30,10 @@ void add_references(const StudyResult& result, const std::vector<double>& loads,
                     const std::vector<double>& forces, std::array<PlotPanel, 4>& panels) {
   auto& [gaps, areas, stiffness, damping] = panels;
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
-  areas.lines = {{.at = bgt_slope, .name = "BGT"}};
+  const StudyTheories theories = result.theories();
+  areas.lines = {{.at = theories.bgt_area_slope, .name = "BGT"}};
   if (!result.configuration.has(ContactModel::persson))
-    areas.lines.push_back({.at = persson_slope, .name = "Persson"});
+    areas.lines.push_back({.at = theories.persson_area_slope, .name = "Persson"});
   PlotCurve edge = band("boundary elements, less the edge", loads,
                         result.at_pressures([&](const Realisation& r, std::size_t k) {
                           return r.spots[k].corrected_area_fraction / result.pressures[k] *

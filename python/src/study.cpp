@@ -182,7 +182,8 @@ void bind_result(nb::module_& m) {
       .def(
           "deviation_range",
           [](const StudyResult& self, const std::string& model) {
-            return self.deviation_range(contact_model(model));
+            const auto [low, high] = self.deviation_range(contact_model(model));
+            return std::pair(low, high);
           },
           nb::arg("model") = "bem",
           "Least and greatest deviation of Eq. (16) from the theorem on the curve.")

@@ -106,7 +106,7 @@ void CycleFields::write(const CycleState& state, double time, const NormalContac
     if (field.size() == 0) return;
     fields.dataset(names.emplace_back(quantity.name), field);
   });
-  fields.attribute("step", state.step);
+  fields.plain().attribute("step", state.step);
   fields.attribute("time_in_periods", time);
   file.commit();
   add(state.step, time, std::move(names));

@@ -215,16 +215,12 @@ void write_damping(Table table, const StudyResult& result) {
                                    [&](ContactModel model) { return result.damping(name, model); });
                 },
                 {"model", "pressure"});
-  std::vector<double> low, high;
-  for (const StudyModel& model : result.models()) {
-    const auto range = result.deviation_range(model.id);
-    low.push_back(range.first);
-    high.push_back(range.second);
-  }
-  table.put({"deviation_min", Dimension::dimensionless, "minimum deviation over the pressures"},
-            low, {"model"});
-  table.put({"deviation_max", Dimension::dimensionless, "maximum deviation over the pressures"},
-            high, {"model"});
+  for_each_column<DeviationRange>([&](const auto& access, const Quantity& quantity) {
+    std::vector<double> values;
+    for (const StudyModel& model : result.models())
+      values.push_back(access(result.deviation_range(model.id)));
+    table.put(quantity, values, {"model"});
+  });
   ResultGroup& group = table.group();
   group.attribute("interval_method", result.interval_method());
   group.attribute("law",

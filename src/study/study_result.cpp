@@ -5,7 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
+#include <salebra/contact/theories.hpp>
 #include <salebra/study/study.hpp>
 
 namespace salebra {
@@ -158,13 +160,32 @@ std::vector<StatedMean> StudyResult::stated_damping(ContactModel model) const {
   return stated;
 }
 
-std::pair<double, double> StudyResult::deviation_range(ContactModel model) const {
+DeviationRange StudyResult::deviation_range(ContactModel model) const {
   double low = ForceSample::unknown, high = ForceSample::unknown;
   for (const EnsembleMean& ratio : deviation(model)) {
     low = std::fmin(low, ratio.mean);
     high = std::fmax(high, ratio.mean);
   }
   return {low, high};
+}
+
+StudyTheories StudyResult::theories() const {
+  StudyTheories theories;
+  theories.bgt_area_slope = std::sqrt(2 * std::numbers::pi);
+  theories.persson_area_slope = std::sqrt(8 / std::numbers::pi);
+  for (const double pressure : pressures)
+    theories.relative_pressure.push_back(pressure / contact_scale);
+  theories.bearing_area_fraction = at_pressures([](const Realisation& r, std::size_t k) {
+    return bearing_area_fraction(r.of(ContactModel::bem).curve.samples[k].mean_gap,
+                                 r.heights.rms_height);
+  });
+  if (!configuration.has(ContactModel::persson)) return theories;
+  theories.decay_length_over_rms_height =
+      fitted("asymptotic_decay_length_over_rms_height", ContactModel::persson);
+  theories.normal_stiffness = at_pressures([&](const Realisation& r, std::size_t k) {
+    return pressures[k] * grid.area() / r.of(ContactModel::persson).asymptotic_decay_length;
+  });
+  return theories;
 }
 
 bool is_milestone(std::size_t surfaces) {

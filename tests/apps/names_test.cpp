@@ -42,16 +42,15 @@ const std::map<std::string, Meanings> groups{
     {"curve", columns_of<ForceSample>()},
     {"local", columns_of<LocalDecayLength>()},
     {"fit", columns_of<ModelResult, LawDescription>()},
-    {"damping", columns_of<DampingPoint>()},
+    {"damping", columns_of<DampingPoint, DeviationRange>()},
     {"spots", columns_of<SpotStatistics>()},
     {"convergence", columns_of<ModelResult>()},
     {"comparison", columns_of<ForceSample, DampingPoint>()},
     {"ensemble", columns_of<SelfAffineParameters, Grid2D, ModelResult>()}};
 
 /// Axes and verdicts, which belong to no struct.
-const std::set<std::string> beside{"model",         "realisation",  "pressure", "midpoint",
-                                   "min_cells",     "surfaces",     "point",    "realisations",
-                                   "deviation_min", "deviation_max"};
+const std::set<std::string> beside{"model",     "realisation", "pressure", "midpoint",
+                                   "min_cells", "surfaces",    "point",    "realisations"};
 
 void check_group(const ResultReader& reader, const std::string& path, const std::string& group) {
   const Meanings& columns = groups.at(group);
@@ -81,15 +80,15 @@ void check_group(const ResultReader& reader, const std::string& path, const std:
 
 /// What counts or names, and so has no unit: axes of files, and what an answer has beside its
 /// quantities.
-const std::set<std::string> indices{"sample",    "component",  "realisation", "midpoint",
-                                    "min_cells", "surfaces",   "point",       "nx",
-                                    "ny",        "mapped_load"};
+const std::set<std::string> indices{"sample",    "component",   "realisation", "midpoint",
+                                    "min_cells", "surfaces",    "point",       "nx",
+                                    "ny",        "mapped_load", "step"};
 const std::set<std::string> counts{"realisations", "seed"};
 
 /// Columns of studies, whose descriptions stand beside their structs.
 const Meanings& columns_of_studies() {
-  static const Meanings all =
-      columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture>();
+  static const Meanings all = columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics,
+                                         SurfacePicture, DeviationRange, StudyTheories>();
   return all;
 }
 bool is_listed(const std::string& name) {

@@ -44,6 +44,50 @@ constexpr void describe(auto&& visit, std::type_identity<StatedMean>) {
   visit(&StatedMean::error, Kept{"error", "numerical error of the mean"});
 }
 
+/// How far the loss by the fitted law is off that of the curve.
+struct DeviationRange {
+  double deviation_min = 0, deviation_max = 0;  ///< of StudyResult::deviation(); NaN without any
+};
+
+constexpr void describe(auto&& visit, std::type_identity<DeviationRange>) {
+  using enum Dimension;
+  using S = DeviationRange;
+  visit(&S::deviation_min,
+        Quantity{"deviation_min", dimensionless, "minimum deviation over the pressures"});
+  visit(&S::deviation_max,
+        Quantity{"deviation_max", dimensionless, "maximum deviation over the pressures"});
+}
+
+/// What closed theories say of the surfaces of a study.
+struct StudyTheories {
+  double bgt_area_slope = 0;                        ///< of A/A0 over p/(E*h') as p → 0: √(2π)
+  double persson_area_slope = 0;                    ///< √(8/π)
+  std::vector<double> relative_pressure;            ///< p/(E*h') of each pressure
+  std::vector<EnsembleMean> bearing_area_fraction;  ///< at the mean gaps of the boundary elements
+  /// u0/h_rms and K = pA0/u0 of Campañá, Persson and Müser; unknown and empty without
+  /// ContactModel::persson.
+  EnsembleMean decay_length_over_rms_height;
+  std::vector<EnsembleMean> normal_stiffness;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<StudyTheories>) {
+  using enum Dimension;
+  using S = StudyTheories;
+  visit(&S::bgt_area_slope,
+        Quantity{"bgt_area_slope", dimensionless, "area slope of Bush, Gibson and Thomas"});
+  visit(&S::persson_area_slope,
+        Quantity{"persson_area_slope", dimensionless, "area slope of Persson's theory"});
+  visit(&S::relative_pressure,
+        Quantity{"relative_pressure", dimensionless, "nominal pressure over E* times rms slope"});
+  visit(&S::bearing_area_fraction,
+        Quantity{"bearing_area_fraction", dimensionless,
+                 "part of the undeformed surface above the mean gap of the contact"});
+  visit(&S::decay_length_over_rms_height,
+        Kept{"decay_length_over_rms_height", "decay length by the simple theory over rms height"});
+  visit(&S::normal_stiffness,
+        Kept{"normal_stiffness", "normal stiffness by the simple theory", stiffness});
+}
+
 /// The ensemble at one point of the parameter grid.
 struct StudyResult {
   StudyConfiguration configuration;  ///< of this point: its ensemble lists are empty
@@ -69,6 +113,8 @@ struct StudyResult {
 
   /// The exponential law against the mean curve of a model; none where no local l is known.
   std::optional<LawDescription> law_description(ContactModel model = ContactModel::bem) const;
+
+  StudyTheories theories() const;
 
   /// Means of a quantity of each pressure, in the order of pressures; contacts that did not
   /// converge take no part.
@@ -104,8 +150,8 @@ struct StudyResult {
   /// NaN where the error is not smaller.
   std::vector<StatedMean> stated_damping(ContactModel model = ContactModel::bem) const;
 
-  /// Minimum and maximum of deviation() over the pressures, NaN without any.
-  std::pair<double, double> deviation_range(ContactModel model = ContactModel::bem) const;
+  /// Over the pressures.
+  DeviationRange deviation_range(ContactModel model = ContactModel::bem) const;
   /// The numbers of surfaces of convergence(): the milestones, and all.
   std::vector<std::size_t> convergence_counts() const;
   /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations:
