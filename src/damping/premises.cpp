@@ -603,6 +603,29 @@ double length_of(const ContactLaw& law, double mean, double amplitude) {
   return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
 }
 
+// The largest motions without slip, for μ or, where it is not known, for three of them. displacement:
+// that of 5 % in units of μ/g. closed_limits: of the levels that stay closed, for a μ/g.
+template <class ClosedLimits>
+std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const ContactFacts& facts,
+                                           double modulus_ratio, double displacement,
+                                           const ClosedLimits& closed_limits) {
+  std::vector<double> coefficients{facts.friction_coefficient};
+  if (std::isnan(facts.friction_coefficient)) coefficients = {0.1, 0.3, 1};
+  std::vector<LargestMotion> motions;
+  for (const double coefficient : coefficients) {
+    const double limit = coefficient / modulus_ratio;
+    LargestMotion largest{.friction_coefficient = coefficient};
+    if (motion.drag) {
+      largest.drag_velocity = limit * displacement * motion.angular_frequency;
+      if (!std::isnan(motion.displacement)) largest.excursion = limit * closed_limits(limit).five;
+    } else {
+      largest.tangential_amplitude = largest.excursion = limit * displacement;
+    }
+    motions.push_back(largest);
+  }
+  return motions;
+}
+
 Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
                       const ContactFacts& facts) {
   check(facts);
@@ -646,6 +669,8 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
     return ClosedLevels(law, motion.mean - amplitude, amplitude, moved)
         .limits(stick * moved * moved, 100 * length);
   };
+  premises.largest =
+      largest_motions(motion, facts, law.modulus_ratio(), displacements.five, closed_limits);
   if (!motion.drag) {
     closed.limit_5_percent = stretch * displacements.five;
     closed.limit_20_percent = stretch * displacements.twenty;
@@ -665,20 +690,6 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
                       : slides(law, motion, displacement / stretch, closed.value / stretch)
                           ? Regime::sliding
                           : Regime::partial_slip;
-
-  std::vector<double> coefficients{facts.friction_coefficient};
-  if (std::isnan(facts.friction_coefficient)) coefficients = {0.1, 0.3, 1};
-  for (const double coefficient : coefficients) {
-    const double limit = coefficient / law.modulus_ratio();
-    LargestMotion largest{.friction_coefficient = coefficient};
-    if (motion.drag) {
-      largest.drag_velocity = limit * displacements.five * motion.angular_frequency;
-      if (!std::isnan(displacement)) largest.excursion = limit * closed_limits(limit).five;
-    } else {
-      largest.tangential_amplitude = largest.excursion = limit * displacements.five;
-    }
-    premises.largest.push_back(largest);
-  }
   return premises;
 }
 

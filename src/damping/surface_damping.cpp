@@ -547,6 +547,35 @@ void validate(const Surface& surface, const ForceCurve& curve,
           options.relative_error, "must lie between 0 and 1");
 }
 
+/// The contacts of some loads on one grid, side by side.
+void solve_on(const Surface& fine, const std::vector<Load*>& open,
+              const SurfaceDampingOptions& options) {
+  const Communicator& ranks = fine.ranks;
+  // Two loads of a surface that is spread would send through each other.
+  const int wanted =
+      ranks.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
+  require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
+                 wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
+                 ranks);
+  std::atomic<double> residual = 0;  // of the contact that was heard of last
+  detail::TaskLoop loop({.at_once = wanted, .ranks = ranks, .talk = [&] {
+                           const int done = loop.finished();
+                           return !options.on_progress ||
+                                  options.on_progress({"damping",
+                                                       double(done) / double(open.size()), done,
+                                                       residual});
+                         }});
+  const Progress progress = [&](const ProgressReport& report) {
+    residual = report.residual;
+    return loop.going_on();
+  };
+  // The highest loads take longest and go first.
+  loop.run(static_cast<Index>(open.size()), [&](Index turn) {
+    open[open.size() - 1 - static_cast<std::size_t>(turn)]->solve(fine, progress);
+  });
+  if (!ranks.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+}
+
 }  // namespace
 
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
@@ -572,29 +601,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     const Index factor = halving > 0 ? Index(1) << halving : 1;
     if (open.empty() || (halving > options.refinements && factor > options.most_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
-    // Two loads of a surface that is spread would send through each other.
-    const int wanted =
-        ranks.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
-    require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
-                   wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
-                   ranks);
-    std::atomic<double> residual = 0;  // of the contact that was heard of last
-    detail::TaskLoop loop({.at_once = wanted, .ranks = ranks, .talk = [&] {
-                             const int done = loop.finished();
-                             return !options.on_progress ||
-                                    options.on_progress({"damping",
-                                                         double(done) / double(open.size()), done,
-                                                         residual});
-                           }});
-    const Progress progress = [&](const ProgressReport& report) {
-      residual = report.residual;
-      return loop.going_on();
-    };
-    // The highest loads take longest and go first.
-    loop.run(static_cast<Index>(open.size()), [&](Index turn) {
-      open[open.size() - 1 - static_cast<std::size_t>(turn)]->solve(fine, progress);
-    });
-    if (!ranks.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+    solve_on(fine, open, options);
   }
   std::vector<SurfaceDamping> results;
   for (const Load& load : loads) results.push_back(result_of(load, motion, options));

@@ -140,6 +140,16 @@ std::string unit_of(std::string_view& key) {
 }
 
 /// Whether something of the entry was used.
+bool read_unit(Axes axes, std::string_view value, TextHeader& header) {
+  std::string unit(value);
+  if (unit.size() > 2 && unit.front() == '[' && unit.back() == ']')
+    unit = trimmed(unit.substr(1, unit.size() - 2));
+  // A unit of an axis that is no length is refused where the axis is scaled.
+  if (axes == Axes::none || (axes == Axes::all && !is_length(unit))) return false;
+  set_unit(header, axes, unit);
+  return true;
+}
+
 bool read_entry(const std::filesystem::path& file, std::string_view key, std::string_view value,
                 TextHeader& header) {
   key = trimmed(key);
@@ -166,16 +176,8 @@ bool read_entry(const std::filesystem::path& file, std::string_view key, std::st
   }
   std::string letters;
   std::ranges::copy_if(name, std::back_inserter(letters), is_letter);
-  if (const auto rest = without(letters, {"units", "unit", "einheiten", "einheit"})) {
-    const Axes axes = axes_of(*rest);
-    std::string unit(value);
-    if (unit.size() > 2 && unit.front() == '[' && unit.back() == ']')
-      unit = trimmed(unit.substr(1, unit.size() - 2));
-    // A unit of an axis that is no length is refused where the axis is scaled.
-    if (axes == Axes::none || (axes == Axes::all && !is_length(unit))) return false;
-    set_unit(header, axes, unit);
-    return true;
-  }
+  if (const auto rest = without(letters, {"units", "unit", "einheiten", "einheit"}))
+    return read_unit(axes_of(*rest), value, header);
   if (const auto of_pixel = without(letters, {"pixel"})) {
     const auto rest = without(
         *of_pixel, {"size", "gr\u00f6\u00dfe", "groesse", "spacing", "abstand", "pitch", "weite"});

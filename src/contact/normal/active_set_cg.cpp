@@ -214,6 +214,22 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
   return result;
 }
 
+// e_c by what a step has seen. with_clipped: counts the pressure that the bounds took, where the set
+// stays as it is.
+template <class Real>
+double ActiveSetCg<Real>::estimate_of(const StepSums& step, const Run& run,
+                                      bool with_clipped) const {
+  const double carried =
+      step.pressure + (step.saturated > 0 ? step.saturated * run.target.bound : 0);
+  const double scale_of_misfit = carried * rms_height_;
+  if (!(scale_of_misfit > 0)) return std::numeric_limits<double>::infinity();
+  double estimate =
+      run.load_given()
+          ? (step.signed_misfit - (step.least - run.level) * step.pressure) / scale_of_misfit
+          : step.misfit / scale_of_misfit + std::max(0.0, run.level - step.least) / rms_height_;
+  if (with_clipped) estimate += step.clipped / carried;
+  return estimate;
+}
 // One step of CG, and the change of the free set that it calls for. Returns false where no free
 // cell is left.
 template <class Real>
@@ -256,21 +272,10 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
       static_cast<double>(std::count(quiet_.begin(), quiet_.end(), 1)) * tile_width;
   run.outcome.resting_cells += resting;
   run.outcome.active_cells += static_cast<double>(tile_points()) - resting;
-  const double carried =
-      step.pressure + (step.saturated > 0 ? step.saturated * run.target.bound : 0);
-  const double scale_of_misfit = carried * rms_height_;
   const bool worth_a_change =
       std::sqrt(std::max(step.outside, step.wrong / (cell_compliance_ * cell_compliance_))) >
       run.threshold * std::abs(alpha) * std::sqrt(zz);
-  if (scale_of_misfit > 0) {
-    run.estimate =
-        load_given
-            ? (step.signed_misfit - (step.least - run.level) * step.pressure) / scale_of_misfit
-            : step.misfit / scale_of_misfit + std::max(0.0, run.level - step.least) / rms_height_;
-    if (!worth_a_change) run.estimate += step.clipped / carried;
-  } else {
-    run.estimate = std::numeric_limits<double>::infinity();
-  }
+  run.estimate = estimate_of(step, run, !worth_a_change);
   const bool done = run.estimate < 0.7 * run.limits.tolerance;
   if (run.estimate < 0.5 * run.best) {
     run.best = run.estimate;
@@ -357,8 +362,9 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
       // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is
       // left as it is.
       if (limits.exact)
-        gradient_projection(exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_,
-                            target, limits, p, g, run.outcome);
+        gradient_projection(
+            {exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_, target}, limits, p,
+            g, run.outcome);
       break;
     }
   }

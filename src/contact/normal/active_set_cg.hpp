@@ -208,7 +208,10 @@ class ActiveSetCg {
   void choose_tiles(Run& run, double margin);
   void list_tiles();
   void choose_operator();
+  void hold_punch_set(const double* p, double bound);
   void begin_punch();
+  bool punch_rounds(const PunchLimits& limits, PunchOutcome& outcome);
+  void measure_punch(PunchOutcome& outcome, Field* pressure);
   double punch_step(double& curvature, PunchOutcome& outcome);
   void renew_punch_residual();
   std::byte* pool(std::size_t bytes);
@@ -216,6 +219,7 @@ class ActiveSetCg {
   void unpack_pressure(const Run& run, double scale) const;
   void begin_set(Run& run, const std::vector<SetSums>& parts);
   void frame_residual();
+  double estimate_of(const StepSums& step, const Run& run, bool with_clipped) const;
   bool iterate(Run& run);
   LoadCorrection correction_over_tiles(const Run& run, double pressure) const;
   void change_set(Run& run, bool truncate, double pressure);

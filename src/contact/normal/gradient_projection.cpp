@@ -23,21 +23,19 @@ constexpr int refresh_every = 20;  // rounds, against the drift of g
 
 class Descent {
  public:
-  Descent(Convolution2D<double>& compliance, const Grid2D& grid, const Share& rows,
-          Boundary boundary, const Heights& heights, const ContactTarget& target, double* p,
-          double* g, ActiveSetOutcome& outcome)
-      : compliance_(compliance),
-        rows_(rows),
-        cells_(static_cast<double>(grid.points())),
-        boundary_(boundary),
-        target_(target),
-        heights_(heights.values, rows.count(), grid.ny),
-        zero_(heights.zero),
-        p_(p, rows.count(), grid.ny),
-        g_(g, rows.count(), grid.ny),
-        inverse_(grid),
+  Descent(const ProjectionProblem& problem, double* p, double* g, ActiveSetOutcome& outcome)
+      : compliance_(problem.compliance),
+        rows_(problem.rows),
+        cells_(static_cast<double>(problem.grid.points())),
+        boundary_(problem.boundary),
+        target_(problem.target),
+        heights_(problem.heights.values, rows_.count(), problem.grid.ny),
+        zero_(problem.heights.zero),
+        p_(p, rows_.count(), problem.grid.ny),
+        g_(g, rows_.count(), problem.grid.ny),
+        inverse_(problem.grid),
         outcome_(outcome) {
-    image_.resize(rows.count(), grid.ny);
+    image_.resize(rows_.count(), problem.grid.ny);
   }
 
   // The load and g afresh: steps add round-off to both, more of it the more elongated the cells.
@@ -227,11 +225,11 @@ class Descent {
 
 }  // namespace
 
-void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, const Share& rows,
-                         Boundary boundary, const Heights& heights, double rms_height,
-                         const ContactTarget& target, const ActiveSetLimits& limits, double* p,
+void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits& limits, double* p,
                          double* g, ActiveSetOutcome& outcome) {
-  Descent descent(compliance, grid, rows, boundary, heights, target, p, g, outcome);
+  const Grid2D& grid = problem.grid;
+  const Share& rows = problem.rows;
+  Descent descent(problem, p, g, outcome);
   descent.refresh();
   int fruitless = 0;  // rounds without descent by gradient projection: rounding, or the solution
   for (int round = 1;; ++round) {
@@ -239,7 +237,7 @@ void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, 
     ++outcome.iterations;
     descent.descend_on_face(
         std::min(most_steps_on_a_face, limits.max_iterations - outcome.iterations));
-    auto now = contact_residual(grid, rows, target, rms_height, p, g);
+    auto now = contact_residual(grid, rows, problem.target, problem.rms_height, p, g);
     const bool ends =
         fruitless >= most_fruitless_rounds || outcome.iterations >= limits.max_iterations;
     if (limits.keep_going &&
@@ -253,7 +251,7 @@ void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, 
     if (now.residual < limits.tolerance || ends || outcome.interrupted ||
         round % refresh_every == 0) {
       descent.refresh();
-      now = contact_residual(grid, rows, target, rms_height, p, g);
+      now = contact_residual(grid, rows, problem.target, problem.rms_height, p, g);
     }
     outcome.residual = now.residual;
     outcome.level = now.level;

@@ -12,9 +12,16 @@ namespace salebra::detail {
 // turns (Moré and Toraldo 1991, doi:10.1137/0801008). Each step lowers ½p·Gp − p·h, so it converges
 // from any start; several times the iterations of ActiveSetCg. p: within its bounds on entry, the
 // solution on return; g = Gp − h on return. Counters in outcome are accumulated.
-void gradient_projection(Convolution2D<double>& compliance, const Grid2D& grid, const Share& rows,
-                         Boundary boundary, const Heights& heights, double rms_height,
-                         const ContactTarget& target, const ActiveSetLimits& limits, double* p,
+struct ProjectionProblem {
+  Convolution2D<double>& compliance;
+  const Grid2D& grid;
+  const Share& rows;
+  Boundary boundary;
+  Heights heights;
+  double rms_height;
+  ContactTarget target;
+};
+void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits& limits, double* p,
                          double* g, ActiveSetOutcome& outcome);
 
 }  // namespace salebra::detail

@@ -107,6 +107,87 @@ Field sampled(const MultigridLevel& fine, const Share& rows, Index ny, Boundary 
   return coarse;
 }
 
+// Pressure and displacement of one coarse row, with one point before and two beyond as the
+// interpolation between two points wants them, at the points of a row of the finer grid.
+class RowStretch {
+ public:
+  RowStretch(Index coarse, const std::vector<Weights>& along, Boundary boundary)
+      : coarse_(coarse),
+        along_(along),
+        boundary_(boundary),
+        p_framed_(static_cast<std::size_t>(coarse + 3)),
+        u_framed_(p_framed_) {}
+
+  void load(const CoarseSolution& from, Index row) {
+    float *p = p_framed_.data() + 1, *u = u_framed_.data() + 1;
+    const double* heights = from.grid.heights.values + row * coarse_;
+    const double zero = from.grid.heights.zero;
+    for (Index j = 0; j < coarse_; ++j) {
+      p[j] = static_cast<float>(from.pressure(row, j));
+      u[j] = static_cast<float>(from.gap(row, j) + (heights[j] - zero) - from.level);
+    }
+    for (const Index j : {Index(-1), coarse_, coarse_ + 1}) {
+      p[j] = p[into(j, coarse_, boundary_)];
+      u[j] = u[into(j, coarse_, boundary_)];
+    }
+  }
+
+  void write(float* p_row, float* u_row) const {
+    const float *p = p_framed_.data() + 1, *u = u_framed_.data() + 1;
+    const auto fine = static_cast<Index>(along_.size());
+    if (fine == 2 * coarse_) {
+      const Weights& between = along_[1];
+      const float outer = between.cubic[0], inner = between.cubic[1];
+      for (Index j = 0; j < coarse_; ++j) {
+        p_row[2 * j] = p[j];
+        p_row[2 * j + 1] = 0.5f * (p[j] + p[j + 1]);
+        u_row[2 * j] = u[j];
+        u_row[2 * j + 1] = inner * (u[j] + u[j + 1]) + outer * (u[j - 1] + u[j + 2]);
+      }
+      return;
+    }
+    for (Index j = 0; j < fine; ++j) {
+      const Weights& w = along_[static_cast<std::size_t>(j)];
+      p_row[j] = w.linear[1] * p[w.point[1]] + w.linear[2] * p[w.point[2]];
+      u_row[j] = 0;
+      for (std::size_t k = 0; k < 4; ++k) u_row[j] += w.cubic[k] * u[w.point[k]];
+    }
+  }
+
+ private:
+  const Index coarse_;
+  const std::vector<Weights>& along_;
+  const Boundary boundary_;
+  std::vector<float> p_framed_, u_framed_;
+};
+
+// The stretched rows about one of the finer grid, and their weights.
+struct FourRows {
+  const Weights& w;
+  std::array<const float*, 4> p, u;
+};
+
+void predict_row(const FourRows& rows, const MultigridLevel& fine, Index row_of_fine, double step,
+                 double* row) {
+  const auto& [w, p, u] = rows;
+  const Index ny = fine.grid.ny;
+  const double* heights = fine.heights.values + row_of_fine * ny;
+  const double zero = fine.heights.zero;
+  const auto predict = [&](Index j, float p_here, float u_here) {
+    const double predicted =
+        static_cast<double>(p_here) - step * (static_cast<double>(u_here) - (heights[j] - zero));
+    row[j] = predicted > 0 ? predicted : 0;
+  };
+  if (w.linear[2] == 0) {
+    for (Index j = 0; j < ny; ++j) predict(j, p[1][j], u[1][j]);
+  } else {
+    for (Index j = 0; j < ny; ++j)
+      predict(j, w.linear[1] * p[1][j] + w.linear[2] * p[2][j],
+              w.cubic[0] * u[0][j] + w.cubic[1] * u[1][j] + w.cubic[2] * u[2][j] +
+                  w.cubic[3] * u[3][j]);
+  }
+}
+
 }  // namespace
 
 std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& rows,
@@ -127,52 +208,24 @@ std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& ro
   return levels;
 }
 
-void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const Field& coarse_gap,
-             double level, const MultigridLevel& fine, Boundary boundary, double step,
-             double* pressure) {
-  const Index coarse_ny = coarse.grid.ny, ny = fine.grid.ny;
+void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary boundary,
+             double step, double* pressure) {
+  const Share& coarse_rows = coarse.grid.rows;
+  const Index coarse_ny = coarse.grid.grid.ny, ny = fine.grid.ny;
   const auto along_y = interpolation(coarse_ny, ny, boundary);
-  const auto along_x = interpolation(coarse.grid.nx, fine.grid.nx, boundary);
-  const auto size = static_cast<std::size_t>(coarse.rows.count() * ny);
+  const auto along_x = interpolation(coarse.grid.grid.nx, fine.grid.nx, boundary);
+  const auto size = static_cast<std::size_t>(coarse_rows.count() * ny);
   const auto p_rows = large_array<float>(size), u_rows = large_array<float>(size);
   parallel::for_slabs(
-      coarse.rows.count(),
+      coarse_rows.count(),
       [&](Index begin, Index end) {
-        // One point before and two beyond, as the interpolation between two points wants them.
-        std::vector<float> p_framed(static_cast<std::size_t>(coarse_ny + 3)), u_framed(p_framed);
-        float *p = p_framed.data() + 1, *u = u_framed.data() + 1;
+        RowStretch stretch(coarse_ny, along_y, boundary);
         for (Index i = begin; i < end; ++i) {
-          const double* heights = coarse.heights.values + i * coarse_ny;
-          for (Index j = 0; j < coarse_ny; ++j) {
-            p[j] = static_cast<float>(coarse_pressure(i, j));
-            u[j] =
-                static_cast<float>(coarse_gap(i, j) + (heights[j] - coarse.heights.zero) - level);
-          }
-          for (const Index j : {Index(-1), coarse_ny, coarse_ny + 1}) {
-            p[j] = p[into(j, coarse_ny, boundary)];
-            u[j] = u[into(j, coarse_ny, boundary)];
-          }
-          float *p_row = p_rows.get() + i * ny, *u_row = u_rows.get() + i * ny;
-          if (ny == 2 * coarse_ny) {
-            const Weights& between = along_y[1];
-            const float outer = between.cubic[0], inner = between.cubic[1];
-            for (Index j = 0; j < coarse_ny; ++j) {
-              p_row[2 * j] = p[j];
-              p_row[2 * j + 1] = 0.5f * (p[j] + p[j + 1]);
-              u_row[2 * j] = u[j];
-              u_row[2 * j + 1] = inner * (u[j] + u[j + 1]) + outer * (u[j - 1] + u[j + 2]);
-            }
-          } else {
-            for (Index j = 0; j < ny; ++j) {
-              const Weights& w = along_y[static_cast<std::size_t>(j)];
-              p_row[j] = w.linear[1] * p[w.point[1]] + w.linear[2] * p[w.point[2]];
-              u_row[j] = 0;
-              for (std::size_t k = 0; k < 4; ++k) u_row[j] += w.cubic[k] * u[w.point[k]];
-            }
-          }
+          stretch.load(coarse, i);
+          stretch.write(p_rows.get() + i * ny, u_rows.get() + i * ny);
         }
       },
-      coarse.rows.count() * coarse_ny);
+      coarse_rows.count() * coarse_ny);
   // The rows between which those of this process lie.
   const auto wanted = [&](int rank) {
     const Index begin = fine.rows.begin_of(rank), end = fine.rows.end_of(rank);
@@ -180,7 +233,7 @@ void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const F
     const Index first = along_x[static_cast<std::size_t>(begin)].base - 1;
     return RowExchange::Window{first, along_x[static_cast<std::size_t>(end - 1)].base + 3 - first};
   };
-  const RowExchange neighbours(coarse.rows, wanted, edge_of(boundary));
+  const RowExchange neighbours(coarse_rows, wanted, edge_of(boundary));
   const Index first = wanted(fine.rows.ranks().rank()).first;
   const std::size_t row_bytes = static_cast<std::size_t>(ny) * sizeof(float);
   std::vector<std::byte> p_room, u_room;
@@ -197,22 +250,7 @@ void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const F
             p[k] = static_cast<const float*>(p_places[place]);
             u[k] = static_cast<const float*>(u_places[place]);
           }
-          const double* heights = fine.heights.values + i * ny;
-          const double zero = fine.heights.zero;
-          double* row = pressure + i * ny;
-          const auto predict = [&](Index j, float p_here, float u_here) {
-            const double predicted = static_cast<double>(p_here) -
-                                     step * (static_cast<double>(u_here) - (heights[j] - zero));
-            row[j] = predicted > 0 ? predicted : 0;
-          };
-          if (w.linear[2] == 0) {
-            for (Index j = 0; j < ny; ++j) predict(j, p[1][j], u[1][j]);
-          } else {
-            for (Index j = 0; j < ny; ++j)
-              predict(j, w.linear[1] * p[1][j] + w.linear[2] * p[2][j],
-                      w.cubic[0] * u[0][j] + w.cubic[1] * u[1][j] + w.cubic[2] * u[2][j] +
-                          w.cubic[3] * u[3][j]);
-          }
+          predict_row({w, p, u}, fine, i, step, pressure + i * ny);
         }
       },
       fine.rows.count() * ny);

@@ -25,8 +25,12 @@ std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& ro
 // cubic displacement predicts,
 //     p = max(p_c − step·(u_c − h), 0),   u_c = g_c + h_c − level.
 // Fields hold the rows of this process. Collective.
-void prolong(const MultigridLevel& coarse, const Field& coarse_pressure, const Field& coarse_gap,
-             double level, const MultigridLevel& fine, Boundary boundary, double step,
-             double* pressure);
+struct CoarseSolution {
+  const MultigridLevel& grid;
+  const Field &pressure, &gap;
+  double level;
+};
+void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary boundary,
+             double step, double* pressure);
 
 }  // namespace salebra::detail

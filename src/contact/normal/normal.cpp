@@ -159,80 +159,116 @@ double mean_depth_of(const MultigridLevel& level) {
   return sum / static_cast<double>(level.grid.points());
 }
 
-// Solves from the coarsest level to the finest.
-template <class Real>
-Solution solve_nested(const Scaled& scaled, const Share& rows, const Heights& heights,
-                      double rms_height, double mean_depth, const ContactTarget& target,
-                      const NormalContactOptions& options) {
-  auto levels =
-      detail::multigrid_levels(scaled.grid, rows, heights, options.boundary,
-                               options.initial_pressure ? 1 : std::numeric_limits<int>::max());
-  Solution solution;
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point last_checkpoint = Clock::now();
-  for (std::size_t k = levels.size(); k-- > 0;) {
-    const MultigridLevel& level = levels[k];
-    const Index nx = level.rows.count(), ny = level.grid.ny;
-    Field pressure;
-    if (options.initial_pressure) {
-      pressure = *options.initial_pressure / scaled.pressure_unit;
-      pressure = (pressure < full_from * target.bound).select(pressure, target.bound);
-    } else if (k + 1 == levels.size()) {
-      pressure = Field::Constant(
-          nx, ny, target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
-    } else {
-      pressure = uninitialised_field(nx, ny);
-      const double step = prediction / cell_compliance(level.grid, 1);
-      detail::prolong(levels[k + 1], solution.pressure, solution.gap, solution.outcome.level, level,
-                      options.boundary, step, pressure.data());
+// A contact from the coarsest level to the finest.
+class NestedSolve {
+ public:
+  struct Problem {
+    const Scaled& scaled;
+    const Share& rows;
+    const Heights& heights;
+    double rms_height, mean_depth;
+    const ContactTarget& target;
+    const NormalContactOptions& options;
+  };
+
+  explicit NestedSolve(const Problem& problem)
+      : problem_(problem),
+        levels_(detail::multigrid_levels(
+            problem.scaled.grid, problem.rows, problem.heights, problem.options.boundary,
+            problem.options.initial_pressure ? 1 : std::numeric_limits<int>::max())) {}
+
+  template <class Real>
+  Solution go() {
+    const auto& [scaled, rows, heights, rms_height, mean_depth, target, options] = problem_;
+    for (std::size_t k = levels_.size(); k-- > 0;) {
+      const MultigridLevel& level = levels_[k];
+      solution_.pressure = start(k);
+      solution_.gap = uninitialised_field(level.rows.count(), level.grid.ny);
+      const ActiveSetLimits limits = limits_of(k);
+      ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
+                               rms_height);
+      ContactTarget target_here = target;
+      // The mean height of a coarse grid is another one. At the same level it may be beyond full
+      // contact, where no pressure is a solution and CG runs away: a start for the finer grid has
+      // its mean gap instead.
+      if (k > 0 && !target.load_given() && options.boundary == Boundary::periodic)
+        target_here.value += mean_depth_of(level) - mean_depth;
+      solution_.outcome =
+          solver.solve(target_here, limits, solution_.pressure.data(), solution_.gap.data());
+      if (solution_.outcome.interrupted && k > 0) {
+        show_nothing();
+        break;
+      }
     }
-    solution.pressure = std::move(pressure);
-    solution.gap = uninitialised_field(nx, ny);
+    return std::move(solution_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  // A field of its own: the pressure of the coarser level is read meanwhile.
+  Field start(std::size_t k) const {
+    const auto& options = problem_.options;
+    const auto& target = problem_.target;
+    const MultigridLevel& level = levels_[k];
+    if (options.initial_pressure) {
+      Field pressure = *options.initial_pressure / problem_.scaled.pressure_unit;
+      pressure = (pressure < full_from * target.bound).select(pressure, target.bound);
+      return pressure;
+    }
+    if (k + 1 == levels_.size())
+      return Field::Constant(
+          level.rows.count(), level.grid.ny,
+          target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
+    Field pressure = uninitialised_field(level.rows.count(), level.grid.ny);
+    const double step = prediction / cell_compliance(level.grid, 1);
+    detail::prolong({levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.level},
+                    level, options.boundary, step, pressure.data());
+    return pressure;
+  }
+
+  ActiveSetLimits limits_of(std::size_t k) {
+    const auto& options = problem_.options;
     ActiveSetLimits limits{
         k == 0 ? options.tolerance : std::max(coarse_tolerance, options.tolerance),
         options.max_iterations, k == 0};
-    if (k + 1 < levels.size()) limits.expected_level = solution.outcome.level;
+    if (k + 1 < levels_.size()) limits.expected_level = solution_.outcome.level;
     if (options.on_progress)
-      limits.keep_going = [&](int iteration, double residual) {
+      limits.keep_going = [&options, k](int iteration, double residual) {
         const double decades = std::log10(std::clamp(residual, options.tolerance, 1.0));
         const double share = k == 0 ? decades / std::log10(options.tolerance) : 0.0;
         return options.on_progress(
             {"contact", std::isfinite(share) ? share : 0.0, iteration, residual});
       };
     if (options.on_checkpoint && k == 0) {
-      limits.checkpoint_due = [&] {
-        const std::chrono::duration<double> elapsed = Clock::now() - last_checkpoint;
-        return !rows.ranks().is_root() || elapsed.count() >= options.checkpoint_every;
+      limits.checkpoint_due = [this, &options] {
+        const std::chrono::duration<double> elapsed = Clock::now() - last_checkpoint_;
+        return !problem_.rows.ranks().is_root() || elapsed.count() >= options.checkpoint_every;
       };
-      limits.take_checkpoint = [&] {
-        solution.pressure *= scaled.pressure_unit;
-        options.on_checkpoint(solution.pressure);
-        last_checkpoint = Clock::now();
+      limits.take_checkpoint = [this, &options] {
+        solution_.pressure *= problem_.scaled.pressure_unit;
+        options.on_checkpoint(solution_.pressure);
+        last_checkpoint_ = Clock::now();
       };
     }
-    ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
-                             rms_height);
-    ContactTarget target_here = target;
-    // The mean height of a coarse grid is another one. At the same level it may be beyond full
-    // contact, where no pressure is a solution and CG runs away: a start for the finer grid has its
-    // mean gap instead.
-    if (k > 0 && !target.load_given() && options.boundary == Boundary::periodic)
-      target_here.value += mean_depth_of(level) - mean_depth;
-    solution.outcome =
-        solver.solve(target_here, limits, solution.pressure.data(), solution.gap.data());
-    if (solution.outcome.interrupted && k > 0) {
-      // Nothing on the finest grid to show: an empty contact that says so.
-      solution.pressure = Field::Zero(rows.count(), scaled.grid.ny);
-      solution.gap = Field::NullaryExpr(rows.count(), scaled.grid.ny, [&](Index i, Index j) {
-        return -heights[i * scaled.grid.ny + j];
-      });
-      solution.outcome.level = 0;
-      solution.outcome.converged = false;
-      break;
-    }
+    return limits;
   }
-  return solution;
-}
+
+  // Interrupted before the finest grid: an empty contact that says so.
+  void show_nothing() {
+    const Index nx = problem_.rows.count(), ny = problem_.scaled.grid.ny;
+    solution_.pressure = Field::Zero(nx, ny);
+    solution_.gap =
+        Field::NullaryExpr(nx, ny, [&](Index i, Index j) { return -problem_.heights[i * ny + j]; });
+    solution_.outcome.level = 0;
+    solution_.outcome.converged = false;
+  }
+
+  const Problem problem_;
+  const std::vector<MultigridLevel> levels_;
+  Solution solution_;
+  Clock::time_point last_checkpoint_ = Clock::now();
+};
 
 NormalContactState state_of(Solution&& solution, const ContactTarget& target, const Scaled& scaled,
                             const Surface& surface, const Heights& below_summit, double hardness) {
@@ -318,11 +354,11 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
   const double displacement =
       load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
-  auto solution = options.precision == Precision::mixed
-                      ? solve_nested<float>(scaled, surface.share(), heights, length, depths.mean,
-                                            target, options)
-                      : solve_nested<double>(scaled, surface.share(), heights, length, depths.mean,
-                                             target, options);
+  const Share rows = surface.share();
+  const auto solve = [&]<class Real>(Real) {  // the coarse grids go when it returns
+    return NestedSolve({scaled, rows, heights, length, depths.mean, target, options}).go<Real>();
+  };
+  auto solution = options.precision == Precision::mixed ? solve(0.0f) : solve(0.0);
   return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
 }
 

@@ -104,6 +104,17 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
   PunchOutcome outcome;
   reset();
   ladder_share_ = limits.ladder_share;
+  hold_punch_set(p, bound);
+  std::fill_n(g_, tile_points(), -1.0);
+  begin_punch();
+  outcome.converged = punch_rounds(limits, outcome);
+  measure_punch(outcome, pressure);
+  return outcome;
+}
+
+// The tiles of the cells of the set, and 1 in m_ for each.
+template <class Real>
+void ActiveSetCg<Real>::hold_punch_set(const double* p, double bound) {
   const auto in_set = [bound](double x) { return x > 0 && x < bound; };
   for_rows([&](Index begin, Index end) {
     for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
@@ -120,8 +131,11 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
     for (Index i = 0; i < width; ++i)
       if (in_set(p[first + i])) m_[k * tile_width + static_cast<std::size_t>(i)] = Real(1);
   }
-  std::fill_n(g_, tile_points(), -1.0);
-  begin_punch();
+}
+
+// Whether steps ended because they gained too little.
+template <class Real>
+bool ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutcome& outcome) {
   double curvature = 1, gained = 0, round_gained = 0;
   double contraction = 1;  // of what is left to gain, from round to round
   if (on_ladder_) contraction = std::pow(ladder_->error() / (1 - ladder_->error()), 2);
@@ -156,7 +170,12 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
       }
     }
   }
-  outcome.converged = small_gains == gains_in_a_row;
+  return small_gains == gains_in_a_row;
+}
+
+// Load and residual by one exact application.
+template <class Real>
+void ActiveSetCg<Real>::measure_punch(PunchOutcome& outcome, Field* pressure) {
   // The transform takes the memory of the tiles' fields.
   const std::vector<double> q(p_, p_ + tile_points());
   const std::vector<Real> in_set_of_tiles(m_, m_ + tile_points());
@@ -202,7 +221,6 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
       for (Index row = begin; row < end; ++row) spread(row, pressure->data() + row * grid_.ny);
     });
   }
-  return outcome;
 }
 
 // g = Gq − 1 on the tiles, by a transform, and r.
@@ -247,10 +265,20 @@ namespace {
 // The cells where 0 < p < bound pressed in as one piece. Alone on a half-space, they need no more
 // of the grid than they span; where several processes hold them, the rows of the grid stay with the
 // processes that have them.
-PunchStiffness press_punch(const Field& p, double bound, const Grid2D& grid,
-                           const Communicator& ranks, double contact_modulus, Boundary boundary,
-                           Precision precision, const detail::PunchLimits& limits,
+// Presses the cells with 0 < p < bound.
+struct PunchProblem {
+  const Field& p;
+  double bound;
+  const Grid2D& grid;
+  const Communicator& ranks;
+  double contact_modulus;
+  Boundary boundary;
+  Precision precision;
+};
+
+PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimits& limits,
                            Field* punch_pressure) {
+  const auto& [p, bound, grid, ranks, contact_modulus, boundary, precision] = problem;
   const double cell = std::sqrt(grid.cell_area());
   const bool alone = boundary == Boundary::free && ranks.alone();
   const auto window = alone ? detail::bounding_window(ContactSet(p > 0 && p < bound))
@@ -303,8 +331,8 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
     return std::numeric_limits<double>::infinity();
   if (state.ranks.all_agree(!elastic.any())) return 0;
   const PunchStiffness punch = press_punch(
-      state.contact_pressure, options.hardness, grid, state.ranks, contact_modulus,
-      options.boundary, options.precision,
+      {state.contact_pressure, options.hardness, grid, state.ranks, contact_modulus,
+       options.boundary, options.precision},
       {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
       punch_pressure);
   return punch.converged ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
@@ -323,8 +351,14 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
   }
   // K is a minimum: its relative error is of the order of the square of the displacement's.
   const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);
-  return press_punch(contact.cast<double>(), std::numeric_limits<double>::infinity(), grid, {},
-                     contact_modulus, options.boundary, Precision::mixed,
+  const Field ones = contact.cast<double>();
+  return press_punch({ones,
+                      std::numeric_limits<double>::infinity(),
+                      grid,
+                      {},
+                      contact_modulus,
+                      options.boundary,
+                      Precision::mixed},
                      {.relative_gain = gain,
                       .max_iterations = options.max_iterations,
                       .keep_going = keep_going(options.on_progress)},

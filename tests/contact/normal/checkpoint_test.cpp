@@ -101,9 +101,14 @@ TEST_CASE("Gradient projection keeps its bits beside checkpoints too", "[normal]
     p = Field::Constant(64, 64, 5e-3);
     Field g = p;
     detail::ActiveSetOutcome outcome;
-    detail::gradient_projection(compliance, surface.grid, Share(64), Boundary::periodic,
-                                {surface.heights.data()}, 1, {.value = 5e-3}, limits, p.data(),
-                                g.data(), outcome);
+    detail::gradient_projection({compliance,
+                                 surface.grid,
+                                 Share(64),
+                                 Boundary::periodic,
+                                 {surface.heights.data()},
+                                 1,
+                                 {.value = 5e-3}},
+                                limits, p.data(), g.data(), outcome);
     return outcome;
   };
   Field plain, watched;

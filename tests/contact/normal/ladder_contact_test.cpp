@@ -37,7 +37,7 @@ Solved solve(const Surface& surface, Boundary boundary, const ContactTarget& tar
       here.pressure = Field::Constant(grid.nx, grid.ny, target.load_given() ? target.value : 0.01);
     } else {
       here.pressure = Field(grid.nx, grid.ny);
-      prolong(levels[1], coarse.pressure, coarse.gap, coarse.outcome.level, levels[0], boundary,
+      prolong({levels[1], coarse.pressure, coarse.gap, coarse.outcome.level}, levels[0], boundary,
               0.6 / cell_compliance(grid, 1), here.pressure.data());
     }
     ActiveSetLimits limits{k == 0 ? tolerance : 1e-3, 1000, k == 0};

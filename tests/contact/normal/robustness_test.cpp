@@ -175,10 +175,14 @@ TEST_CASE("Gradient projection solves a contact on its own, from any start", "[n
   }
   auto compliance = normal_compliance<double>(projected.surface.grid, 1, Boundary::periodic);
   detail::ActiveSetOutcome outcome;
-  detail::gradient_projection(compliance, projected.surface.grid, projected.surface.share(),
-                              Boundary::periodic, {projected.surface.heights.data()}, projected.rms,
-                              projected.target, projected.limits, projected.p.data(),
-                              projected.g.data(), outcome);
+  detail::gradient_projection({compliance,
+                               projected.surface.grid,
+                               projected.surface.share(),
+                               Boundary::periodic,
+                               {projected.surface.heights.data()},
+                               projected.rms,
+                               projected.target},
+                              projected.limits, projected.p.data(), projected.g.data(), outcome);
   CHECK(outcome.converged);
   CHECK(((projected.p > 0) == (usual.p > 0)).all());
   CHECK(projected.p.mean() == Approx(0.005).epsilon(1e-8));

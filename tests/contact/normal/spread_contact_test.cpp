@@ -213,8 +213,9 @@ TEST_CASE("The slower method that finishes stalled contacts has the bits of one 
     auto compliance = normal_compliance<double>(
         surface.grid, normal_symbol(surface.grid, 1, Boundary::periodic, rows), rows);
     ActiveSetOutcome outcome;
-    gradient_projection(compliance, surface.grid, rows, Boundary::periodic, {mine.heights.data()},
-                        1, target, {.tolerance = 1e-8}, p.data(), g.data(), outcome);
+    gradient_projection(
+        {compliance, surface.grid, rows, Boundary::periodic, {mine.heights.data()}, 1, target},
+        {.tolerance = 1e-8}, p.data(), g.data(), outcome);
     return outcome;
   };
   Field p, g;
