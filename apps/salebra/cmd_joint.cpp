@@ -158,13 +158,12 @@ void run(const JointArguments& arguments, Session& session) {
                               trajectory_damping(law, path, {.friction_coefficient = friction})));
   }
   add_first_loading(answer, contact.first_loading);
-  const ContactFacts facts =
-      contact.facts_at(arguments.premises.facts(arguments.material), indentation);
   // A constant normal force is the limit of small normal amplitudes.
   EqualFrequency judged = motion;
   if (!oscillates)
     judged.normal_amplitude = 1e-6 * law.force(indentation) / law.normal_stiffness(indentation);
-  premises_beside_slip(law, indentation, judged, facts).answer(session, answer);
+  const ContactFacts known = arguments.premises.facts(arguments.material);
+  PremiseReport{{contact.premises_beside_slip(indentation, judged, known)}}.answer(session, answer);
 }
 
 }  // namespace

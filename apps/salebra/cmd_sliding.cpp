@@ -104,11 +104,8 @@ PremiseReport premises_of(const SlidingAnswer& found, const SlidingQuestion& que
   PremiseReport premises{.list = count > 1};
   for (std::size_t k = 0; k < count; ++k) {
     const SlidingPoint& last = found.points[(k + 1) * velocities - 1];
-    const double indentation = last.state.indentation;
     const Drag motion{last.normal_amplitude, last.velocity, question.angular_frequency};
-    premises.cases.push_back(premises_beside_slip(*contact.law, indentation, motion,
-                                                  contact.facts_at(known, indentation))
-                                 .cases.front());
+    premises.cases.push_back(contact.premises_beside_slip(last.state.indentation, motion, known));
   }
   return premises;
 }
@@ -212,9 +209,8 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
                 table_of("averaged_motion", lists_of(found.averaged))});
   if (session.has_plot())
     session.plot(slider_figure(found.motion, found.averaged, question.slider.spring_stiffness));
-  const double indentation = found.sliding.indentation;
-  premises_beside_slip(*contact.law, indentation, found.judged,
-                       contact.facts_at(arguments.premises.facts(arguments.material), indentation))
+  const ContactFacts known = arguments.premises.facts(arguments.material);
+  PremiseReport{{contact.premises_beside_slip(found.sliding.indentation, found.judged, known)}}
       .answer(session, answer);
 }
 

@@ -138,16 +138,4 @@ void PremiseReport::answer(Session& session, Json object) const {
   answer(session, std::move(object), text);
 }
 
-PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
-                                   const Oscillation& motion, const ContactFacts& facts) {
-  Premises premises = premises_of(law, indentation, motion, facts);
-  // What slides on does not turn back, and the loss is that at its amplitude.
-  for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
-                             &Premises::slow_motion, &Premises::amplitude})
-    premises.*premise = {.verdict = Verdict::holds};
-  premises.largest.clear();
-  premises.regime = Regime::unknown;
-  return {{premises}};
-}
-
 }  // namespace salebra::cli

@@ -42,9 +42,4 @@ struct PremiseReport {
   void answer(Session& session, Json object) const;
 };
 
-/// Judges a loss whose slip and amplitude are computed, not left out: the premises of slip, of a
-/// slow motion and of a small amplitude hold, without a value, and the others are judged.
-PremiseReport premises_beside_slip(const ContactLaw& law, double indentation,
-                                   const Oscillation& motion, const ContactFacts& facts);
-
 }  // namespace salebra::cli

@@ -220,6 +220,18 @@ ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation) con
   return facts;
 }
 
+Premises ContactAnswer::premises_beside_slip(double indentation, const Oscillation& motion,
+                                             const ContactFacts& known) const {
+  Premises premises = premises_of(*law, indentation, motion, facts_at(known, indentation));
+  // What slides on does not turn back, and the loss is that at its amplitude.
+  for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
+                             &Premises::slow_motion, &Premises::amplitude})
+    premises.*premise = {.verdict = Verdict::holds};
+  premises.largest.clear();
+  premises.regime = Regime::unknown;
+  return premises;
+}
+
 ContactAnswer ask(ContactQuestion question, const Context& context) {
   return std::visit([&](auto&& body) { return answer(std::move(body), context); },
                     std::move(question));

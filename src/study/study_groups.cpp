@@ -270,10 +270,12 @@ void write_premises(ResultGroup group, const StudyResult& result) {
   const auto put = [&](const char* name, const auto& items, const auto& of) {
     slip.dataset(name, column_of(items, of), {"pressure"});
   };
-  put("work_per_cycle_with_slip", found.losses, &LossWithSlip::work_per_cycle);
+  for_each_column<StudyPremises>([&](const auto& access, const Quantity& quantity) {
+    group.dataset(std::string(quantity.name), access(found), {"pressure"},
+                  std::string(si_unit(quantity.dimension)), std::string(quantity.long_name));
+  });
   put("relaxation_work", found.losses, &LossWithSlip::relaxation_work);
   put("slip_work", found.losses, &LossWithSlip::slip_work);
-  slip.dataset("damping_constant_with_slip", found.damping_constant_with_slip, {"pressure"});
   put("regime", found.premises, &Premises::regime);
   group.attribute("objections", objections(found.premises, result.pressures));
   group.attribute("open_points", open_points(found.premises));

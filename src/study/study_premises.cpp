@@ -33,6 +33,12 @@ ForceCurve mean_curve(const StudyResult& result) {
 
 }  // namespace
 
+std::vector<double> StudyPremises::work_per_cycle_with_slip() const {
+  std::vector<double> works;
+  for (const LossWithSlip& loss : losses) works.push_back(loss.work_per_cycle);
+  return works;
+}
+
 StudyPremises premises_of(const StudyResult& result) {
   const StudyConfiguration& configuration = result.configuration;
   const std::size_t count = result.pressures.size();

@@ -11,6 +11,7 @@
 #include <salebra/results/describe.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
+#include <salebra/study/study_premises.hpp>
 
 #include "run_program.hpp"
 #include "study/study_text.hpp"
@@ -87,8 +88,9 @@ const std::set<std::string> counts{"realisations", "seed"};
 
 /// Columns of studies, whose descriptions stand beside their structs.
 const Meanings& columns_of_studies() {
-  static const Meanings all = columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics,
-                                         SurfacePicture, DeviationRange, StudyTheories>();
+  static const Meanings all =
+      columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture,
+                 DeviationRange, StudyPremises, StudyTheories>();
   return all;
 }
 bool is_listed(const std::string& name) {

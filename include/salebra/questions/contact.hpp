@@ -84,6 +84,10 @@ struct ContactAnswer {
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
   /// The facts at an indentation, with what the law, the curve and the first loading say.
   ContactFacts facts_at(ContactFacts facts, double indentation) const;
+  /// Judges a loss whose slip and amplitude are computed, not left out: the premises of slip, of a
+  /// slow motion and of a small amplitude hold, without a value, and the others are judged.
+  Premises premises_beside_slip(double indentation, const Oscillation& motion,
+                                const ContactFacts& known) const;
 };
 
 /// The law and the positions.

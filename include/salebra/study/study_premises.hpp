@@ -18,7 +18,20 @@ struct StudyPremises {
   /// they are times what makes full_stick_work the W of StudyResult::stated_damping().
   std::vector<LossWithSlip> losses;
   std::vector<double> damping_constant_with_slip;  ///< P/⟨ẋ²⟩ of the losses, N s/m
+
+  std::vector<double> work_per_cycle_with_slip() const;  ///< of the losses, J
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StudyPremises>) {
+  using enum Dimension;
+  using S = StudyPremises;
+  visit(&S::premises, Kept{"premises", "premises at each pressure"});
+  visit(&S::losses, Kept{"losses", "loss with slip at each pressure"});
+  visit(&S::work_per_cycle_with_slip,
+        Quantity{"work_per_cycle_with_slip", energy, "energy dissipated in a cycle with friction"});
+  visit(&S::damping_constant_with_slip,
+        Quantity{"damping_constant_with_slip", damping, "damping constant P/v^2 with friction"});
+}
 
 /// Facts: those of the configuration, and of the surfaces their side, mean contact pressure and rms
 /// slope. Where no contact converged, and everywhere where fewer than four pressures make no curve,
