@@ -103,7 +103,9 @@ void fill_phase_numbers(std::uint64_t seed, std::int32_t i, std::int32_t j, std:
 
 SALEBRA_VECTOR_WIDTHS
 void fill_indices(std::uint64_t seed, std::int32_t i, std::int32_t j, std::uint32_t stream,
-                  double count, std::int32_t* indices, std::int32_t length) {
+                  double count, std::span<std::int32_t> draws) {
+  std::int32_t* const indices = draws.data();
+  const auto length = static_cast<std::int32_t>(draws.size());
 #pragma omp simd
   for (std::int32_t k = 0; k < length; ++k) {
     const Words bits = philox(seed, i, j + k, stream);
@@ -142,8 +144,7 @@ void fill_phase_factors(std::uint64_t seed, std::int32_t i, std::int32_t j,
 
 void fill_draws(std::uint64_t seed, std::int32_t i, std::int32_t j, std::int32_t count,
                 std::span<std::int32_t> indices, std::uint32_t stream) {
-  fill_indices(seed, i, j, stream, count, indices.data(),
-               static_cast<std::int32_t>(indices.size()));
+  fill_indices(seed, i, j, stream, count, indices);
 }
 
 }  // namespace salebra

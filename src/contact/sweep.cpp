@@ -81,6 +81,20 @@ void validate(const std::vector<double>& pressures) {
   }
 }
 
+void require_room(const Surface& surface, const SweepOptions& options, const Groups& groups,
+                  int concurrent) {
+  // A stick solve follows a contact whose fields are still there.
+  const double each =
+      detail::contact_memory(surface, options.contact) +
+      (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0) *
+          static_cast<double>(surface.heights.rows()) / static_cast<double>(surface.grid.nx);
+  require_memory(surface.grid, concurrent * each,
+                 concurrent > 1       ? "contacts on all threads (fewer `threads` need less)"
+                 : groups.count() > 1 ? "contacts of all groups (fewer groups need less)"
+                                      : "a contact",
+                 groups.all());
+}
+
 using Samples = std::vector<std::optional<ForceSample>>;
 
 /// The samples of all groups, in all processes.
@@ -123,16 +137,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                      : options.concurrent_loads > 0 ? options.concurrent_loads
                                                     : parallel::threads();
   const int concurrent = std::max(1, std::min({wanted, loads, parallel::threads()}));
-  // A stick solve follows a contact whose fields are still there.
-  const double each =
-      detail::contact_memory(surface, options.contact) +
-      (options.stiffness && options.stick ? detail::stick_memory(surface.grid) : 0) *
-          static_cast<double>(surface.heights.rows()) / static_cast<double>(surface.grid.nx);
-  require_memory(surface.grid, concurrent * each,
-                 concurrent > 1       ? "contacts on all threads (fewer `threads` need less)"
-                 : groups.count() > 1 ? "contacts of all groups (fewer groups need less)"
-                                      : "a contact",
-                 groups.all());
+  require_room(surface, options, groups, concurrent);
   Samples samples(pressures.size());
   SweepOptions inner = options;
   const Progress& on_progress = options.contact.on_progress;

@@ -38,6 +38,7 @@ struct NormalPeriod {
   Eigen::MatrixXd derivative;  // of `end` by the anchors at the start
   double work = 0;
   bool opens = false, closes = false;
+  bool converged = false;  // whether it ends where it began
   std::vector<Part> parts;
   std::vector<double> force;  // at the samples
 };
@@ -76,24 +77,27 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
 
 // Newton's method for the anchors that a period returns to. They are a convex and rising function
 // of those at the start, so that it converges monotonically after its first step.
-bool find_periodic(const MaxwellSpring& spring, const SpringPath& path, double level, double range,
-                   Branches& start, NormalPeriod& period, LoopProgress& progress) {
+NormalPeriod periodic(const MaxwellSpring& spring, const SpringPath& path, double level,
+                      double range, Branches& start, LoopProgress& progress) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
+  NormalPeriod period;
   double last = range;
   for (int iteration = 0; iteration < 60 && progress.advance(0); ++iteration) {
     period = normal_period(spring, path, level, start);
-    if (spring.terms() == 0) return true;
+    period.converged = spring.terms() == 0;
+    if (period.converged) break;
     const Branches change =
         detail::least_squares(one - period.derivative, (period.end - start).matrix()).array();
     const double distance = change.abs().maxCoeff();
     // Round-off of one period, over the share of a branch that it decays by, may be all that is
     // left.
-    if (distance <= 1e-11 * range || (distance <= 1e-5 * range && distance >= 0.5 * last))
-      return true;
+    period.converged =
+        distance <= 1e-11 * range || (distance <= 1e-5 * range && distance >= 0.5 * last);
+    if (period.converged) break;
     last = distance;
     start += change;
   }
-  return false;
+  return period;
 }
 
 // A spring that never leaves contact: periodic up to a drift.
@@ -285,10 +289,9 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   Branches start = trajectory.indentation.front() - permanent_level - normal.start;
   LoopProgress progress(on_progress, "viscoelastic", static_cast<Index>(ring.cells.size()));
   for (const detail::SpringLayout::Cell& cell : ring.cells) {
-    NormalPeriod period;
-    result.converged =
-        find_periodic(spring, path, cell.level, highest - lowest, start, period, progress) &&
-        result.converged;
+    const NormalPeriod period =
+        periodic(spring, path, cell.level, highest - lowest, start, progress);
+    result.converged = period.converged && result.converged;
     if (!progress.advance()) break;
     const double share = stiffness * cell.width;
     result.normal_material_work += share * period.work;

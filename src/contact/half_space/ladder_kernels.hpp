@@ -23,18 +23,24 @@ struct Shift {
   std::ptrdiff_t x, y;
 };
 
+// What an ascent adds: T source, T a stencil, and P coarse.
+struct Ascent {
+  FramedView source;
+  const float* stencil;
+  FramedView coarse;
+  Shift shift;
+};
+
 struct LadderKernels {
   // coarse = Pᵀ fine: (1 4 6 4 1)/8 along each axis
   void (*restriction)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
                       const FramedView& fine, const Shift& shift, const FramedView& coarse);
-  // image = T source + P coarse, T a stencil of 5 × 5
-  void (*ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
-                 const FramedView& source, const float* stencil, const FramedView& coarse,
-                 const Shift& shift, const FramedView& image);
-  // Does so with a stencil of 7 × 7, for tiles of one row, into its cells.
+  // Into the image, with a stencil of 5 × 5.
+  void (*ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end, const Ascent& sum,
+                 const FramedView& image);
+  // With a stencil of 7 × 7, for tiles of one row, into its cells.
   void (*last_ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
-                      const FramedView& source, const float* stencil, const FramedView& coarse,
-                      const Shift& shift, float* row);
+                      const Ascent& sum, float* row);
 };
 
 // The table for the widest vectors that this processor has.

@@ -118,36 +118,33 @@ SALEBRA_INLINE void interpolated(const FramedView& coarse, const Shift& shift, c
 }
 
 template <int radius>
-SALEBRA_INLINE void ascend(const FramedView& source, const float* stencil, const FramedView& coarse,
-                           const Shift& shift, const Tile& tile, float* result) {
+SALEBRA_INLINE void ascend(const Ascent& sum, const Tile& tile, float* result) {
   float far[tile_width], near[tile_width];
-  interpolated(coarse, shift, tile, far);
-  StencilLoop<float, radius>::apply(cell(source, tile.row, tile.column), source.stride, stencil,
-                                    near);
+  interpolated(sum.coarse, sum.shift, tile, far);
+  StencilLoop<float, radius>::apply(cell(sum.source, tile.row, tile.column), sum.source.stride,
+                                    sum.stencil, near);
   for (int k = 0; k < tile_width; ++k) result[k] = far[k] + near[k];
 }
 
-void ascent(const Tile* tiles, Length begin, Length end, const FramedView& source,
-            const float* stencil, const FramedView& coarse, const Shift& shift,
+void ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum,
             const FramedView& image) {
   for (Length t = begin; t < end; ++t) {
     float result[tile_width];
-    ascend<2>(source, stencil, coarse, shift, tiles[t], result);
+    ascend<2>(sum, tiles[t], result);
     store(result, image.ny - tiles[t].column,
           image.first + tiles[t].row * image.stride + tiles[t].column);
   }
 }
 
-void last_ascent(const Tile* tiles, Length begin, Length end, const FramedView& source,
-                 const float* stencil, const FramedView& coarse, const Shift& shift, float* row) {
+void last_ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum, float* row) {
   for (Length t = begin; t < end; ++t) {
     if (t + tiles_ahead < end) {
       const Tile& next = tiles[t + tiles_ahead];
-      __builtin_prefetch(cell(source, next.row + frame, next.column));
+      __builtin_prefetch(cell(sum.source, next.row + frame, next.column));
     }
     float result[tile_width];
-    ascend<3>(source, stencil, coarse, shift, tiles[t], result);
-    store(result, source.ny - tiles[t].column, row + tiles[t].column);
+    ascend<3>(sum, tiles[t], result);
+    store(result, sum.source.ny - tiles[t].column, row + tiles[t].column);
   }
 }
 

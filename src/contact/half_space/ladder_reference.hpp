@@ -40,9 +40,8 @@ inline void restriction(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t 
 }
 
 // (T source + P coarse) at a cell.
-inline float ascended(const FramedView& source, const float* stencil, int radius,
-                      const FramedView& coarse, const Shift& shift, std::ptrdiff_t i,
-                      std::ptrdiff_t j) {
+inline float ascended(const Ascent& sum, int radius, std::ptrdiff_t i, std::ptrdiff_t j) {
+  const auto& [source, stencil, coarse, shift] = sum;
   float near = 0, far = 0;
   for (int a = -radius; a <= radius; ++a)
     for (int b = -radius; b <= radius; ++b)
@@ -55,20 +54,17 @@ inline float ascended(const FramedView& source, const float* stencil, int radius
   return near + far;
 }
 
-inline void ascent(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
-                   const FramedView& source, const float* stencil, const FramedView& coarse,
-                   const Shift& shift, const FramedView& image) {
+inline void ascent(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end, const Ascent& sum,
+                   const FramedView& image) {
   for_tile_cells(tiles, begin, end, image.ny, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    image.first[i * image.stride + j] = ascended(source, stencil, 2, coarse, shift, i, j);
+    image.first[i * image.stride + j] = ascended(sum, 2, i, j);
   });
 }
 
 inline void last_ascent(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
-                        const FramedView& source, const float* stencil, const FramedView& coarse,
-                        const Shift& shift, float* row) {
-  for_tile_cells(tiles, begin, end, source.ny, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    row[j] = ascended(source, stencil, 3, coarse, shift, i, j);
-  });
+                        const Ascent& sum, float* row) {
+  for_tile_cells(tiles, begin, end, sum.source.ny,
+                 [&](std::ptrdiff_t i, std::ptrdiff_t j) { row[j] = ascended(sum, 3, i, j); });
 }
 
 inline LadderKernels ladder_table() { return {restriction, ascent, last_ascent}; }

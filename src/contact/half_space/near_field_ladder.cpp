@@ -95,48 +95,56 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const S
   QuarterSymbol left = coarse_symbol(symbol, scaled(0), rows.ranks());
   Index nx = grid.nx, ny = grid.ny;
   for (int k = 0; k < depth; ++k) {
-    Shift shift = {0, 0};
-    if (boundary == Boundary::periodic) {
-      nx /= 2;
-      ny /= 2;
-    } else {
-      // Cell `reach` of a coarser level lies at cell 0 of the grid, as cell `reach` of every level
-      // does.
-      const Index finer_reach = k == 0 ? 0 : reach;
-      nx = (nx + 1) / 2 + 2 * reach;
-      ny = (ny + 1) / 2 + 2 * reach;
-      shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
-    }
-    const Share& finer = k == 0 ? rows : ladder.levels_.back().rows;
-    const Share of_level = coarser(finer, nx, shift.x);
-    Level level(of_level, boundary);
-    level.shift = level.local_shift = shift;
-    level.local_shift.x += finer.begin() - 2 * of_level.begin();
-    level.source = FramedField<float>(of_level.count(), ny);
-    level.image = FramedField<float>(of_level.count(), ny);
-    if (k + 1 < depth) {
-      level.stencil = whole_stencil<25>(rungs[static_cast<std::size_t>(k + 1)].stencil, scale);
-      left = coarse_symbol(left, scaled(k + 1));
-    }
-    ladder.levels_.push_back(std::move(level));
+    ladder.add_level(nx, ny);
+    if (k + 1 == depth) break;
+    ladder.levels_.back().stencil =
+        whole_stencil<25>(rungs[static_cast<std::size_t>(k + 1)].stencil, scale);
+    left = coarse_symbol(left, scaled(k + 1));
   }
   if (nx > left.period_x || ny > left.period_y) return std::nullopt;
-  const Share last = ladder.levels_.back().rows,
-              whole_blocks(rows.ranks(), nx, least_coarsest_rows);
+  ladder.add_coarsest(nx, ny, left);
+  return ladder;
+}
+
+// The next level below the last; nx, ny are the cells of that, and then of the new one.
+void NearFieldLadder::add_level(Index& nx, Index& ny) {
+  Shift shift = {0, 0};
+  if (boundary_ == Boundary::periodic) {
+    nx /= 2;
+    ny /= 2;
+  } else {
+    // Cell `reach` of a coarser level lies at cell 0 of the grid, as cell `reach` of every level
+    // does.
+    const Index finer_reach = levels_.empty() ? 0 : reach;
+    nx = (nx + 1) / 2 + 2 * reach;
+    ny = (ny + 1) / 2 + 2 * reach;
+    shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
+  }
+  const Share& finer = levels_.empty() ? rows_ : levels_.back().rows;
+  const Share of_level = coarser(finer, nx, shift.x);
+  Level level(of_level, boundary_);
+  level.shift = level.local_shift = shift;
+  level.local_shift.x += finer.begin() - 2 * of_level.begin();
+  level.source = FramedField<float>(of_level.count(), ny);
+  level.image = FramedField<float>(of_level.count(), ny);
+  levels_.push_back(std::move(level));
+}
+
+// The transform of what the stencils leave, in whole blocks of rows.
+void NearFieldLadder::add_coarsest(Index nx, Index ny, const QuarterSymbol& left) {
+  const Share last = levels_.back().rows, whole_blocks(rows_.ranks(), nx, least_coarsest_rows);
   const auto all_of = [](const Share& share) {
     return [share](int rank) {
       return RowExchange::Window{share.begin_of(rank), share.end_of(rank) - share.begin_of(rank)};
     };
   };
-  ladder.coarsest_rows_ = whole_blocks;
-  ladder.to_coarsest_.emplace(last, all_of(whole_blocks), RowExchange::Edge::none);
-  ladder.from_coarsest_.emplace(whole_blocks, all_of(last), RowExchange::Edge::none);
-  ladder.coarsest_field_ = large_array<float>(static_cast<std::size_t>(whole_blocks.count() * ny));
-  ladder.coarsest_.emplace(Convolution2D<float>::Shape{nx, ny, left.period_x, left.period_y}, 1,
-                           whole_blocks);
-  ladder.coarsest_->set_symbol(0, 0,
-                               [&](Index i, Index j) { return left.value[left.index(i, j)]; });
-  return ladder;
+  coarsest_rows_ = whole_blocks;
+  to_coarsest_.emplace(last, all_of(whole_blocks), RowExchange::Edge::none);
+  from_coarsest_.emplace(whole_blocks, all_of(last), RowExchange::Edge::none);
+  coarsest_field_ = large_array<float>(static_cast<std::size_t>(whole_blocks.count() * ny));
+  coarsest_.emplace(Convolution2D<float>::Shape{nx, ny, left.period_x, left.period_y}, 1,
+                    whole_blocks);
+  coarsest_->set_symbol(0, 0, [&](Index i, Index j) { return left.value[left.index(i, j)]; });
 }
 
 void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
@@ -217,18 +225,20 @@ void NearFieldLadder::descend(FramedField<float>& source) {
   last.image.fill_frame(boundary_, last.frame_rows);
   for (std::size_t k = levels_.size() - 1; k-- > 0;) {
     Level& level = levels_[k];
-    const FramedView coarse = view(levels_[k + 1].image), image = view(level.image);
+    const Ascent sum{view(level.source), level.stencil.data(), view(levels_[k + 1].image),
+                     levels_[k + 1].local_shift};
+    const FramedView image = view(level.image);
     for_tiles_of(level.tiles, [&](Index begin, Index end) {
-      kernels.ascent(level.tiles.data(), begin, end, view(level.source), level.stencil.data(),
-                     coarse, levels_[k + 1].local_shift, image);
+      kernels.ascent(level.tiles.data(), begin, end, sum, image);
     });
     level.image.fill_frame(boundary_, level.frame_rows);
   }
 }
 
 void NearFieldLadder::collect(const Tile* tiles, Index begin, Index end, float* row) const {
-  ladder_kernels().last_ascent(tiles, begin, end, source_, stencil_.data(),
-                               view(levels_.front().image), levels_.front().local_shift, row);
+  const Level& first = levels_.front();
+  ladder_kernels().last_ascent(
+      tiles, begin, end, {source_, stencil_.data(), view(first.image), first.local_shift}, row);
 }
 
 }  // namespace salebra::detail

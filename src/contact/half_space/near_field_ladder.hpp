@@ -67,6 +67,9 @@ class NearFieldLadder {
   };
 
   NearFieldLadder() = default;
+  void add_level(Index& nx, Index& ny);
+  void add_coarsest(Index nx, Index ny, const QuarterSymbol& left);
+
   Boundary boundary_ = Boundary::periodic;
   Share rows_;  // of the grid
   std::optional<RowExchange> frame_rows_;

@@ -249,8 +249,8 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const LoadCorrection correction =
       run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
   for_tiles([&](Index begin, Index end) {
-    kernels_.truncate(a, begin, end, run.level, correction.scale, correction.shift,
-                      correction.full_from);
+    kernels_.truncate(a, begin, end, run.level,
+                      {correction.scale, correction.shift, correction.full_from});
   });
   // The last direction and its image stay as they are: CG goes on without a restart.
   std::vector<SetSums> sums;

@@ -73,8 +73,9 @@ PreconditionSums precondition(const TileArrays<Real>& a, std::ptrdiff_t begin, s
 }
 
 template <class Real>
-void direct(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
-            double beta, double t_mean, Real* row) {
+void direct(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
+            const NewDirection& direction, Real* row) {
+  const auto& [z_mean, beta, t_mean] = direction;
   for_active_cells(a, begin, end, [&](const Cell& c) {
     const double t = double(a.m[c.packed]) *
                      (double(a.z[c.packed]) - z_mean + beta * (double(a.t[c.packed]) - t_mean));
@@ -175,7 +176,8 @@ SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff
 
 template <class Real>
 void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
-              double scale, double shift, double full_from) {
+              const Truncation& correction) {
+  const auto& [scale, shift, full_from] = correction;
   for (std::ptrdiff_t k = begin; k < end; ++k) {
     if (a.quiet[k] && shift == 0 && !any_below(a, k, level)) continue;
     a.quiet[k] = 0;

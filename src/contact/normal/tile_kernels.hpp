@@ -15,6 +15,15 @@ namespace salebra::detail {
 
 inline constexpr int stencil_size = (2 * frame + 1) * (2 * frame + 1);
 
+struct NewDirection {
+  double z_mean, beta, t_mean;
+};
+
+// What a LoadCorrection says.
+struct Truncation {
+  double scale, shift, full_from;
+};
+
 // A field is either framed, or tile after tile (packed) with zeros where a row ends within a tile.
 // Directions and their images are packed too: as whole fields they would be the half of what an
 // iteration reads and writes. The transform spreads and collects them row by row.
@@ -94,8 +103,8 @@ struct TileKernels {
   PreconditionSums (*precondition)(const TileArrays<Real>&, std::ptrdiff_t begin,
                                    std::ptrdiff_t end);
   // t = m(z − z_mean + beta(t − t_mean)), and into the row
-  void (*direct)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double z_mean,
-                 double beta, double t_mean, Real* row);
+  void (*direct)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
+                 const NewDirection& direction, Real* row);
   // w from the row
   CurvatureSums (*take_image)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                               const Real* row);
@@ -108,7 +117,7 @@ struct TileKernels {
   // Does so, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from
   // or more, z the change of p.
   void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
-                   double scale, double shift, double full_from);
+                   const Truncation& correction);
   // z into the row
   void (*spread_change)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
                         Real* row);

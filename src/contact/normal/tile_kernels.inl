@@ -176,8 +176,9 @@ PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
 }
 
 template <class Real>
-void direct(const TileArrays<Real>& a, Size begin, Size end, double z_mean, double beta,
-            double t_mean, Real* row) {
+void direct(const TileArrays<Real>& a, Size begin, Size end, const NewDirection& direction,
+            Real* row) {
+  const auto [z_mean, beta, t_mean] = direction;  // not read again behind each store
   for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& place, auto width) {
     const Real *m = a.m + place.packed, *z = a.z + place.packed;
     Real *t = a.t + place.packed, *cells = row + place.column;
@@ -298,8 +299,9 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
 }
 
 template <class Real>
-void truncate(const TileArrays<Real>& a, Size begin, Size end, double level, double scale,
-              double shift, double full_from) {
+void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
+              const Truncation& correction) {
+  const auto [scale, shift, full_from] = correction;
   const double bound = a.bound;
   const auto cut = [&](const Place& place, auto width) {
     Real *z = a.z + place.packed, *m = a.m + place.packed;

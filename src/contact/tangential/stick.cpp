@@ -42,9 +42,10 @@ UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& p
     for (std::size_t k = 0; k < count; ++k)
       motion.tractions[count * static_cast<std::size_t>(moving) + k] = guess.data()[points.cell[k]];
   // The residual is a mean over the components; the tolerance is one over the contact set.
-  motion.report =
-      system.solve(points, displacements, options.tolerance / std::sqrt(components),
-                   options.max_iterations, options.on_progress, motion.tractions, motion.misfit);
+  motion.report = system.solve(
+      points, displacements,
+      {options.tolerance / std::sqrt(components), options.max_iterations, options.on_progress},
+      motion.tractions, motion.misfit);
   motion.report.residual *= std::sqrt(components);
   return motion;
 }
@@ -78,8 +79,10 @@ StickReport StickSolver::solve(const ContactSet& contact, const TangentialField&
     tractions = workspace.gather(traction, points);
   }
   const double per_point = std::sqrt(static_cast<double>(system.response().components()));
-  StickReport report = system.solve(points, displacements, options.tolerance * scale / per_point,
-                                    options.max_iterations, options.on_progress, tractions, misfit);
+  StickReport report = system.solve(
+      points, displacements,
+      {options.tolerance * scale / per_point, options.max_iterations, options.on_progress},
+      tractions, misfit);
   report.residual *= per_point / scale;
   workspace.scatter(tractions, points, traction);
   return report;

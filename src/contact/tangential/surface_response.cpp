@@ -162,8 +162,9 @@ double ContactSystem::dot(const PointList& points, const double* a, const double
 }
 
 StickReport ContactSystem::solve(const PointList& points, const std::vector<double>& displacements,
-                                 double tolerance, int max_iterations, const Progress& progress,
-                                 std::vector<double>& tractions, std::vector<double>& misfit) {
+                                 const Limits& limits, std::vector<double>& tractions,
+                                 std::vector<double>& misfit) {
+  const auto& [tolerance, max_iterations, progress] = limits;
   StickReport report;
   const int first_fft = response_.fft_count();
   const Communicator& ranks = rows_.ranks();
@@ -173,8 +174,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
     report.converged = true;
     return report;
   }
-  if (!ranks.all_agree(
-          std::all_of(tractions.begin(), tractions.end(), [](double t) { return t == 0; }))) {
+  if (!ranks.all_agree(std::ranges::all_of(tractions, [](double t) { return t == 0; }))) {
     std::vector<double> response(unknowns);
     response_.apply(points, tractions.data(), points, response.data());
     for (std::size_t i = 0; i < unknowns; ++i) misfit[i] -= response[i];

@@ -105,9 +105,14 @@ class ContactSystem {
   /// Σ1/(G_i q) as eigenvalues, so that the condition number is their ratio, 1/(1 − ν), but for
   /// what the error of SetInverse adds. Where there is no ladder, by the stencil. On return
   /// residual is in m, and `misfit` (components × points) holds u − Kτ.
+  struct Limits {
+    double tolerance;
+    int max_iterations;
+    const Progress& progress;
+  };
   StickReport solve(const PointList& points, const std::vector<double>& displacements,
-                    double tolerance, int max_iterations, const Progress& progress,
-                    std::vector<double>& tractions, std::vector<double>& misfit);
+                    const Limits& limits, std::vector<double>& tractions,
+                    std::vector<double>& misfit);
 
  private:
   CellWindow window_;

@@ -283,9 +283,9 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
       const auto tiles = tiles_of(nx, ny);
       const auto count = static_cast<Index>(tiles.size());
       FramedField<float> image_found(nx, ny), image_wanted(nx, ny);
-      kernels.ascent(tiles.data(), 0, count, view(fine), small.data(), view(coarse), shift,
+      kernels.ascent(tiles.data(), 0, count, {view(fine), small.data(), view(coarse), shift},
                      view(image_found));
-      plain.ascent(tiles.data(), 0, count, view(fine), small.data(), view(coarse), shift,
+      plain.ascent(tiles.data(), 0, count, {view(fine), small.data(), view(coarse), shift},
                    view(image_wanted));
       CHECK(same(image_found, image_wanted));
 
@@ -294,9 +294,9 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
                                    tiles[static_cast<std::size_t>(first)].row)
           ++last;
         std::vector<float> row_found(ny, 0), row_wanted(ny, 0);
-        kernels.last_ascent(tiles.data(), first, last, view(fine), wide.data(), view(coarse), shift,
-                            row_found.data());
-        plain.last_ascent(tiles.data(), first, last, view(fine), wide.data(), view(coarse), shift,
+        kernels.last_ascent(tiles.data(), first, last,
+                            {view(fine), wide.data(), view(coarse), shift}, row_found.data());
+        plain.last_ascent(tiles.data(), first, last, {view(fine), wide.data(), view(coarse), shift},
                           row_wanted.data());
         CHECK(row_found == row_wanted);
       }

@@ -186,8 +186,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
   });
   both("direct", [&](auto& f, auto& a, auto& s, auto& b) {
     const auto [begin, end] = a.one_row();
-    f.direct(a.arrays(), begin, end, 0.25, 0.375, -0.5, a.row.data());
-    s.direct(b.arrays(), begin, end, 0.25, 0.375, -0.5, b.row.data());
+    f.direct(a.arrays(), begin, end, {0.25, 0.375, -0.5}, a.row.data());
+    s.direct(b.arrays(), begin, end, {0.25, 0.375, -0.5}, b.row.data());
     return true;
   });
   both("take_image", [&](auto& f, auto& a, auto& s, auto& b) {
@@ -212,8 +212,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
        {Correction{1.25, 0, std::numeric_limits<double>::infinity()},
         Correction{1.25, 0.125, std::numeric_limits<double>::infinity()}, Correction{0.75, 0, 0.5}})
     both("truncate", [&](auto& f, auto& a, auto& s, auto& b) {
-      f.truncate(a.arrays(), 0, a.count(), level, by.scale, by.shift, by.full_from * a.bound);
-      s.truncate(b.arrays(), 0, b.count(), level, by.scale, by.shift, by.full_from * b.bound);
+      f.truncate(a.arrays(), 0, a.count(), level, {by.scale, by.shift, by.full_from * a.bound});
+      s.truncate(b.arrays(), 0, b.count(), level, {by.scale, by.shift, by.full_from * b.bound});
       return true;
     });
   both("spread_change", [&](auto& f, auto& a, auto& s, auto& b) {
