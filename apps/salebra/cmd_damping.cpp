@@ -1,43 +1,49 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra damping`: loss per cycle of a contact law under an oscillation.
+// `salebra damping`: loss per cycle of a contact under an oscillation, and the damper that it is.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/surface_damping.hpp>
-#include <salebra/results/columns.hpp>
+#include <salebra/io/number_table.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/questions/answer_json.hpp>
+#include <salebra/questions/damping.hpp>
+#include <salebra/results/quantity_group.hpp>
 
 #include "answer_file.hpp"
+#include "damping_maps.hpp"
 #include "figures.hpp"
-#include "first_loading.hpp"
-#include "follow.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
-#include "plausibility.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
+#include "text.hpp"
 
 namespace salebra::cli {
 namespace {
 
 struct DampingArguments {
   LawOptions law;
-  std::string amplitude = "finite", hold = "indentation";
+  std::string amplitude = "finite", hold = "indentation", trajectory;
   MaterialOptions material;
   MotionOptions motion;
   std::vector<double> force_amplitude;
-  FollowOptions follow;
+  int steps = 2000;
   PremiseOptions premises;
-};
+  MapOptions maps;
+  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude;
 
-struct DampingCase {
-  Position position;
-  Motion motion;
-  std::optional<double> force_amplitude;
+  /// Of slow tangential motions, whose damping constant does not depend on their velocity.
+  bool of_damper() const {
+    const auto& amplitudes = motion.normal_amplitude;
+    const bool wanted = mass || spring_stiffness || falling_slope || largest_amplitude;
+    return wanted || (motion.mode == "drag" && force_amplitude.empty() &&
+                      motion.frequency.given() && !amplitudes.empty() &&
+                      (motion.drag_velocity.empty() ||
+                       (amplitudes.size() > 1 && motion.frequency.count() > 1)));
+  }
 };
 
 // The quantity that has several values, by its name in JSON; "" if there is none.
@@ -68,255 +74,232 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
   return motion.all_motions();
 }
 
-DampingResult result_of(const ContactLaw& law, const DampingCase& one,
-                        const DampingOptions& options) {
-  if (!one.force_amplitude) return damping_of(law, one.position, one.motion, options);
-  const auto* force = std::get_if<AtForce>(&one.position);
-  require(force != nullptr, "--force-amplitude", *one.force_amplitude,
-          "goes with a mean force; give --normal-force or --pressure");
-  return std::visit(
-      [&](const auto& motion) {
-        return relaxation_damping_force_controlled(law, force->force, *one.force_amplitude, motion,
-                                                   options);
-      },
-      one.motion);
+ContactQuestion contact_of(const DampingArguments& arguments, Session& session) {
+  return arguments.law.question(arguments.material, session, arguments.premises.hardness);
 }
 
-// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential
-// oscillation tends to.
-double slow_limit_power(const ContactLaw& law, const DampingCase& one,
-                        const DampingOptions& options) {
-  const auto& motion = std::get<TwoFrequencies>(one.motion);
-  const double velocity =
-      motion.tangential_amplitude * motion.tangential_angular_frequency * std::numbers::sqrt2 / 2;
-  DampingCase drag = one;
-  drag.motion = Drag{motion.normal_amplitude, velocity, motion.normal_angular_frequency};
-  return result_of(law, drag, options).power;
+void warn(const std::vector<std::string>& doubts, Session& session) {
+  for (const std::string& line : doubts) session.warn(line);
 }
 
-// Small-amplitude form over the exact one. Without a common period the two are means, and the work
-// is not known.
-double small_over_exact(const DampingResult& result, const Motion& motion) {
-  if (!std::isnan(result.work_per_cycle))
-    return result.small_amplitude_work / result.work_per_cycle;
-  const auto* two = std::get_if<TwoFrequencies>(&motion);
-  if (two == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  return result.small_amplitude_work * two->normal_angular_frequency / (2 * std::numbers::pi) /
-         result.power;
-}
-
-// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
-// of it.
-Premises premises_of_case(const ContactAnswer& contact, const DampingCase& one,
-                          const DampingResult& result, const ContactFacts& facts) {
-  const ContactLaw& law = *contact.law;
-  Motion motion = one.motion;
-  if (one.force_amplitude)
-    std::visit(
-        [&](auto& m) { m.normal_amplitude = *one.force_amplitude / result.normal_stiffness; },
-        motion);
-  const ContactFacts known = contact.facts_at(facts, result.indentation);
-  return std::visit([&](const auto& m) { return premises_of(law, result.indentation, m, known); },
-                    motion);
-}
-
-// A surface is not interpolated between loads: contacts inside the oscillation give W and its
-// error. Returns the errors of γ.
-std::vector<double> resolve_on_surface(const DampingArguments& arguments,
-                                       const ContactAnswer& contact, const Motion& motion,
-                                       const DampingOptions& options, Session& session,
-                                       std::vector<DampingResult>& results) {
-  const Oscillation one = std::holds_alternative<Drag>(motion)
-                              ? Oscillation(std::get<Drag>(motion))
-                              : Oscillation(std::get<EqualFrequency>(motion));
-  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
-  // The place of a load, whose pressure came back with round-off.
-  const auto place_of = [](const ForceCurve& curve, double pressure) {
-    const auto nearest = std::ranges::min_element(
-        curve.samples, {},
-        [&](const ForceSample& sample) { return std::abs(sample.pressure - pressure); });
-    return std::size_t(nearest - curve.samples.begin());
-  };
-  // Each load with its neighbours, from which K_t/K has its slope.
-  const ForceCurve& all = *contact.curve;
-  ForceCurve loads = all;
-  loads.samples.clear();
-  for (std::size_t k = 0; k < all.samples.size(); ++k)
-    if (std::ranges::any_of(arguments.law.pressure, [&](double pressure) {
-          const std::size_t asked = place_of(all, pressure);
-          return k + 1 >= asked && k <= asked + 1;
-        }))
-      loads.samples.push_back(all.samples[k]);
-  const std::vector<SurfaceDamping> found = surface_damping(
-      *contact.surface, arguments.material.material_with_tangential_modulus(), one, loads,
-      {.hold = options.hold, .amplitude = options.amplitude, .on_progress = session.progress()});
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const double pressure = arguments.law.pressure[i];
-    const SurfaceDamping& load = found[place_of(loads, pressure)];
-    DampingResult& result = results[i];
-    errors.push_back(load.damping_constant_error());
-    result.work_per_cycle = load.work_per_cycle;
-    result.damping_constant = load.damping_constant;
-    result.error_estimate = load.error;
-    result.converged = load.converged;
-    if (!(load.error < std::abs(load.work_per_cycle))) {
-      session.warn(
-          fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
-                      "salebra study --surface with --relative-error halves the cells further",
-                      format_quantity(pressure, Dimension::pressure)));
-      result.work_per_cycle = result.damping_constant = DampingResult::unknown;
+// --trajectory: one period of (time, indentation, displacement).
+void follow_file(const DampingArguments& arguments, Session& session) {
+  require(!arguments.motion.given() && arguments.force_amplitude.empty() &&
+              !arguments.of_damper() && !arguments.maps.given(),
+          "--trajectory", arguments.trajectory,
+          "is the motion; leave out the options of Motion, Use and Maps");
+  const auto columns = read_number_table(arguments.trajectory, 3, 4);
+  PathQuestion question{.contact = arguments.law.question_of_law(arguments.material),
+                        .path = {columns[0], columns[1], columns[2]},
+                        .facts = arguments.premises.facts(arguments.material)};
+  if (columns.size() > 3) question.transverse = columns[3];
+  const SampledMotion& path = question.path;
+  const PathAnswer answer = ask(question, session.context());
+  if (session.has_output()) {
+    ResultFile file(session.output(), session.provenance(), session.write_options());
+    QuantityGroup group(file.group("trajectory"));
+    group.coordinate("time", path.time);
+    group.dataset("indentation", path.indentation, {"time"});
+    group.dataset("tangential", path.displacement, {"time"});
+    group.dataset("tangential_force", answer.loss.tangential_force, {"time"});
+    if (!question.transverse.empty()) {
+      group.dataset("transverse", question.transverse, {"time"});
+      group.dataset("transverse_force", answer.loss.transverse_force, {"time"});
     }
-    if (omega > 0) result.power = result.work_per_cycle * omega / (2 * std::numbers::pi);
+    group.dataset("dissipated", answer.loss.dissipated, {"time"});
+    file.commit();
   }
-  return errors;
+  session.plot(cycle_figure(path, answer.loss));
+  PremiseReport{{answer.premises}}.answer(session, json_of(answer.loss));
 }
 
-void follow_motion(const DampingArguments& arguments, const ContactAnswer& contact,
-                   const DampingCase& one, const DampingOptions& options, Session& session) {
-  const ContactLaw& law = *contact.law;
-  require(!one.force_amplitude, "--friction", arguments.follow.coefficient(),
-          "does not go with --force-amplitude; give --normal-amplitude");
-  const DampingResult full_stick = damping_of(law, one.position, one.motion, options);
-  const SampledMotion path = sampled(one.motion, full_stick.indentation, arguments.follow.steps);
-  const TrajectoryDamping loss =
-      follow(law, one.motion, path, arguments.follow.coefficient(), session.progress());
-  Json object = json_of(loss);
-  object["full_stick_work"] = full_stick.work_per_cycle;
-  object["force_curvature"] = full_stick.force_curvature;
-  object["force"] = full_stick.force;
-  object["indentation"] = full_stick.indentation;
-  add_first_loading(object, contact.first_loading);
-  const PremiseReport premises{{premises_of_case(
-      contact, one, full_stick,
-      arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient))}};
-  session.plot(cycle_figure(path, loss));
+// An indenter without a motion.
+void answer_at_rest(const DampingArguments& arguments, Session& session) {
+  const ContactAnswer contact = ask(contact_of(arguments, session), session.context());
+  warn(contact.doubts, session);
+  require(contact.positions.size() == 1, "--normal-force",
+          fmt::format("{} positions", contact.positions.size()),
+          "are given; a contact at rest takes one, and damping needs a motion");
+  const auto& law = static_cast<const IndenterLaw&>(*contact.law);
+  const double indentation = indentation_of(law, contact.positions.front());
+  const Json object = json_of(state_of(law, indentation));
   write_answer(session, "damping", object);
-  premises.answer(session, object);
+  if (session.has_plot()) session.plot(contact_figure(law, indentation));
+  session.answer(object);
 }
 
 // One period of a single case that a picture can show; nothing for a motion that never repeats.
-void plot_case(const ContactLaw& law, const DampingCase& one, const DampingResult& result,
-               Session& session) {
+void plot_case(const DampingArguments& arguments, const DampingAnswer& answer, Session& session) {
   if (!session.has_plot()) return;
-  require_that(!one.force_amplitude, "--plot",
+  require_that(arguments.force_amplitude.empty(), "--plot",
                "one case of --force-amplitude has no picture; give it as a range");
-  const SampledMotion path = sampled(one.motion, result.indentation, 1000);
-  session.plot(cycle_figure(path, trajectory_damping(law, path)));
+  const bool slips = arguments.premises.friction_coefficient.has_value();
+  const DampingCycle cycle = cycle_of(
+      *answer.contact.law, answer.motions.front(), answer.results.front().indentation,
+      slips ? arguments.steps : 1000,
+      arguments.premises.friction_coefficient.value_or(ContactFacts::unknown), session.context());
+  session.plot(cycle_figure(cycle.path, cycle.loss));
 }
 
-void run(const DampingArguments& arguments, Session& session) {
-  if (!arguments.follow.trajectory.empty()) {
-    require(!arguments.motion.given() && arguments.force_amplitude.empty(), "--trajectory",
-            arguments.follow.trajectory, "is the motion; leave out the options of Motion");
-    follow_file(arguments.follow, *arguments.law.law_alone(arguments.material, session),
-                arguments.premises.facts(arguments.material, arguments.follow.friction_coefficient),
-                session);
-    return;
-  }
+void lose(const DampingArguments& arguments, Session& session) {
   const auto [quantity, values] = varied(arguments);
   const std::vector<Motion> motions = motions_of(arguments);
-  double largest = 0;
-  for (const Motion& motion : motions)
-    largest =
-        std::max(largest, std::visit([](const auto& m) { return m.normal_amplitude; }, motion));
-  const ContactAnswer contact =
-      arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
-  const ContactLaw& law = *contact.law;
-  const auto& positions = contact.positions;
-  DampingOptions options;
-  options.hold = *value_of<Hold>(arguments.hold);
-  options.amplitude = *value_of<Amplitude>(arguments.amplitude);
-
-  const auto at = [](const auto& all, std::size_t i) { return all[all.size() == 1 ? 0 : i]; };
-  const std::size_t count = std::max<std::size_t>(1, values.size());
-  std::vector<DampingCase> cases;
-  for (std::size_t i = 0; i < count; ++i) {
-    cases.push_back({at(positions, i), at(motions, i), {}});
-    if (!arguments.force_amplitude.empty())
-      cases.back().force_amplitude = at(arguments.force_amplitude, i);
-  }
-  const bool one = count == 1;
-  if (arguments.follow.friction_coefficient) {
-    require(one, "--friction", *arguments.follow.friction_coefficient,
-            "takes one motion, not a range");
-    follow_motion(arguments, contact, cases.front(), options, session);
-    return;
-  }
-
-  if (contact.surface)
+  arguments.maps.check(motions, session);
+  if (arguments.law.surface.given())
     require(motions.size() == 1 && arguments.force_amplitude.empty() &&
                 arguments.motion.mode != "two-frequencies",
             "--surface", arguments.law.surface.file,
             "takes one motion of equal frequencies or drag; give several --pressure, or a --curve");
-  std::vector<DampingResult> results;
-  const Progress progress = session.progress();
-  for (std::size_t i = 0; i < count; ++i) {
-    results.push_back(result_of(law, cases[i], options));
-    if (!progress({"damping", static_cast<double>(i + 1) / static_cast<double>(count),
-                   static_cast<int>(i + 1), 0}))
-      throw Interrupted("damping: stopped before all cases were done");
-  }
-  std::vector<double> errors;
-  if (contact.surface)
-    errors = resolve_on_surface(arguments, contact, motions.front(), options, session, results);
-  const ContactFacts facts = arguments.premises.facts(arguments.material);
-  PremiseReport premises{.list = !one};
-  for (std::size_t i = 0; i < count; ++i)
-    premises.cases.push_back(premises_of_case(contact, cases[i], results[i], facts));
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto* drag = std::get_if<Drag>(&cases[i].motion);
-    const auto doubts =
-        drag ? doubts_of_path(drag->drag_velocity, drag->angular_frequency,
-                              spot_radius(facts, law, contact.curve ? &*contact.curve : nullptr,
-                                          results[i].indentation))
-             : std::vector<std::string>{};
-    for (const std::string& line : doubts) session.warn(line);
-    if (!doubts.empty()) break;  // one line for a range
-  }
-  const auto lost = std::ranges::count(results, false, &DampingResult::converged);
-
-  const auto column = [&](const auto& value_of) -> Json {
-    if (one) return value_of(0);
-    Json all = Json::array();
-    for (std::size_t i = 0; i < count; ++i) all.push_back(value_of(i));
-    return all;
-  };
-  const double area = contact.curve ? contact.curve->nominal_area : 0;
+  const DampingAnswer answer =
+      ask(DampingQuestion{.contact = contact_of(arguments, session),
+                          .motions = motions,
+                          .force_amplitude = arguments.force_amplitude,
+                          .hold = *value_of<Hold>(arguments.hold),
+                          .amplitude = *value_of<Amplitude>(arguments.amplitude),
+                          .facts = arguments.premises.facts(arguments.material),
+                          .steps = arguments.steps},
+          session.context());
+  warn(answer.contact.doubts, session);
+  warn(answer.doubts, session);
+  const bool one = values.empty();
+  if (one && !answer.periods.empty() && answer.periods.front().normal_cycles == 0)
+    session.note("the frequencies have no common period: power is the mean over a long time");
   Json object = Json::object();
   if (!one) object[quantity] = values;
-  object.add(one ? json_of(results.front(), area) : json_of(results, area));
-  if (contact.surface) {
-    object["damping_constant_error"] = column([&](std::size_t i) { return errors[i]; });
-    object["error_estimate"] = column([&](std::size_t i) { return results[i].error_estimate; });
-  }
-  const auto ratio = [&](std::size_t i) {
-    return 1 / small_over_exact(results[i], cases[i].motion);
-  };
-  object["ratio"] = column(ratio);
-  add_first_loading(object, contact.first_loading);
-  if (arguments.motion.mode == "two-frequencies") {
-    std::vector<CommonPeriod> periods;
-    for (const DampingCase& each : cases)
-      periods.push_back(common_period(std::get<TwoFrequencies>(each.motion)));
-    object.add(one ? json_of(periods.front()) : json_of(periods));
-    object["slow_limit_power"] =
-        column([&](std::size_t i) { return slow_limit_power(law, cases[i], options); });
-    if (one && periods.front().normal_cycles == 0)
-      session.note("the frequencies have no common period: power is the mean over a long time");
-  }
+  object.add(answer_json(answer, answer.contact.nominal_area()));
+  const auto lost = std::ranges::count(answer.results, false, &DampingResult::converged);
   if (lost == 0) {
     write_answer(session, "damping", object);
-    if (one)
-      plot_case(law, cases.front(), results.front(), session);
-    else if (session.has_plot())
-      session.plot(damping_figure(quantity, values, results));
+    if (!one && session.has_plot())
+      session.plot(damping_figure(quantity, values, answer.results));
+    else if (!arguments.maps.given())
+      plot_case(arguments, answer, session);
+    arguments.maps.write(answer, arguments.steps, session);
   }
-  premises.answer(session, object);
-  if (lost > 0) {
+  PremiseReport{answer.premises, !one}.answer(session, object);
+  if (lost > 0)
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
-                                   results.size()));
+                                   answer.results.size()));
+}
+
+void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
+               const Session& session) {
+  ResultFile file(session.output(), session.provenance(), session.write_options());
+  QuantityGroup group(file.group("damper"));
+  group.coordinate("normal_amplitude", map.normal_amplitude);
+  group.coordinate("angular_frequency", map.angular_frequency);
+  group.dataset("damping_constant", map.damping_constant, "normal_amplitude", "angular_frequency");
+  if (falling_slope) {
+    std::vector<bool> stable;
+    for (Index i = 0; i < map.damping_constant.rows(); ++i)
+      for (Index j = 0; j < map.damping_constant.cols(); ++j)
+        stable.push_back(map.damping_constant(i, j) >= *falling_slope);
+    group.plain().flags("stable", stable, {"normal_amplitude", "angular_frequency"},
+                        "steady sliding is stable");
+    group.scalar("falling_slope", *falling_slope);
   }
+  file.commit();
+}
+
+// γ: a number, a row over the one quantity that varies, or rows over frequencies for each
+// amplitude.
+Json constants(const DamperMap& map) {
+  Json rows = Json::array();
+  for (Index i = 0; i < map.damping_constant.rows(); ++i) {
+    Json row = Json::array();
+    for (Index j = 0; j < map.damping_constant.cols(); ++j)
+      row.push_back(map.damping_constant(i, j));
+    rows.push_back(row.size() == 1 ? row[0] : row);
+  }
+  return rows.size() == 1 ? rows[0] : rows;
+}
+
+// For people, a map is a row for each pair of amplitude and frequency: in one table with the list
+// of amplitudes and that of frequencies, each amplitude would stand beside a frequency it has
+// nothing to do with.
+std::string text_of(const Json& answer, const DamperMap& map) {
+  Json pairs = Json::array();
+  for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
+    for (std::size_t j = 0; j < map.angular_frequency.size(); ++j)
+      pairs.push_back({{"normal_amplitude", map.normal_amplitude[i]},
+                       {"angular_frequency", map.angular_frequency[j]},
+                       {"damping_constant", map.damping_constant(Index(i), Index(j))}});
+  std::string text = to_text(Json{{"map", pairs}});
+  if (answer.contains("stabilising_amplitude"))
+    text += "\n" + to_text(Json{{"angular_frequency", answer["angular_frequency"]},
+                                {"stabilising_amplitude", answer["stabilising_amplitude"]}});
+  return text;
+}
+
+DamperQuestion damper_question(const DampingArguments& arguments) {
+  const MotionOptions& motion = arguments.motion;
+  require_that(motion.mode == "drag" && arguments.force_amplitude.empty(),
+               arguments.force_amplitude.empty() ? "--mode" : "--force-amplitude",
+               "given, but a damper is one of slow tangential motions, with --normal-amplitude");
+  for (const auto& [option, values] :
+       {std::pair("--tangential-amplitude", &motion.tangential_amplitude),
+        {"--phase", &motion.phase},
+        {"--tangential-frequency", &motion.tangential_frequency}})
+    require_that(values->empty(), option, "given, but --mode drag has none; leave it out");
+  require(motion.drag_velocity.size() < 2, "--drag-velocity", motion.drag_velocity.size(),
+          "values are given; a damper takes one, to judge slip");
+  DamperQuestion question{.normal_amplitude = motion.normal_amplitude,
+                          .angular_frequency = motion.frequency.angular(),
+                          .hold = *value_of<Hold>(arguments.hold),
+                          .amplitude = *value_of<Amplitude>(arguments.amplitude),
+                          .falling_slope = arguments.falling_slope,
+                          .facts = arguments.premises.facts(arguments.material)};
+  if (!motion.drag_velocity.empty()) {
+    require_positive(motion.drag_velocity.front(), "--drag-velocity");
+    question.drag_velocity = motion.drag_velocity.front();
+  }
+  require_that(arguments.mass || !arguments.spring_stiffness, "--spring-stiffness",
+               "given, but there is no --mass to oscillate");
+  if (arguments.mass)
+    question.oscillator = {*arguments.mass, arguments.spring_stiffness.value_or(0)};
+  question.largest_amplitude = arguments.largest_amplitude.value_or(
+      motion.normal_amplitude.empty() ? 1e-6 : std::ranges::max(motion.normal_amplitude));
+  return question;
+}
+
+void damp(const DampingArguments& arguments, Session& session) {
+  require_that(!arguments.maps.given(), "--stress-map", "and --friction-map are of one motion");
+  if (!arguments.motion.frequency.given()) require_options({"--frequency"}, "a damper");
+  DamperQuestion question = damper_question(arguments);
+  const std::vector<double> amplitudes = question.normal_amplitude,
+                            omega = question.angular_frequency;
+  require(!amplitudes.empty() || !session.has_output(), "--output", session.output().string(),
+          "is for a map over --normal-amplitude and --frequency");
+  question.contact = contact_of(arguments, session);
+  const DamperAnswer answer = ask(std::move(question), session.context());
+  warn(answer.contact.doubts, session);
+  Json object = Json::object();
+  if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
+  if (omega.size() > 1) object["angular_frequency"] = omega;
+  if (!amplitudes.empty()) object["damping_constant"] = constants(answer.map);
+  object.add(answer_json(answer));
+  if (!amplitudes.empty() && session.has_output())
+    write_map(answer.map, arguments.falling_slope, session);
+  if (session.has_plot()) {
+    const Figure figure = damper_figure(answer, arguments.falling_slope, omega);
+    require_that(!figure.panels.empty(), "--plot",
+                 "one number is no picture; give a range, --mass, or --falling-slope with several "
+                 "frequencies");
+    session.plot(figure);
+  }
+  const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
+  const std::string text = pairs ? text_of(object, answer.map) : to_text(object);
+  if (answer.premises.empty()) return session.answer(object, text);
+  PremiseReport{answer.premises, amplitudes.size() > 1}.answer(session, object, text);
+}
+
+void run(const DampingArguments& arguments, Session& session) {
+  if (!arguments.trajectory.empty()) return follow_file(arguments, session);
+  if (arguments.of_damper()) return damp(arguments, session);
+  if (!arguments.motion.given() && arguments.force_amplitude.empty() &&
+      arguments.law.of_indenter() && !arguments.maps.given())
+    return answer_at_rest(arguments, session);
+  lose(arguments, session);
 }
 
 }  // namespace
@@ -324,13 +307,15 @@ void run(const DampingArguments& arguments, Session& session) {
 void add_damping_command(Program& program) {
   auto arguments = std::make_shared<DampingArguments>();
   Command& command = program.add_command(
-      "damping", "relaxation damping of a contact under an oscillation",
-      {"salebra damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-       "--normal-amplitude 5nm --drag-velocity 1um/s --frequency 20kHz --amplitude small",
-       "salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
-       "1:20nm:8 --drag-velocity 100nm/s --frequency 20kHz --plot damping.png"},
+      "damping", "what a contact loses while it oscillates, and the damper that it is",
+      {"salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
+       "1:20nm:8 --drag-velocity 100nm/s --frequency 20kHz --plot damping.png",
+       "salebra damping --law sphere --radius 10mm --indentation 1um --contact-modulus 1GPa "
+       "--poisson 0.3 --mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm "
+       "--phase 60deg --friction-coefficient 0.3"},
       [arguments](Session& session) { run(*arguments, session); },
-      "the loss over the quantity that is a range, or one period of a single motion");
+      "the map that is asked for, the loss or damping constant over the quantity that is a range, "
+      "one period of a single motion, or the contact at rest");
   arguments->law.add_to(command);
   arguments->motion.add_to(command, true);
   const std::string normal = "Normal motion";
@@ -343,7 +328,29 @@ void add_damping_command(Program& program) {
   add_choice<Hold>(command, "--hold", arguments->hold,
                    "what stays in the mean; default indentation")
       ->group(normal);
-  arguments->follow.add_to(command);
+  const std::string path = "Measured motion, and steps";
+  command
+      .add_option("--trajectory", arguments->trajectory,
+                  "one period from a file of time, indentation, x and, without slip, y (SI)")
+      ->file(FileUse::input)
+      ->group(path);
+  command.add_option("--steps", arguments->steps, "straight steps a cycle where slip is followed")
+      ->range(8, 10000000)
+      ->group(path);
+  const std::string use = "Use, of slow tangential motions (--drag-velocity may be left out)";
+  add_quantity(command, "--mass", arguments->mass, Dimension::mass,
+               "of a tangential oscillator on the contact")
+      ->group(use);
+  add_quantity(command, "--spring-stiffness", arguments->spring_stiffness, Dimension::stiffness,
+               "of its spring, without the contact")
+      ->group(use);
+  add_quantity(command, "--falling-slope", arguments->falling_slope, Dimension::damping,
+               "b of a friction force that falls by b per velocity")
+      ->group(use);
+  add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
+               "to look for stability in; default the largest --normal-amplitude, or 1um")
+      ->group(use);
+  arguments->maps.add_to(command);
   arguments->premises.add_to(command);
   arguments->material.add_to(command);
 }

@@ -172,7 +172,7 @@ void add_joint_command(Program& program) {
   auto arguments = std::make_shared<JointArguments>();
   Command& command = program.add_command(
       "joint", "partial slip under a tangential oscillation",
-      {"salebra joint --law parabola --radius 10mm --normal-force 10 --contact-modulus 115GPa "
+      {"salebra joint --law paraboloid --radius 10mm --normal-force 10 --contact-modulus 115GPa "
        "--poisson 0.3 --friction-coefficient 0.3 --tangential-forces 0.1:2.9N:12 --plot joint.png",
        "salebra joint --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--friction-coefficient 0.3 --tangential-amplitudes 1:50nm:8 --nominal-area 1mm2 -o "

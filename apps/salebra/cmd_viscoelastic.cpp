@@ -152,10 +152,10 @@ void add_viscoelastic_command(Program& program) {
   auto arguments = std::make_shared<ViscoelasticArguments>();
   Command& command = program.add_command(
       "viscoelastic", "losses of an indenter on rubber or a polymer",
-      {"salebra viscoelastic --profile sphere --radius 5mm --indentation 20um --contact-modulus "
+      {"salebra viscoelastic --law sphere --radius 5mm --indentation 20um --contact-modulus "
        "4MPa --poisson 0.5 --prony 3MPa:20ms --mode equal-frequency --normal-amplitude 2um "
        "--tangential-amplitude 1um --phase 90deg --frequency 0.1Hz:1kHz:25 --plot losses.png",
-       "salebra viscoelastic --profile cone --angle 10deg --normal-force 0.1 --young 3MPa "
+       "salebra viscoelastic --law cone --angle 10deg --normal-force 0.1 --young 3MPa "
        "--poisson 0.5 --prony 2MPa:1ms,1MPa:50ms --normal-amplitude 1um --drag-velocity 10um/s "
        "--frequency 10Hz:1kHz:9 -o losses.csv"},
       [arguments](Session& session) { run(*arguments, session); },

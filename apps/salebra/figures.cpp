@@ -377,9 +377,10 @@ Figure friction_figure(const FrictionMap& map) {
   return figure;
 }
 
-Figure damper_figure(const DamperMap& map, std::optional<double> falling_slope) {
-  Figure figure;
-  PlotPanel& panel = figure.panels.emplace_back();
+namespace {
+
+PlotPanel damper_panel(const DamperMap& map, std::optional<double> falling_slope) {
+  PlotPanel panel;
   panel.title = "Damping constant γ";
   const Index amplitudes = map.damping_constant.rows(), frequencies = map.damping_constant.cols();
   const PlotAxis amplitude = {.label = "normal amplitude u_z",
@@ -400,7 +401,7 @@ Figure damper_figure(const DamperMap& map, std::optional<double> falling_slope) 
           fmt::format("Steady sliding is stable where γ > b = {:.4g} N s/m", *falling_slope);
       panel.image->contours = {*falling_slope};
     }
-    return figure;
+    return panel;
   }
   panel.y = {.label = "γ", .unit = "N s/m"};
   const bool over_amplitude = amplitudes > 1;
@@ -412,7 +413,7 @@ Figure damper_figure(const DamperMap& map, std::optional<double> falling_slope) 
   panel.y.logarithmic = spans_decades(curve.y);
   panel.curves.push_back(curve);
   if (falling_slope) panel.lines.push_back({.at = *falling_slope, .name = "b, stable above"});
-  return figure;
+  return panel;
 }
 
 PlotPanel decay_panel(const OscillatorDecay& decay) {
@@ -442,6 +443,35 @@ PlotPanel decay_panel(const OscillatorDecay& decay) {
   panel.curves = {path};
   if (ratio < 1) panel.curves.push_back(bound);
   return panel;
+}
+
+/// The least amplitude that stabilises, over frequency.
+PlotPanel border_panel(const std::vector<double>& omega, const std::vector<double>& least) {
+  PlotCurve border{.x = scaled(omega, 1 / (2 * pi)),
+                   .y = least,
+                   .style = PlotStyle::line_and_points,
+                   .color = 1};
+  PlotPanel panel;
+  panel.title = "Least amplitude that stabilises";
+  panel.x = {.label = "frequency ω / 2π", .unit = "Hz", .logarithmic = spans_decades(border.x)};
+  panel.y = {.label = "normal amplitude u_z", .unit = "m", .logarithmic = true};
+  panel.curves.push_back(border);
+  return panel;
+}
+
+}  // namespace
+
+Figure damper_figure(const DamperAnswer& answer, std::optional<double> falling_slope,
+                     const std::vector<double>& angular_frequency) {
+  Figure figure;
+  if (answer.map.damping_constant.size() > 1)
+    figure.panels.push_back(damper_panel(answer.map, falling_slope));
+  if (answer.decay) figure.panels.push_back(decay_panel(*answer.decay));
+  const std::vector<double>& least = answer.stabilising_amplitude;
+  if (least.size() > 1 &&
+      std::ranges::any_of(least, [](double value) { return std::isfinite(value); }))
+    figure.panels.push_back(border_panel(angular_frequency, least));
+  return figure;
 }
 
 }  // namespace salebra::cli

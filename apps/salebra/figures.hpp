@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/contact/mdr/mdr.hpp>
-#include <salebra/damping/damper.hpp>
-#include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/stress_map.hpp>
-#include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/io/plot.hpp>
+#include <salebra/questions/damping.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,11 +38,10 @@ Figure stress_figure(const IndenterLaw& law, double indentation, const Oscillati
 /// and relaxation apart.
 Figure friction_figure(const FrictionMap& map);
 
-/// γ over u_z and ω, with the border of stability where a falling slope is given; lines where only
-/// one of them varies.
-Figure damper_figure(const DamperMap& map, std::optional<double> falling_slope);
-
-/// Free decay of a tangential oscillator, and of the same without normal oscillation.
-PlotPanel decay_panel(const OscillatorDecay& decay);
+/// γ over u_z and ω, with the border of stability where a falling slope is given, or a line where
+/// only one of them varies; free decay of the oscillator; the least amplitude that stabilises over
+/// the frequencies. No panel where there is but one number.
+Figure damper_figure(const DamperAnswer& answer, std::optional<double> falling_slope,
+                     const std::vector<double>& angular_frequency);
 
 }  // namespace salebra::cli

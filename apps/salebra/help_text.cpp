@@ -88,19 +88,16 @@ constexpr std::array descriptions{
         "study takes, and about twice its time, which --dry-run estimates."},
     CommandHelp{
         "damping", damping,
-        "--law --curve --surface --normal-amplitude --drag-velocity --frequency",
-        "Relaxation damping of any contact law or curve: the energy that a contact without slip "
-        "loses in a cycle. Eqs (12), (15) and (16) hold for small amplitudes, the theorem for any. "
-        "One quantity may be a range, and is then drawn by --plot."},
-    CommandHelp{
-        "mdr", damping,
-        "--profile --radius --indentation --normal-amplitude --drag-velocity --frequency",
-        "An axisymmetric contact by the method of dimensionality reduction: force, stiffness, "
-        "stresses, and losses with and without friction, along any trajectory."},
-    CommandHelp{
-        "damper", damping, "--law --curve --surface --normal-amplitude --frequency --falling-slope",
-        "The contact as a damper that one tunes by its amplitude: decay of an oscillator, and an "
-        "estimate of the amplitude that keeps a slider from stick-slip."},
+        "--law --curve --surface --normal-amplitude --drag-velocity --frequency "
+        "--friction-coefficient",
+        "What a contact loses in a cycle, by any law, curve or surface: without slip by the "
+        "theorem "
+        "for any amplitude, beside the small-amplitude Eqs (12), (15) and (16); with a coefficient "
+        "of friction also with slip. One quantity may be a range, and is then drawn by --plot. Of "
+        "slow tangential motions it is a damper that one tunes by its amplitude: a map over "
+        "amplitudes and frequencies, the decay of an oscillator, the amplitude that keeps a slider "
+        "from stick-slip. An indenter without a motion is at rest: force, contact radius, "
+        "stiffness."},
     CommandHelp{
         "sliding", damping, "--law --curve --surface --friction-coefficient --velocities --mass",
         "A contact that slides while it oscillates in the normal direction. Reports mean friction "
@@ -118,7 +115,7 @@ constexpr std::array descriptions{
         "force."},
     CommandHelp{
         "viscoelastic", damping,
-        "--profile --radius --indentation --prony --normal-amplitude --frequency",
+        "--law --radius --indentation --prony --normal-amplitude --frequency",
         "An axisymmetric indenter that oscillates on a viscoelastic body without slip. Reports "
         "what "
         "the material loses by the normal and by the tangential motion, and what relaxation "
@@ -146,9 +143,9 @@ constexpr std::string_view chart =
     "                           damping                          study --surface\n"
     "  a spectrum, no file      such surfaces, their damping     generate, study\n"
     "  a law, a curve           damping for any motion           damping\n"
-    "  a sphere, cone, profile  losses, slip; simulation in 3-D  mdr, oscillate\n"
+    "  a sphere, cone, profile  losses, slip; simulation in 3-D  damping, oscillate\n"
     "  a sliding contact        friction, stick-slip             sliding\n"
-    "  an oscillator            its decay under vibration        damper\n"
+    "  an oscillator            its decay under vibration        damping\n"
     "  a joint                  losses in partial slip           joint\n"
     "  rubber or a polymer      losses under an indenter         viscoelastic\n"
     "  doubts about a model     all models on your surface       compare\n\n"

@@ -20,11 +20,7 @@ constexpr auto position_members =
          {Standing::mean_gap, &LawOptions::mean_gap},
          {Standing::pressure, &LawOptions::pressure}});
 
-std::string option_named(Standing standing) {
-  std::string option = "--" + std::string(word_of(standing));
-  std::ranges::replace(option, '_', '-');
-  return option;
-}
+std::string option_named(Standing standing) { return "--" + option_word(standing); }
 
 /// The one position that was given, and its values.
 Standings position_of(const LawOptions& arguments, const std::vector<Standing>& allowed) {
@@ -46,53 +42,28 @@ Standings position_of(const LawOptions& arguments, const std::vector<Standing>& 
   return *found;
 }
 
-std::shared_ptr<const IndenterProfile> profile_of(const LawOptions& arguments) {
-  if (arguments.law == "cone")
-    return cone_profile(required(arguments.angle, "--angle", "--law cone needs it"));
-  if (arguments.law == "parabola") {
-    return paraboloid_profile(required(arguments.radius, "--radius", "--law parabola needs it"));
-  }
-  return power_profile(required(arguments.coefficient, "--coefficient", "--law power needs it"),
-                       required(arguments.exponent, "--exponent", "--law power needs it"));
-}
-
 }  // namespace
 
 void LawOptions::require_own_parameters() const {
-  const std::string chosen = surface.given() ? "--surface"
-                             : curve.empty() ? "--law " + law
-                                             : "--curve";
-  for (const auto& [option, value, owner] :
-       {std::tuple{"--decay-length", &decay_length, "exponential"},
-        {"--angle", &angle, "cone"},
-        {"--radius", &radius, "parabola"},
-        {"--exponent", &exponent, "power"},
-        {"--coefficient", &coefficient, "power"}})
-    require_that(!*value || (law == owner && curve.empty() && !surface.given()), option,
-                 fmt::format("given, but {} has none; leave it out", chosen));
+  const std::string& law = indenter.law;
+  const bool by_law = curve.empty() && !surface.given();
+  const std::string chosen = surface.given() ? "--surface" : by_law ? "--law " + law : "--curve";
+  if (!by_law || law == "exponential") indenter.require_only({}, chosen);
+  require_that(!decay_length || (by_law && law == "exponential"), "--decay-length",
+               fmt::format("given, but {} has none; leave it out", chosen));
 }
 
 void LawOptions::add_to(Command& command) {
   const std::string group = "Law";
-  add_choice(command, "--law", law, {"exponential", "cone", "parabola", "power"}, "F(indentation)")
+  indenter.add_to(command, {"exponential"});
+  add_quantity(command, "--decay-length", decay_length, Dimension::length,
+               "exponential: l of F ~ exp(indentation/l)")
       ->group(group);
   command
       .add_option("--curve", curve, "file of contact or a study of one surface, instead of --law")
       ->file(FileUse::input)
       ->group(group);
   surface.add_to(command, false, "--surface");
-  add_quantity(command, "--decay-length", decay_length, Dimension::length,
-               "l of the exponential law")
-      ->group(group);
-  add_quantity(command, "--angle", angle, Dimension::angle, "of the cone's flank to the plane")
-      ->group(group);
-  add_quantity(command, "--radius", radius, Dimension::length, "of the paraboloid")->group(group);
-  add_quantity(command, "--exponent", exponent, Dimension::dimensionless,
-               "N of the profile f = B r^N")
-      ->group(group);
-  add_quantity(command, "--coefficient", coefficient, Dimension::dimensionless,
-               "B of the profile f = B r^N, m^(1-N)")
-      ->group(group);
   const std::string position = "Position (may be a range)";
   add_values(command, "--normal-force", force, Dimension::force, "normal force")->group(position);
   add_values(command, "--indentation", indentation, Dimension::length, "from first touch")
@@ -109,7 +80,7 @@ ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_posi
   const auto standing = [&](const std::vector<Standing>& allowed) {
     return with_positions ? position_of(*this, allowed) : Standings{};
   };
-  require_one(!law.empty(), "--law", !curve.empty(), "--curve");
+  require_one(!indenter.law.empty(), "--law", !curve.empty(), "--curve");
   require_own_parameters();
   if (!curve.empty())
     return CurveContact{.curve = read_force_curve(curve),
@@ -117,13 +88,13 @@ ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_posi
                         .at = standing({normal_force, Standing::indentation, Standing::pressure,
                                         Standing::mean_gap}),
                         .source = curve};
-  if (law == "exponential") {
+  if (indenter.law == "exponential") {
     standing({normal_force});
     const double length = required(decay_length, "--decay-length", "--law exponential needs it");
     require_that(!force.empty(), "--normal-force", "not given, but --law exponential needs it");
     return ExponentialContact{length, material.modulus_ratio(), force};
   }
-  return IndenterContact{.profile = profile_of(*this),
+  return IndenterContact{.profile = indenter.indenter(),
                          .material = material.material_with_tangential_modulus(),
                          .at = standing({normal_force, Standing::indentation})};
 }
@@ -131,7 +102,7 @@ ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_posi
 ContactQuestion LawOptions::question(const MaterialOptions& material, Session& session,
                                      const std::optional<double>& hardness) const {
   if (!surface.given()) return read(material, true);
-  require(law.empty() && curve.empty(), "--surface", surface.file,
+  require(indenter.law.empty() && curve.empty(), "--surface", surface.file,
           "is given together with --law or --curve; give one of them");
   require_own_parameters();
   std::vector<double> values = position_of(*this, {Standing::pressure}).values;
@@ -151,11 +122,10 @@ ContactAnswer LawOptions::contact(const MaterialOptions& material, Session& sess
   return contact;
 }
 
-std::unique_ptr<const ContactLaw> LawOptions::law_alone(const MaterialOptions& material,
-                                                        Session& session) const {
+ContactQuestion LawOptions::question_of_law(const MaterialOptions& material) const {
   require(!surface.given(), "--surface", surface.file,
           "has no law for a path of indentations; press it and give its --curve");
-  return law_of(read(material, false), session.context());
+  return read(material, false);
 }
 
 }  // namespace salebra::cli

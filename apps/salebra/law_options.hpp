@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <salebra/questions/contact.hpp>
 #include <string>
 #include <vector>
 
+#include "indenter_options.hpp"
 #include "options.hpp"
 
 namespace salebra::cli {
 
 /// A force law, a curve from a file, or a surface, and where the contact stands on it.
 struct LawOptions {
-  std::string law, curve;
+  IndenterOptions indenter;  ///< --law, exponential beside the shapes
+  std::string curve;
   SurfaceOptions surface;
   std::vector<double> force, indentation, pressure, mean_gap;
-  std::optional<double> decay_length, angle, radius, exponent, coefficient;
+  std::optional<double> decay_length;
 
   void add_to(Command& command);
   /// Throws InvalidInput naming the option that is missing or one too many. A surface is read.
@@ -25,10 +26,13 @@ struct LawOptions {
   /// The answer, whose doubts are told.
   ContactAnswer contact(const MaterialOptions& material, Session& session,
                         const std::optional<double>& hardness, double normal_amplitude) const;
-  /// The law alone, for a motion that brings its own indentations. The exponential law's
+  /// Without positions, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
-  std::unique_ptr<const ContactLaw> law_alone(const MaterialOptions& material,
-                                              Session& session) const;
+  ContactQuestion question_of_law(const MaterialOptions& material) const;
+  bool of_indenter() const {
+    return !indenter.law.empty() && indenter.law != "exponential" && curve.empty() &&
+           !surface.given();
+  }
 
  private:
   /// Throws InvalidInput for a parameter of another law than the one that was chosen.

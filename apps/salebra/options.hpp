@@ -6,9 +6,7 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/words.hpp>
-#include <salebra/contact/half_space/material.hpp>
-#include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/oscillation.hpp>
+#include <salebra/questions/damping.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
@@ -32,12 +30,19 @@ Option* add_values(Command& app, const std::string& name, std::vector<double>& t
 /// --name NAME out of a few; the target's present value is the default.
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::vector<std::string>& choices, const std::string& help);
+/// The word of a value, as options have it.
+template <class Enum>
+std::string option_word(Enum value) {
+  std::string word(word_of(value));
+  std::ranges::replace(word, '_', '-');
+  return word;
+}
 /// The choices are the words of an enumeration.
 template <class Enum>
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::string& help) {
-  std::vector<std::string> words = words_of<Enum>();
-  for (std::string& word : words) std::ranges::replace(word, '_', '-');
+  std::vector<std::string> words;
+  for (const auto& [value, word] : Words<Enum>::values) words.push_back(option_word(value));
   return add_choice(app, name, target, words, help);
 }
 
@@ -126,16 +131,14 @@ struct PositionOptions {
   std::optional<double> nominal_pressure(const Grid2D& grid) const;
 };
 
-/// Every motion that has a name on the command line.
-using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
-
 /// --frequency or --angular-frequency of the normal motion.
 struct FrequencyOptions {
   std::vector<double> frequency, angular_frequency;
 
   /// one: no list or range.
   void add_to(Command& app, const std::string& group, bool one = false);
-  bool given() const { return !frequency.empty() || !angular_frequency.empty(); }
+  bool given() const { return count() > 0; }
+  std::size_t count() const { return frequency.size() + angular_frequency.size(); }
   /// ω, rad/s, of each; empty: none was given. Throws InvalidInput where both were, and for values
   /// that are not > 0.
   std::vector<double> angular() const;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <salebra/base/units.hpp>
 
 namespace salebra::cli {
@@ -24,17 +23,6 @@ std::vector<std::string> doubts_of_cells(const Grid2D& grid) {
   return {fmt::format("cells of {} x {} have sides of {} to 1; check the size and the points",
                       format_quantity(grid.dx(), Dimension::length),
                       format_quantity(grid.dy(), Dimension::length), ratio_text(longer / shorter))};
-}
-
-std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
-                                        double spot_radius) {
-  const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
-  if (!(path > 2 * spot_radius)) return {};
-  return {fmt::format(
-      "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact spot of {} "
-      "across; take a lower --drag-velocity or a higher --frequency",
-      format_quantity(path, Dimension::length),
-      format_quantity(2 * spot_radius, Dimension::length))};
 }
 
 }  // namespace salebra::cli

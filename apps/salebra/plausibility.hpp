@@ -12,9 +12,4 @@ namespace salebra::cli {
 /// Cells ten times as long as wide.
 std::vector<std::string> doubts_of_cells(const Grid2D& grid);
 
-/// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what
-/// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.
-std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
-                                        double spot_radius);
-
 }  // namespace salebra::cli

@@ -198,11 +198,13 @@ struct FormerCommand {
   std::string_view name, now;
 };
 constexpr FormerCommand former_commands[]{
+    {"damper", "damping, without --drag-velocity, or with --mass or --falling-slope"},
     {"figure3", "oscillate, with --shape cylinder,parabola,pyramids,sinusoids"},
     {"friction", "sliding, with the same options"},
     {"gw", "contact, with --model gw_moments or gw_deterministic"},
     {"info", "statistics"},
     {"manual", "help, with the name of a command"},
+    {"mdr", "damping, with --law and the shape of the indenter"},
     {"slider", "sliding, with --velocities for --velocity"},
     {"sweep", "contact, with several values of --pressure"},
 };

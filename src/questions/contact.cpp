@@ -178,9 +178,9 @@ ContactAnswer answer(IndenterContact body, const Context& context) {
   ContactAnswer answer{std::move(force_law),
                        by_force ? at_forces(values) : at_indentations(values)};
   const auto& indenter = static_cast<const IndenterLaw&>(*answer.law);
-  for (const double value : values) {
-    const double indentation = by_force ? indenter.indentation_of(value) : value;
-    answer.doubts = doubts_of_profile(*body.profile, indenter.contact_radius(indentation));
+  for (const Position& position : answer.positions) {
+    const double radius = indenter.contact_radius(indentation_of(indenter, position));
+    answer.doubts = doubts_of_profile(*body.profile, radius);
     if (!answer.doubts.empty()) break;
   }
   return answer;
@@ -239,6 +239,20 @@ ContactAnswer ask(ContactQuestion question, const Context& context) {
 
 std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question, const Context& context) {
   return std::visit([&](const auto& body) { return law(body, context); }, question);
+}
+
+double indentation_of(const ContactLaw& law, const Position& position) {
+  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
+  return law.indentation_of(std::get<AtForce>(position).force);
+}
+
+IndenterState state_of(const IndenterLaw& law, double indentation) {
+  return {.contact_radius = law.contact_radius(indentation),
+          .indentation = indentation,
+          .force = law.force(indentation),
+          .normal_stiffness = law.normal_stiffness(indentation),
+          .tangential_stiffness = law.tangential_stiffness(indentation),
+          .force_curvature = law.force_curvature(indentation)};
 }
 
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,

@@ -97,8 +97,8 @@ TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]
         Approx(8. / 3. * ratio * curvature * 9e-16 * 5e-8 * 0.75).epsilon(1e-9));
   CHECK(shear["power"].is_null());
   const auto parabola = test.run(
-      "damping --law parabola --radius 1mm --normal-force 1mN --young 2GPa --poisson 0.5 " + drag +
-      "--json");
+      "damping --law paraboloid --radius 1mm --normal-force 1mN --young 2GPa --poisson 0.5 " +
+      drag + "--json");
   CHECK(parabola.status == 0);
 }
 
@@ -201,13 +201,14 @@ TEST_CASE("Any law follows a motion from a file", "[damping]") {
   CHECK(test.files() == std::set<std::string>{"path.txt", "path.h5", "path.svg"});
   check_refused(test.run(law + "--trajectory path.txt --normal-amplitude 1nm"), "--trajectory");
   // Friction: less is lost by relaxation, and some by slip.
-  const auto rough = test.run(law +
-                              "--friction 1 --mode equal-frequency --normal-amplitude 50nm "
-                              "--tangential-amplitude 30nm --phase 60deg")
-                         .json();
-  CHECK(rough["full_stick_work"] == exact["work_per_cycle"]);
-  CHECK(rough["work_per_cycle"].get<double>() < exact["work_per_cycle"].get<double>());
-  CHECK(rough["slip_work"].get<double>() > 0);
+  const auto rough =
+      test.run(law +
+               "--friction-coefficient 1 --mode equal-frequency --normal-amplitude 50nm "
+               "--tangential-amplitude 30nm --phase 60deg")
+          .json();
+  CHECK(rough["work_per_cycle"] == exact["work_per_cycle"]);
+  CHECK(rough["with_slip"]["work_per_cycle"].get<double>() < exact["work_per_cycle"].get<double>());
+  CHECK(rough["with_slip"]["slip_work"].get<double>() > 0);
 }
 
 TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
@@ -278,11 +279,12 @@ TEST_CASE("A drag far too short for sliding to begin has its steady state all th
       "--law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
       "--normal-amplitude 20nm --frequency 20kHz --json ";
   const auto followed =
-      test.run("damping " + law + "--drag-velocity 10um/s --friction 100 --steps 2000").json();
+      test.run("damping " + law + "--drag-velocity 10um/s --friction-coefficient 100 --steps 2000")
+          .json();
   const auto slid =
       test.run("sliding " + law + "--velocities 10um/s --friction-coefficient 100").json();
   // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
-  CHECK(followed["work_per_cycle"].get<double>() ==
+  CHECK(followed["with_slip"]["work_per_cycle"].get<double>() ==
         Approx(slid["relaxation_work"][0].get<double>() + slid["slip_work"][0].get<double>())
             .epsilon(1e-4));
 }
@@ -320,10 +322,11 @@ TEST_CASE("What contradicts a curve is said in the quantity that was typed", "[d
     CHECK(told.status == 0);
     CHECK_THAT(told.err, Catch::Contains("warning: G*/E* = 1 of --poisson"));
   }
-  CHECK_THAT(test.run("damper --poisson 0 --pressure 1MPa --normal-amplitude 1nm --frequency 20kHz "
-                      "--falling-slope 1 --curve curve.h5")
-                 .err,
-             Catch::Contains("warning: G*/E* = 1"));
+  CHECK_THAT(
+      test.run("damping --poisson 0 --pressure 1MPa --normal-amplitude 1nm --frequency 20kHz "
+               "--falling-slope 1 --curve curve.h5")
+          .err,
+      Catch::Contains("warning: G*/E* = 1"));
   for (const std::string pressure : {"1:2MPa:4", "1MPa"})
     CHECK_THAT(
         test.run("contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressure " + pressure)
@@ -338,7 +341,7 @@ TEST_CASE("A slow motion that passes a contact spot in one normal cycle is told"
       "20kHz ";
   // a = sqrt(R d) = 3.162 um; 2 pi v/w = 50 um at 1 m/s, 5 um at 0.1 m/s.
   for (const std::string command :
-       {"mdr --profile parabola --radius 1mm ", "damping --law parabola --radius 1mm "}) {
+       {"damping --law paraboloid --radius 1mm ", "damping --law paraboloid --radius 1mm "}) {
     CHECK_THAT(test.run(command + sphere + "--drag-velocity 1m/s").err,
                Catch::Contains("2 pi v/w = 50 µm") && Catch::Contains("6.325 µm across"));
     CHECK(test.run(command + sphere + "--drag-velocity 0.1m/s").err.empty());

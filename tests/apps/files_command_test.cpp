@@ -218,14 +218,15 @@ TEST_CASE("A file that a command reads is never replaced, by whatever name", "[f
 
 TEST_CASE("Two outputs under names of one file are refused before any work", "[files][bad-input]") {
   const ProgramTest test;
-  const std::string mdr =
-      "mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
+  const std::string maps =
+      "damping --law paraboloid --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson "
+      "0.3 "
       "--mode equal-frequency --normal-amplitude 300nm --tangential-amplitude 200nm --phase 90deg ";
-  check_refused(test.run(mdr + "--stress-map a.h5 --friction-map ./a.h5"),
+  check_refused(test.run(maps + "--stress-map a.h5 --friction-map ./a.h5"),
                 "--friction-map: ./a.h5 is the --stress-map too; name another file");
-  check_refused(test.run(mdr + "-o a.h5 --stress-map ./a.h5"), "is the --output too");
+  check_refused(test.run(maps + "-o a.h5 --stress-map ./a.h5"), "is the --output too");
   std::filesystem::create_directory_symlink(".", test.folder() / "here");
-  check_refused(test.run(mdr + "-o a.h5 --friction-map here/a.h5"), "is the --output too");
+  check_refused(test.run(maps + "-o a.h5 --friction-map here/a.h5"), "is the --output too");
   check_refused(test.run("oscillate --shape cone --points 16 --contact-modulus 1GPa --poisson 0.3 "
                          "--phase 45deg --fields f --checkpoint f-0008.h5 --steps 16"),
                 "--fields: f-0008.h5 is the --checkpoint too");

@@ -85,7 +85,7 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
   make_rough(test);
   const std::string motion = "--normal-amplitude 0.1nm --frequency 20kHz ";
   for (const std::string command :
-       {"damping --surface rough.h5 --drag-velocity 1um/s ", "damper --surface rough.h5 ",
+       {"damping --surface rough.h5 --drag-velocity 1um/s ", "damping --surface rough.h5 ",
         "sliding --surface rough.h5 --friction-coefficient 0.3 --velocities 1um/s ",
         "joint --surface rough.h5 --friction-coefficient 0.3 --tangential-amplitudes 0.1nm ",
         "oscillate --surface rough.h5 --mode drag --drag-velocity 1um/s --method levels "

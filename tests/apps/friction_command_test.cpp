@@ -73,7 +73,7 @@ TEST_CASE("sliding maps amplitudes and ratios of velocities", "[sliding]") {
   CHECK(test.files() == std::set<std::string>{"map.csv", "map.sliding.csv", "map.svg"});
 }
 
-TEST_CASE("sliding says in which regime a slow motion is, as mdr with friction does",
+TEST_CASE("sliding says in which regime a slow motion is, as damping with friction does",
           "[sliding][regimes]") {
   const ProgramTest test;
   const std::string contact =
@@ -94,13 +94,14 @@ TEST_CASE("sliding says in which regime a slow motion is, as mdr with friction d
                           way * std::min(turns, 2 * cycles - turns));
     }
     test.write("path.txt", path);
-    const std::string mdr =
-        "mdr --profile parabola --radius 10mm --contact-modulus 1GPa --poisson 0.3 --json "
+    const std::string damping =
+        "damping --law paraboloid --radius 10mm --contact-modulus 1GPa --poisson 0.3 --json "
         "--trajectory path.txt ";
-    const auto rough = test.run(mdr + "--friction 0.3").json(), stuck = test.run(mdr).json();
+    const auto rough = test.run(damping + "--friction-coefficient 0.3").json(),
+               stuck = test.run(damping).json();
     const std::string case_of_it =
         fmt::format("--velocities {} --excursions {} ", velocity, cycles * way);
-    const auto run = test.run("sliding --law parabola --radius 10mm " + contact + case_of_it +
+    const auto run = test.run("sliding --law paraboloid --radius 10mm " + contact + case_of_it +
                               "--json -o map.h5 --overwrite");
     INFO(run.err);
     REQUIRE(run.status == 0);
@@ -112,8 +113,8 @@ TEST_CASE("sliding says in which regime a slow motion is, as mdr with friction d
               .epsilon(0.03));
     // One motion is run alone.
     const auto alone = test.run(fmt::format(
-        "damping --law parabola --radius 10mm {}--drag-velocity {} --excursion {} --json", contact,
-        velocity, cycles * way));
+        "damping --law paraboloid --radius 10mm {}--drag-velocity {} --excursion {} --json",
+        contact, velocity, cycles * way));
     CHECK(alone.json()["regime"] == regimes[i]);
     const salebra::ResultReader reader(test.folder() / "map.h5");
     CHECK(reader.numbers("regime_map/regime") == std::vector<double>{double(i)});

@@ -133,7 +133,7 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
          {"statistics " + file, "convert " + file + " b.npy", "statistics " + file, "fit " + file,
           "study " + file + " -o r.h5", "study --surface " + file + " -o r.h5",
           "damping --curve " + file + " --pressure 1MPa" + motion, "report " + file + " -o r.html",
-          "mdr --profile table --table " + file +
+          "damping --law table --table " + file +
               " --indentation 1nm --contact-modulus 1GPa --poisson 0.3"}) {
       INFO(command);
       const auto result = run_bounded(test, command, 0);

@@ -283,27 +283,29 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
                body,
            "fit curve.h5 -o fit.h5",
            "damping --normal-amplitude 1:50nm:4 -o damping.h5" + law + drag,
-           "damping --normal-amplitude 5nm --friction 0.3 -o friction.h5" + law + drag,
+           "damping --normal-amplitude 5nm --friction-coefficient 0.3 -o friction.h5" + law + drag,
            "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
            "--phase 40deg "
            "--frequency 20kHz --tangential-frequency 1kHz -o two.h5" +
                law,
-           "mdr --profile parabola --radius 10mm --indentation 1um --normal-amplitude 300nm -o "
-           "mdr.h5" +
+           "damping --law paraboloid --radius 10mm --indentation 1um --normal-amplitude 300nm -o "
+           "indenter.h5" +
                drag + body,
-           "mdr --profile parabola --radius 10mm --indentation 1um --mode equal-frequency "
+           "damping --law paraboloid --radius 10mm --indentation 1um --mode equal-frequency "
            "--normal-amplitude 300nm "
            "--tangential-amplitude 200nm --phase 90deg --stress-map stress.h5 --map-phases 8 "
            "--map-radii 8 "
            "--quiet" +
                body,
-           "mdr --profile parabola --radius 10mm --trajectory path.txt --friction 0.3 -o path.h5" +
+           "damping --law paraboloid --radius 10mm --trajectory path.txt --friction-coefficient "
+           "0.3 -o path.h5" +
                body,
-           "mdr --profile parabola --radius 10mm --trajectory planar.txt -o planar.h5" + body,
-           "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m "
+           "damping --law paraboloid --radius 10mm --trajectory planar.txt -o planar.h5" + body,
+           "damping --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m "
            "-o damper.h5" +
                law,
-           "damper --normal-amplitude 1nm,2nm --frequency 10kHz,20kHz --falling-slope 5 -o map.h5" +
+           "damping --normal-amplitude 1nm,2nm --frequency 10kHz,20kHz --falling-slope 5 -o "
+           "map.h5" +
                law,
            "sliding --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
            "--velocities 1um/s,1mm/s -o friction_over_velocity.h5" +
@@ -321,7 +323,7 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
            "joint --friction-coefficient 0.3 --tangential-amplitudes 5nm,10nm --nominal-area 1mm2 "
            "-o joint.h5" +
                law,
-           "viscoelastic --profile parabola --radius 5mm --indentation 20um --prony "
+           "viscoelastic --law paraboloid --radius 5mm --indentation 20um --prony "
            "1MPa:1ms,2MPa:20ms --normal-amplitude 2um --drag-velocity 1um/s --frequency 10,100 "
            "--steps 64 -o viscoelastic.h5" +
                body,
@@ -347,9 +349,8 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
   const ProgramTest test;
   const std::regex line("\\n  --([a-z0-9-]+) (VALUES in )?(.+?)(  |\\n)");
   int known = 0;
-  for (const char* command :
-       {"generate", "statistics", "contact", "fit", "damping", "mdr", "damper", "sliding", "joint",
-        "viscoelastic", "oscillate", "study", "compare"}) {
+  for (const char* command : {"generate", "statistics", "contact", "fit", "damping", "sliding",
+                              "joint", "viscoelastic", "oscillate", "study", "compare"}) {
     const std::string help = test.run(std::string(command) + " --help").out;
     for (std::sregex_iterator found(help.begin(), help.end(), line), end; found != end; ++found) {
       std::string name = (*found)[1];

@@ -55,7 +55,7 @@ void check_premises(const json& object) {
 
 }  // namespace
 
-TEST_CASE("The limit of slip that a command prints is where mdr with friction finds it",
+TEST_CASE("The limit of slip that a command prints is where the loss with slip finds it",
           "[premises]") {
   const ProgramTest test;
   const std::string body = " --contact-modulus 1GPa --poisson 0.3 --json ";
@@ -65,21 +65,23 @@ TEST_CASE("The limit of slip that a command prints is where mdr with friction fi
     double friction;
   };
   const Case sheared[] = {
-      {"--profile parabola --radius 10mm --indentation 1um", shear + "300nm --phase 90deg", 0.3},
-      {"--profile cone --angle 5deg --indentation 1um", shear + "100nm --phase 45deg", 0.1},
-      {"--profile sphere --radius 1mm --indentation 2um", shear + "1um --phase 135deg", 0.8}};
+      {"--law paraboloid --radius 10mm --indentation 1um", shear + "300nm --phase 90deg", 0.3},
+      {"--law cone --angle 5deg --indentation 1um", shear + "100nm --phase 45deg", 0.1},
+      {"--law sphere --radius 1mm --indentation 2um", shear + "1um --phase 135deg", 0.8}};
   for (const Case& one : sheared) {
-    const std::string command = "mdr " + one.indenter + body + one.motion;
+    const std::string command = "damping " + one.indenter + body + one.motion;
     const auto run = test.run(fmt::format(
         "{} --tangential-amplitude 10nm --friction-coefficient {}", command, one.friction));
     INFO(command << run.err);
     REQUIRE(run.status == 0);
     const double limit = run.json()["premises"]["slip_of_closed_levels"]["limit_5_percent"];
     const auto change = [&](double amplitude) {
-      const auto loss = test.run(fmt::format("{} --tangential-amplitude {} --friction {}", command,
-                                             amplitude, one.friction))
-                            .json();
-      return std::abs(loss["work_per_cycle"].get<double>() / loss["full_stick_work"].get<double>() -
+      const auto loss =
+          test.run(fmt::format("{} --tangential-amplitude {} --friction-coefficient {}", command,
+                               amplitude, one.friction))
+              .json();
+      return std::abs(loss["with_slip"]["work_per_cycle"].get<double>() /
+                          loss["work_per_cycle"].get<double>() -
                       1);
     };
     CHECK(change(0.98 * limit) < 0.05);
@@ -87,10 +89,10 @@ TEST_CASE("The limit of slip that a command prints is where mdr with friction fi
   }
   const std::string drag = " --normal-amplitude 200nm --frequency 1kHz ";
   const Case dragged[] = {
-      {"--profile power --exponent 4 --coefficient 1e9 --indentation 1um", drag, 0.2},
-      {"--profile parabola --radius 1mm --indentation 500nm", drag, 0.5}};
+      {"--law power --exponent 4 --coefficient 1e9 --indentation 1um", drag, 0.2},
+      {"--law paraboloid --radius 1mm --indentation 500nm", drag, 0.5}};
   for (const Case& one : dragged) {
-    const std::string command = "mdr " + one.indenter + body + one.motion;
+    const std::string command = "damping " + one.indenter + body + one.motion;
     const auto slow = test.run(
         fmt::format("{} --drag-velocity 1um/s --friction-coefficient {}", command, one.friction));
     INFO(command << slow.err);
@@ -101,11 +103,12 @@ TEST_CASE("The limit of slip that a command prints is where mdr with friction fi
     CHECK(1e-6 * opening["value"].get<double>() / opening["limit_5_percent"].get<double>() ==
           Approx(limit));
     const auto change = [&](double velocity) {
-      const auto loss = test.run(fmt::format("{} --drag-velocity {} --friction {}", command,
-                                             velocity, one.friction))
+      const auto loss = test.run(fmt::format("{} --drag-velocity {} --friction-coefficient {}",
+                                             command, velocity, one.friction))
                             .json();
-      return std::abs(
-          loss["relaxation_work"].get<double>() / loss["full_stick_work"].get<double>() - 1);
+      return std::abs(loss["with_slip"]["relaxation_work"].get<double>() /
+                          loss["work_per_cycle"].get<double>() -
+                      1);
     };
     CHECK(change(0.98 * limit) < 0.05);
     CHECK(change(1.02 * limit) > 0.05);
@@ -121,14 +124,13 @@ TEST_CASE("Facts of a contact that cannot be are refused by their option", "[pre
        {"--friction-coefficient", "--hardness", "--density", "--excursion"})
     for (const std::string value : {"0", "-1", "nan"})
       check_refused(test.run(damping + option + " " + value), option + ": ");
-  const std::string mdr =
-      "mdr --profile parabola --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
+  const std::string indenter =
+      "damping --law paraboloid --radius 10mm --indentation 1um --contact-modulus 1GPa --poisson "
+      "0.3 "
       "--normal-amplitude 300nm --drag-velocity 1um/s --frequency 20kHz -o out.h5 ";
   // F/(πa²) = 4.2 MPa.
-  check_refused(test.run(mdr + "--hardness 4MPa"),
+  check_refused(test.run(indenter + "--hardness 4MPa"),
                 "hardness: 4000000 Pa is below the mean pressure");
-  check_refused(test.run(mdr + "--friction 0.3 --friction-coefficient 0.2"),
-                "--friction-coefficient");
   CHECK(test.files().empty());
 }
 
@@ -179,7 +181,7 @@ TEST_CASE("The inertia of a damper over frequencies is that of the highest one",
       0);
   const auto inertia = [&](const std::string& frequencies) {
     const auto run = test.run(
-        "damper --curve curve.h5 --pressure 1MPa --normal-amplitude 1nm "
+        "damping --curve curve.h5 --pressure 1MPa --normal-amplitude 1nm "
         "--density 7800 --json --frequency " +
         frequencies + body);
     INFO(run.err);
@@ -209,13 +211,10 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"contact", "rough.h5 --pressure 2:60MPa:6 -o curve.h5" + body},
       {"fit", "curve.h5"},
       {"damping", law + drag + "--drag-velocity 1um/s"},
-      {"mdr",
-       "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s" + body + drag},
-      {"damper", law + drag},
       {"sliding", law + drag + "--friction-coefficient 0.3 --velocities 1um/s"},
       {"joint", law + "--friction-coefficient 0.3 --tangential-amplitudes 5nm"},
       {"viscoelastic",
-       "--profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s --prony "
+       "--law paraboloid --radius 1mm --indentation 100nm --drag-velocity 1um/s --prony "
        "3GPa:1ms" +
            body + drag},
       {"oscillate", "--shape parabola --points 32 --method levels" + body},
@@ -228,8 +227,8 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
   const std::string help = test.run("--help").out;
   int with_loss = 0;
   for (const std::string name :
-       {"generate", "convert", "statistics", "contact", "fit", "damping", "mdr", "damper",
-        "sliding", "joint", "viscoelastic", "oscillate", "study", "compare", "verify"}) {
+       {"generate", "convert", "statistics", "contact", "fit", "damping", "sliding", "joint",
+        "viscoelastic", "oscillate", "study", "compare", "verify"}) {
     INFO(name);
     const auto run = test.run(name + " " + commands.at(name) + " --json");
     INFO(run.err);
@@ -239,7 +238,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
     ++with_loss;
     check_premises(answer);
   }
-  CHECK(with_loss == 9);
+  CHECK(with_loss == 7);
   // A command that is new has to be listed above.
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) {
@@ -294,21 +293,22 @@ TEST_CASE(
     "[premises]") {
   const ProgramTest test;
   const std::string sphere =
-      " --profile parabola --radius 1mm --indentation 100nm --drag-velocity 1um/s "
+      " --law paraboloid --radius 1mm --indentation 100nm --drag-velocity 1um/s "
       "--contact-modulus 100GPa --poisson 0.3 --normal-amplitude 1nm --frequency 20kHz ";
   const std::string hardness = "--hardness 700MPa ";
-  const json flow = test.run("mdr" + sphere + hardness + "--json").json()["premises"]["plasticity"];
+  const json flow =
+      test.run("damping" + sphere + hardness + "--json").json()["premises"]["plasticity"];
   CHECK(flow["onset"] == 0.6);
   CHECK(flow["limit_5_percent"].is_null());
   CHECK(flow["limit_20_percent"].is_null());
-  CHECK_THAT(test.run("mdr" + sphere + hardness).out,
+  CHECK_THAT(test.run("damping" + sphere + hardness).out,
              Catch::Contains("plasticity, pressure over hardness") &&
                  Catch::Contains(" (flow begins at 0.6)"));
   const std::string viscoelastic = "viscoelastic" + sphere + "--prony 3GPa:1ms ";
   CHECK_THAT(test.run(viscoelastic).out,
              Catch::Contains("The premises are those of the relaxed elastic body"));
   CHECK(test.run(viscoelastic + "--json").json()["premises_of"] == "relaxed elastic body");
-  CHECK(!test.run("mdr" + sphere + "--json").json().contains("premises_of"));
+  CHECK(!test.run("damping" + sphere + "--json").json().contains("premises_of"));
 }
 
 TEST_CASE("A study prints the loss with slip, and refuses a hardness below its pressures",

@@ -22,9 +22,9 @@ TEST_CASE("Help of every command shows two examples, and the options that it has
   const ProgramTest test;
   const std::string screen = test.run("--help").out;
   const auto command =
-      GENERATE(as<std::string>(), "generate", "convert", "contact", "fit", "damping", "mdr",
-               "damper", "sliding", "joint", "viscoelastic", "study", "verify", "init",
-               "statistics", "compare", "oscillate", "report", "completion");
+      GENERATE(as<std::string>(), "generate", "convert", "contact", "fit", "damping", "sliding",
+               "joint", "viscoelastic", "study", "verify", "init", "statistics", "compare",
+               "oscillate", "report", "completion");
   // The shell alone calls it.
   CHECK((screen.find(" " + command + "  ") < screen.find("Which")) == (command != "completion"));
   const auto help = test.run(command + " --help");
@@ -80,7 +80,7 @@ std::string in_a_line(const std::string& text) {
 
 TEST_CASE("Help fits the width that it is given and loses no word", "[program]") {
   const ProgramTest test;
-  for (const std::string command : {"", "damping", "mdr", "generate", "statistics"}) {
+  for (const std::string command : {"", "damping", "generate", "statistics"}) {
     const auto wide = test.run("help " + command, "export COLUMNS=1000;");
     for (const int columns : {60, 80, 120}) {
       INFO(command << " in " << columns);
@@ -91,7 +91,7 @@ TEST_CASE("Help fits the width that it is given and loses no word", "[program]")
     }
   }
   // Without a terminal and COLUMNS the width is 80.
-  CHECK(longest_line(test.run("help mdr", "unset COLUMNS;").out) <= 80);
+  CHECK(longest_line(test.run("help damping", "unset COLUMNS;").out) <= 80);
 }
 
 TEST_CASE("The chart of commands keeps its columns at 80, and is the one of README", "[program]") {
@@ -266,7 +266,7 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
       "--law exponential --normal-force 20mN --decay-length 30nm --poisson 0.3 ";
   const std::string normal = "--normal-amplitude 2nm --frequency 20kHz ";
   const std::string sphere =
-      "--profile sphere --radius 5mm --indentation 20um --contact-modulus 4MPa --poisson 0.5 ";
+      "--law sphere --radius 5mm --indentation 20um --contact-modulus 4MPa --poisson 0.5 ";
   const std::string motion =
       "--mode equal-frequency --normal-amplitude 2um --tangential-amplitude 1um --phase 80deg "
       "--frequency 1kHz ";
@@ -277,15 +277,16 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
             "--normal-amplitude 2nm --frequency 1kHz --mass 10g --spring-stiffness 1kN/m "
             "--velocities 3um/s --falling-slope 1 --friction-coefficient 0.3 --tolerance 1e-6",
         "viscoelastic " + sphere + motion + "--prony 3MPa:1ms --steps 20000 --springs 20000",
-        "mdr " + sphere + motion + "--friction 0.3 --steps 10000000",
-        "damping " + law + normal + "--drag-velocity 1mm/s --friction 0.3 --steps 10000000",
+        "damping " + sphere + motion + "--friction-coefficient 0.3 --steps 10000000",
+        "damping " + law + normal +
+            "--drag-velocity 1mm/s --friction-coefficient 0.3 --steps 10000000",
         "joint " + law +
             "--friction-coefficient 0.3 --normal-amplitude 2nm --tangential-forces 3mN "
             "--steps 400000",
         "sliding " + law +
             "--friction-coefficient 0.3 --frequency 20kHz --normal-amplitude 1:20nm:40 "
             "--velocity-ratios 0.001:0.9:4000",
-        "damper " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000"}) {
+        "damping " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000"}) {
     INFO(command);
     // Once the program handles it: a signal before would end it at once.
     const auto result = test.run(

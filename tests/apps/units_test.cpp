@@ -298,18 +298,18 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
            "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5" + body,
            std::string("fit curve.h5"), "damping --normal-amplitude 5nm" + law + drag,
            "damping --normal-amplitude 1:50nm:4" + law + drag,
-           "damping --normal-amplitude 5nm --friction 0.3" + law + drag,
+           "damping --normal-amplitude 5nm --friction-coefficient 0.3" + law + drag,
            "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
            "--phase 40deg --frequency 20kHz --tangential-frequency 1kHz" +
                law,
-           "mdr --profile parabola --radius 10mm --indentation 1um" + body,
-           "mdr --profile parabola --radius 10mm --indentation 1um --normal-amplitude 300nm "
-           "--friction 0.3" +
+           "damping --law paraboloid --radius 10mm --indentation 1um" + body,
+           "damping --law paraboloid --radius 10mm --indentation 1um --normal-amplitude 300nm "
+           "--friction-coefficient 0.3" +
                drag + body,
-           "damper --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m" +
+           "damping --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m" +
                law,
-           "damper --normal-amplitude 20nm --frequency 1:100kHz:3 --falling-slope 5" + law,
-           "damper --frequency 1:100kHz:3 --falling-slope 5" + law, shape,
+           "damping --normal-amplitude 20nm --frequency 1:100kHz:3 --falling-slope 5" + law,
+           "damping --frequency 1:100kHz:3 --falling-slope 5" + law, shape,
            shape + "--method levels --relative-error 5% --decay-length 1um",
            shape + "--friction 0.5 --coupled"}) {
     const auto json = test.run(command + " --json --quiet"), text = test.run(command + " --quiet");
@@ -331,7 +331,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
 TEST_CASE("A damper's map names amplitude and frequency of each constant", "[damper][units]") {
   const ProgramTest test;
   const std::string command =
-      "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+      "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
       "--normal-amplitude 1:50nm:3 --frequency 1:100kHz:3 --falling-slope 5";
   const auto answer = ordered_json::parse(test.run(command + " --json").out);
   const auto text = test.run(command);

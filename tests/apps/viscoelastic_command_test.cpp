@@ -11,7 +11,7 @@ namespace {
 
 const std::string body =
     "viscoelastic --indentation 20um --contact-modulus 4MPa --poisson 0.5 --steps 128 ";
-const std::string cone = body + "--profile cone --angle 10deg ";
+const std::string cone = body + "--law cone --angle 10deg ";
 const std::string shear =
     "--mode equal-frequency --normal-amplitude 1um --tangential-amplitude 500nm --phase 90deg ";
 
@@ -86,7 +86,7 @@ TEST_CASE("Bad input of viscoelastic is refused by its option", "[viscoelastic][
                 "--prony: 0 s, the relaxation time of term 1");
   check_refused(test.run(cone + moves + "--prony 1MPa:1m"), "--prony");
   check_refused(test.run("viscoelastic --indentation 20um --young 1MPa,2MPa --poisson 0.5,0.5 "
-                         "--profile cone --angle 10deg --prony 1MPa:1s " +
+                         "--law cone --angle 10deg --prony 1MPa:1s " +
                          moves),
                 "--young");
   check_refused(test.run(cone + moves + "--prony 1MPa:1s --normal-force 1"), "--indentation");

@@ -105,9 +105,9 @@ std::vector<Case> all_cases() {
        {},
        "damping --law exponential --decay-length 10nm --normal-force 1N -o out.h5" + moves +
            material},
-      {"mdr",
+      {"indenter",
        {},
-       "mdr --profile sphere --radius 1mm --indentation 1um --mode equal-frequency "
+       "damping --law sphere --radius 1mm --indentation 1um --mode equal-frequency "
        "--normal-amplitude 0.1um --tangential-amplitude 0.1um --phase 90deg --frequency "
        "1kHz --map-phases 8 --map-radii 8 --stress-map out.h5" +
            material},
@@ -117,7 +117,7 @@ std::vector<Case> all_cases() {
        oscillation + " -o out.h5 --checkpoint out.state --checkpoint-every 0"},
       {"damper",
        {},
-       "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 10nm,20nm --frequency 20kHz,30kHz -o out.h5"},
       {"sliding",
        {},
@@ -135,7 +135,7 @@ std::vector<Case> all_cases() {
        "--friction-coefficient 0.3 --tangential-forces 10mN,100mN -o out.csv"},
       {"viscoelastic",
        {},
-       "viscoelastic --profile cone --angle 10deg --indentation 1um --prony 1GPa:1ms "
+       "viscoelastic --law cone --angle 10deg --indentation 1um --prony 1GPa:1ms "
        "--normal-amplitude 0.1um --drag-velocity 1um/s --frequency 100 --steps 32 --springs 16 -o "
        "out.csv" +
            material},

@@ -34,9 +34,7 @@ ContactAnswer on_curve(Standing quantity, double value) {
 }
 
 double indentation_of(const ContactAnswer& contact) {
-  const Position& position = contact.positions.at(0);
-  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
-  return contact.law->indentation_of(std::get<AtForce>(position).force);
+  return salebra::indentation_of(*contact.law, contact.positions.at(0));
 }
 
 std::string refusal(auto&& action) {

@@ -102,6 +102,33 @@ ContactAnswer ask(ContactQuestion question, const Context& context = {});
 std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question,
                                          const Context& context = {});
 
+/// An indenter at rest.
+struct IndenterState {
+  double contact_radius = 0;        ///< a, m
+  double indentation = 0;           ///< δ, m
+  double force = 0;                 ///< F, N
+  double normal_stiffness = 0;      ///< K, N/m
+  double tangential_stiffness = 0;  ///< K_t, N/m
+  double force_curvature = 0;       ///< F'', N/m²
+};
+
+constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
+  using enum Dimension;
+  using S = IndenterState;
+  visit(&S::contact_radius, Quantity{"contact_radius", length, "contact radius"});
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::force, quantity::force);
+  visit(&S::normal_stiffness, quantity::normal_stiffness);
+  visit(&S::tangential_stiffness,
+        Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+  visit(&S::force_curvature, quantity::force_curvature);
+}
+
+IndenterState state_of(const IndenterLaw& law, double indentation);
+
+/// δ of a position, m.
+double indentation_of(const ContactLaw& law, const Position& position);
+
 /// Puts the residual surface of the first loading in place of the surface, and returns what flowed;
 /// without a hardness nothing.
 /// contact  boundary, tolerance and progress

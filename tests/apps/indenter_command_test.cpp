@@ -15,19 +15,18 @@ const std::string shear =
 
 }  // namespace
 
-TEST_CASE("mdr gives Hertz's contact and its losses at any amplitude", "[mdr]") {
+TEST_CASE("A paraboloid has Hertz's contact at rest, and its losses at any amplitude",
+          "[indenter]") {
   const ProgramTest test;
   const std::string paraboloid =
-      "mdr --profile parabola --radius 10mm --indentation 1um --json " + body;
+      "damping --law paraboloid --radius 10mm --indentation 1um --json " + body;
   const auto state = test.run(paraboloid).json();
   CHECK(state["contact_radius"].get<double>() == Approx(1e-4).epsilon(1e-12));
   CHECK(state["force"].get<double>() == Approx(4.0 / 3 * 1e9 * 0.1 * 1e-9).epsilon(1e-12));
   const auto loss = test.run(paraboloid + shear).json();
-  CHECK(keys(loss) == std::set<std::string>{"premises", "largest_motion", "regime",
-                                            "contact_radius", "indentation", "force",
-                                            "normal_stiffness", "tangential_stiffness",
-                                            "force_curvature", "work_per_cycle", "power",
-                                            "damping_constant", "small_amplitude_work", "ratio"});
+  CHECK(keys(state) == std::set<std::string>{"contact_radius", "indentation", "force",
+                                             "normal_stiffness", "tangential_stiffness",
+                                             "force_curvature"});
   const double ratio = 1.4 / 1.7;
   CHECK(loss["small_amplitude_work"].get<double>() ==
         Approx(8.0 / 3 * ratio * 1e11 * 4e-14 * 3e-7 * 0.75).epsilon(1e-12));
@@ -38,14 +37,14 @@ TEST_CASE("mdr gives Hertz's contact and its losses at any amplitude", "[mdr]") 
   CHECK(test.run(paraboloid + shear + "-o loss.h5").status == 0);
   CHECK(test.files() == std::set<std::string>{"loss.h5", "rest.h5"});
   // Much friction is full stick; the loop is followed in 2000 straight steps.
-  const auto rough = test.run(paraboloid + shear + "--friction 1e5").json();
-  CHECK(rough["work_per_cycle"].get<double>() ==
+  const auto rough = test.run(paraboloid + shear + "--friction-coefficient 1e5").json();
+  CHECK(rough["with_slip"]["work_per_cycle"].get<double>() ==
         Approx(loss["work_per_cycle"].get<double>()).epsilon(1e-4));
-  CHECK(rough["full_stick_work"] == loss["work_per_cycle"]);
+  CHECK(rough["work_per_cycle"] == loss["work_per_cycle"]);
   CHECK(rough["power"].is_null());
 }
 
-TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
+TEST_CASE("Profiles and trajectories are read from files", "[indenter]") {
   const ProgramTest test;
   std::string profile = "r, f\n", path = "# time indentation x\n";
   for (int i = 0; i <= 50; ++i) {
@@ -60,16 +59,17 @@ TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
   test.write("profile.txt", profile);
   test.write("path.txt", path);
   const auto table =
-      test.run("mdr --profile table --table profile.txt --indentation 1um --json " + body + shear)
+      test.run("damping --law table --table profile.txt --indentation 1um --json " + body + shear)
           .json();
   const auto exact =
-      test.run("mdr --profile parabola --radius 10mm --indentation 1um --json " + body + shear)
+      test.run("damping --law paraboloid --radius 10mm --indentation 1um --json " + body + shear)
           .json();
   // The table is written with 1e-12 m and interpolated by cubics.
   CHECK(table["work_per_cycle"].get<double>() ==
         Approx(exact["work_per_cycle"].get<double>()).epsilon(1e-3));
   const auto followed =
-      test.run("mdr --profile parabola --radius 10mm --trajectory path.txt --json " + body).json();
+      test.run("damping --law paraboloid --radius 10mm --trajectory path.txt --json " + body)
+          .json();
   CHECK(followed["work_per_cycle"].get<double>() ==
         Approx(exact["work_per_cycle"].get<double>()).epsilon(1e-3));
   CHECK(followed["loss_factor"].get<double>() > 0);
@@ -86,7 +86,7 @@ TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
   }
   test.write("both.txt", both);
   test.write("across.txt", across);
-  const std::string follow = "mdr --profile parabola --radius 10mm --trajectory ";
+  const std::string follow = "damping --law paraboloid --radius 10mm --trajectory ";
   const auto planar = test.run(follow + "both.txt -o both.h5 --plot both.svg --json " + body);
   INFO(planar.err);
   REQUIRE(planar.status == 0);
@@ -96,23 +96,24 @@ TEST_CASE("mdr reads profiles and trajectories from files", "[mdr]") {
              test.run(follow + "across.txt --json " + body).json()["work_per_cycle"].get<double>())
           .epsilon(1e-9));
   CHECK(planar.json()["premises"]["slip_of_opening_levels"]["verdict"] == "unknown");
-  check_refused(test.run(follow + "both.txt --friction 0.3 " + body), "--friction");
+  check_refused(test.run(follow + "both.txt --friction-coefficient 0.3 " + body),
+                "--friction-coefficient");
 
   test.write("open.txt", "0 1e-6 0\n1 2e-6 0\n2 1.5e-6 0\n");
-  check_refused(test.run("mdr --profile parabola --radius 10mm --trajectory open.txt " + body),
+  check_refused(test.run("damping --law paraboloid --radius 10mm --trajectory open.txt " + body),
                 "one whole period");
   test.write("short.txt", "0 1e-6\n");
-  check_refused(test.run("mdr --profile parabola --radius 10mm --trajectory short.txt " + body),
+  check_refused(test.run("damping --law paraboloid --radius 10mm --trajectory short.txt " + body),
                 "line 1");
   test.write("falling.txt", "0 0\n1 1\n2 3\n3 2\n4 5\n5 6\n6 7\n");
-  check_refused(test.run("mdr --profile table --table falling.txt --indentation 1 " + body),
+  check_refused(test.run("damping --law table --table falling.txt --indentation 1 " + body),
                 "4 is a row");
 }
 
-TEST_CASE("mdr writes the maps of Fig. 4 and of finite friction", "[mdr]") {
+TEST_CASE("damping writes the maps of Fig. 4 and of finite friction", "[indenter]") {
   const ProgramTest test;
   const std::string command =
-      "mdr --profile parabola --radius 10mm --indentation 1um --json " + body + shear;
+      "damping --law paraboloid --radius 10mm --indentation 1um --json " + body + shear;
   CHECK(test.run(command + "--map-phases 32 --map-radii 32 --stress-map fig4.h5 --plot fig4.svg")
             .status == 0);
   CHECK(test.files() == std::set<std::string>{"fig4.h5", "fig4.svg"});
@@ -124,12 +125,13 @@ TEST_CASE("mdr writes the maps of Fig. 4 and of finite friction", "[mdr]") {
   CHECK(test.files() == std::set<std::string>{"fig4.h5", "fig4.svg", "map.h5", "map.png"});
 }
 
-TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[mdr][plot]") {
+TEST_CASE("damping draws an indenter at rest and a period of any of its motions",
+          "[indenter][plot]") {
   const ProgramTest test;
   for (const std::string shape :
-       {"parabola --radius 10mm", "cone --angle 0.1", "sphere --radius 1mm",
-        "flat --flat-radius 0.1mm", "rounded --flat-radius 0.1mm --edge-radius 1mm"}) {
-    const auto result = test.run("mdr --profile " + shape +
+       {"paraboloid --radius 10mm", "cone --angle 0.1", "sphere --radius 1mm",
+        "cylinder --radius 0.1mm", "rounded-cylinder --radius 0.1mm --edge-radius 1mm"}) {
+    const auto result = test.run("damping --law " + shape +
                                  " --indentation 1um --overwrite --plot rest.svg --json " + body);
     INFO(shape << ": " << result.err);
     CHECK(result.status == 0);
@@ -139,15 +141,15 @@ TEST_CASE("mdr draws the contact at rest and a period of any of its motions", "[
       "--mode two-frequencies --normal-amplitude 1.2um --tangential-amplitude 200nm --phase 60deg "
       "--frequency 300Hz --tangential-frequency 200Hz --plot cycle.svg --json ";
   const auto opening =
-      test.run("mdr --profile cone --angle 0.1 --indentation 1um --friction 0.5 " + body + motion);
+      test.run("damping --law cone --angle 0.1 --indentation 1um --friction-coefficient 0.5 " +
+               body + motion);
   INFO(opening.err);
   REQUIRE(opening.status == 0);
-  CHECK(opening.json()["slip_work"].get<double>() >= 0);
+  CHECK(opening.json()["with_slip"]["slip_work"].get<double>() >= 0);
   CHECK_THAT(test.read("cycle.svg"), Catch::Contains("in contact"));
 }
 
-TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a coarse table",
-          "[mdr]") {
+TEST_CASE("Every indenter takes ranges, and a coarse table is warned of", "[indenter]") {
   const ProgramTest test;
   // A ball of 1 mm radius with a cap worn to 2 mm within 30 µm, in steps of 2.5 and 7.5 µm: at 500
   // nm g(a) changes by 2.6 and 12 % without every other point.
@@ -161,39 +163,36 @@ TEST_CASE("mdr refuses ranges with a way that its profile has, and warns of a co
     test.write("table" + std::to_string(step) + ".txt", rows);
   }
   const std::string at = "--indentation 500nm " + body;
-  const std::string table = "mdr --profile table --table table";
+  const std::string table = "damping --law table --table table";
   const std::string ranges =
       "--normal-amplitude 10nm:50nm:5 --drag-velocity 1um/s --frequency 20kHz";
-  check_refused(test.run(table + "1.txt " + at + ranges),
-                "--normal-amplitude: 5 values are given, but mdr takes one motion; run it once");
-  check_refused(test.run("mdr --profile parabola --radius 1mm " + at + ranges),
-                "use salebra damping --law parabola, which takes ranges");
+  CHECK(test.run(table + "1.txt --json " + at + ranges).json()["work_per_cycle"].size() == 5);
   CHECK(test.run(table + "1.txt " + at).err.empty());
   const auto coarse = test.run(table + "3.txt " + at);
   CHECK(coarse.status == 0);
   CHECK_THAT(coarse.err, Catch::Contains("warning: the table is coarse"));
 }
 
-TEST_CASE("mdr warns of a table that is most likely not in metres", "[mdr]") {
+TEST_CASE("A table that is most likely not in metres is warned of", "[indenter]") {
   const ProgramTest test;
   // The ball of 1 mm radius in µm.
   std::string rows;
   for (int r = 0; r <= 100; r += 2)
     rows += std::to_string(r) + " " + std::to_string(r * r / 2000.0) + "\n";
   test.write("table.txt", rows);
-  const auto result = test.run("mdr --profile table --table table.txt --normal-force 50mN " + body);
+  const auto result = test.run("damping --law table --table table.txt --normal-force 50mN " + body);
   CHECK(result.status == 0);
   CHECK_THAT(result.err,
              Catch::Contains("warning: the table has radii up to 100 m; check the unit"));
 }
 
 TEST_CASE("The CLI refuses each unusable input of a damped contact with its reason",
-          "[mdr][damping][bad-input]") {
+          "[indenter][damping][bad-input]") {
   const ProgramTest test;
-  const std::string mdr = "mdr --profile parabola --radius 10mm " + body;
-  const std::string cone = "mdr --profile cone --angle 0.1 " + body;
+  const std::string paraboloid = "damping --law paraboloid --radius 10mm " + body;
+  const std::string cone = "damping --law cone --angle 0.1 " + body;
   const std::string damping = "damping --law cone --angle 0.1 " + body;
-  const std::string table = "mdr --profile table --indentation 1um --table table.txt " + body;
+  const std::string table = "damping --law table --indentation 1um --table table.txt " + body;
   const auto refused_table = [&](const std::string& rows, const std::string& reason) {
     test.write("table.txt", rows);
     check_refused(test.run(table), reason);
@@ -208,29 +207,32 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
                 "point");
   refused_table("0 0\n1 nan\n2 2\n3 3\n4 4\n5 5\n6 6\n7 7\n", "not a finite number");
   refused_table("", "table.txt");
-  check_refused(test.run("mdr --profile table --indentation 1um --table none.txt " + body),
+  check_refused(test.run("damping --law table --indentation 1um --table none.txt " + body),
                 "none.txt");
   // The path leaves the table.
   test.write(
       "short.txt",
       "0 0\n1e-6 1e-9\n2e-6 4e-9\n3e-6 9e-9\n4e-6 16e-9\n5e-6 25e-9\n6e-6 36e-9\n7e-6 49e-9\n");
-  check_refused(test.run("mdr --profile table --indentation 1um --table short.txt " + body),
+  check_refused(test.run("damping --law table --indentation 1um --table short.txt " + body),
                 "indentation");
 
   for (const std::string indentation : {"0", "-1um", "nan"}) {
-    check_refused(test.run(mdr + shear + "--indentation " + indentation), "--indentation");
+    check_refused(test.run(paraboloid + shear + "--indentation " + indentation), "--indentation");
     check_refused(test.run(damping + shear + "--indentation " + indentation), "--indentation");
     check_refused(
-        test.run("damper --law cone --angle 0.1 --normal-amplitude 1nm --frequency 1kHz " + body +
+        test.run("damping --law cone --angle 0.1 --normal-amplitude 1nm --frequency 1kHz " + body +
                  "--indentation " + indentation),
         "--indentation");
   }
   for (const std::string force : {"0", "-1", "inf"})
     check_refused(test.run(damping + shear + "--normal-force " + force), "--normal-force");
   for (const std::string friction : {"-1", "-1e-9", "nan"}) {
-    check_refused(test.run(mdr + shear + "--indentation 1um --friction " + friction), "friction");
-    check_refused(test.run(damping + shear + "--indentation 1um --friction " + friction),
-                  "friction");
+    check_refused(
+        test.run(paraboloid + shear + "--indentation 1um --friction-coefficient " + friction),
+        "friction");
+    check_refused(
+        test.run(damping + shear + "--indentation 1um --friction-coefficient " + friction),
+        "friction");
   }
   const std::string drag = "--indentation 1um --normal-amplitude 1nm --drag-velocity 1mm/s ";
   const std::string two =
@@ -246,7 +248,7 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
     check_refused(test.run(cone + shear + "--indentation 1um --frequency " + frequency),
                   "--frequency");
     check_refused(
-        test.run("damper --law cone --angle 0.1 --indentation 1um --normal-amplitude 1nm " + body +
+        test.run("damping --law cone --angle 0.1 --indentation 1um --normal-amplitude 1nm " + body +
                  "--frequency " + frequency),
         "--frequency");
   }
@@ -268,7 +270,7 @@ TEST_CASE("The CLI refuses each unusable input of a damped contact with its reas
 }
 
 TEST_CASE("u_z beyond the indentation opens the contact and keeps the answer right",
-          "[mdr][bad-input]") {
+          "[indenter][bad-input]") {
   const ProgramTest test;
   // The cone while it opens, by the released distances of Eq. (7) over the levels 0 … δ + u_z
   // alone.
@@ -287,33 +289,34 @@ TEST_CASE("u_z beyond the indentation opens the contact and keeps the answer rig
       "200nm --phase 60deg --json " +
       body;
   CHECK(
-      test.run("mdr --profile cone --angle 0.1" + motion).json()["work_per_cycle"].get<double>() ==
+      test.run("damping --law cone --angle 0.1" + motion).json()["work_per_cycle"].get<double>() ==
       Approx(work).epsilon(1e-8));
   CHECK(
       test.run("damping --law cone --angle 0.1" + motion).json()["work_per_cycle"].get<double>() ==
       Approx(work).epsilon(1e-8));
 }
 
-TEST_CASE("mdr refuses what it cannot use by name", "[mdr]") {
+TEST_CASE("damping refuses of an indenter what it cannot use by name", "[indenter]") {
   const ProgramTest test;
-  check_refused(test.run("mdr --profile sphere --indentation 1um " + body), "--radius");
-  check_refused(test.run("mdr --profile cone --angle 0.1 --radius 1 --indentation 1um " + body),
+  check_refused(test.run("damping --law sphere --indentation 1um " + body), "--radius");
+  check_refused(test.run("damping --law cone --angle 0.1 --radius 1 --indentation 1um " + body),
                 "--radius");
-  check_refused(test.run("mdr --profile cone --angle 0.1 " + body), "--indentation");
-  check_refused(test.run("mdr --profile cone --angle 0.1 --indentation -1um " + body),
+  check_refused(test.run("damping --law cone --angle 0.1 " + body), "--indentation");
+  check_refused(test.run("damping --law cone --angle 0.1 --indentation -1um " + body),
                 "--indentation");
   check_refused(
-      test.run("mdr --profile cone --angle 0.1 --indentation 1um --friction -1 " + body + shear),
+      test.run("damping --law cone --angle 0.1 --indentation 1um --friction-coefficient -1 " +
+               body + shear),
       "friction");
-  check_refused(test.run("mdr --profile ball --indentation 1um " + body), "ball");
-  check_refused(test.run("mdr --profile cone --angle 0.1 --indentation 1um --contact-modulus 1GPa"),
+  check_refused(test.run("damping --law ball --indentation 1um " + body), "ball");
+  check_refused(test.run("damping --law cone --angle 0.1 --indentation 1um --contact-modulus 1GPa"),
                 "--tangential-modulus");
 }
 
-TEST_CASE("damper: γ, the decay it makes and the amplitude that stabilises", "[damper]") {
+TEST_CASE("A damper: γ, the decay it makes and the amplitude that stabilises", "[damper]") {
   const ProgramTest test;
   const std::string law =
-      "damper --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --json ";
+      "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --json ";
   const auto one = test.run(law +
                             "--normal-amplitude 20nm --frequency 20kHz --mass 10g "
                             "--spring-stiffness 1kN/m")

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/base/describe.hpp>
+#include <salebra/damping/damper.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/questions/contact.hpp>
+#include <salebra/questions/context.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// What a contact loses in a motion, and what the answer assumes.
+namespace salebra {
+
+/// Every motion that has a name.
+using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
+
+/// Positions, motions and amplitudes of the force: of each one, for all cases, or one for each.
+struct DampingQuestion {
+  ContactQuestion contact;  ///< of a surface, with the pressures; the amplitude comes from here
+  std::vector<Motion> motions = {};
+  /// F_a of F + F_a cos ωt at a force, in place of the normal amplitudes, N; empty: none.
+  std::vector<double> force_amplitude = {};
+  Hold hold = Hold::indentation;
+  Amplitude amplitude = Amplitude::finite;
+  /// For the premises; with a coefficient of friction the loss with slip is computed too.
+  ContactFacts facts = {};
+  int steps = 2000;  ///< straight ones in a normal cycle where slip is followed; >= 8
+};
+
+/// Each list has an entry for each case, or none where it is not of these cases.
+struct DampingAnswer {
+  ContactAnswer contact;
+  std::vector<Motion> motions = {};
+  std::vector<DampingResult> results = {};  ///< without slip
+  /// Of a surface, whose loss comes from contacts inside the oscillation, N s/m and J.
+  std::vector<double> damping_constant_error = {}, error_estimate = {};
+  std::vector<double> ratio = {};             ///< of the loss to its small-amplitude form
+  std::vector<CommonPeriod> periods = {};     ///< of two frequencies
+  std::vector<double> slow_limit_power = {};  ///< of two frequencies, W
+  /// With friction: followed step by step, a slow motion with an excursion by its turning points.
+  /// NaN for a motion that never repeats, or whose force is given.
+  std::vector<TrajectoryDamping> with_slip = {};
+  std::vector<Premises> premises = {};
+  std::vector<std::string> doubts = {};  ///< beside those of the contact
+
+  const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
+};
+
+constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
+  using enum Dimension;
+  using S = DampingAnswer;
+  visit(&S::results, Table{"results", "losses without slip"});
+  visit(&S::damping_constant_error,
+        Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
+  visit(&S::error_estimate, quantity::error_estimate);
+  visit(&S::ratio,
+        Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
+  visit(&S::with_slip, Part{"with_slip", "losses with the coefficient of friction"});
+  visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
+  visit(&S::periods, Table{"periods", "common periods of two frequencies"});
+  visit(&S::slow_limit_power, Quantity{"slow_limit_power", Dimension::power,
+                                       "mean power if the tangential motion were slow"});
+}
+
+/// throws  InvalidInput for lists of other lengths, for amplitudes of the force without a force or
+///         of a surface, and as ask(ContactQuestion) and relaxation_damping(); Interrupted
+/// cost    of a case some hundred evaluations of the law, 10 ms for its premises and one step of
+///         the law for each of `steps` with friction; of a surface surface_damping() beside
+DampingAnswer ask(DampingQuestion question, const Context& context = {});
+
+/// One period of a motion about a result, and its loss along it: what a picture shows.
+struct DampingCycle {
+  SampledMotion path;
+  TrajectoryDamping loss;
+};
+/// friction_coefficient: NaN: no slip.
+DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
+                      double friction_coefficient, const Context& context = {});
+
+/// A measured motion, which brings its own indentations.
+struct PathQuestion {
+  ContactQuestion contact;  ///< its positions are not looked at
+  SampledMotion path;
+  std::vector<double> transverse = {};  ///< y at the samples, without slip, m; empty: none
+  ContactFacts facts = {};              ///< with a coefficient of friction slip is followed
+};
+struct PathAnswer {
+  TrajectoryDamping loss;
+  Premises premises;
+};
+PathAnswer ask(const PathQuestion& question, const Context& context = {});
+
+/// A contact as a damper of slow tangential motions under fast normal oscillation, over amplitudes
+/// and frequencies.
+struct DamperQuestion {
+  ContactQuestion contact = {};                     ///< at one position
+  std::vector<double> normal_amplitude = {};   ///< m; empty: falling_slope finds it
+  std::vector<double> angular_frequency = {};  ///< rad/s, at least one
+  Hold hold = Hold::indentation;
+  Amplitude amplitude = Amplitude::finite;
+  std::optional<TangentialOscillator> oscillator = {};  ///< on the contact, of one amplitude, one ω
+  std::optional<double> falling_slope = {};      ///< b of a friction force that falls by b, N s/m
+  double largest_amplitude = 0;                  ///< to look for stability in, m
+  double drag_velocity = ContactFacts::unknown;  ///< of the slow motion, to judge slip, m/s
+  ContactFacts facts = {};
+};
+
+struct DamperAnswer {
+  ContactAnswer contact;
+  DamperMap map = {};  ///< empty without amplitudes
+  std::optional<OscillatorDecay> decay = {};
+  std::vector<double> stabilising_amplitude = {};  ///< for each frequency, m; empty: no slope
+  /// Of each amplitude at the highest frequency: slip does not depend on it, inertia grows with it.
+  std::vector<Premises> premises = {};
+
+  const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
+};
+
+constexpr void describe(auto&& visit, std::type_identity<DamperAnswer>) {
+  using S = DamperAnswer;
+  visit(&S::decay, Part{"decay", "free decay of the oscillator"});
+  visit(&S::stabilising_amplitude, Quantity{"stabilising_amplitude", Dimension::length,
+                                            "minimum normal amplitude that stabilises the slider"});
+  visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
+}
+
+/// throws  InvalidInput for several positions, no frequency, an oscillator of several amplitudes or
+///         frequencies, a slope or velocity that is not > 0, and as the functions of damper.hpp
+DamperAnswer ask(DamperQuestion question, const Context& context = {});
+
+/// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what
+/// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.
+std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
+                                        double spot_radius);
+
+}  // namespace salebra

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Losses of contacts in motions with a name, in measured ones, and as dampers, with their premises.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/surface_damping.hpp>
+#include <salebra/questions/damping.hpp>
+#include <utility>
+
+namespace salebra {
+namespace {
+
+constexpr double not_known = ContactFacts::unknown;
+
+/// One of the cases.
+struct Case {
+  Position position;
+  Motion motion;
+  std::optional<double> force_amplitude;
+};
+
+template <class T>
+const T& at(const std::vector<T>& all, std::size_t i) {
+  return all[all.size() == 1 ? 0 : i];
+}
+
+std::vector<Case> cases_of(const std::vector<Position>& positions,
+                           const DampingQuestion& question) {
+  const auto& forces = question.force_amplitude;
+  const std::size_t count = std::max({positions.size(), question.motions.size(), forces.size()});
+  for (const std::size_t size :
+       {positions.size(), question.motions.size(), std::max<std::size_t>(1, forces.size())})
+    require(size == 1 || size == count, "motions", question.motions.size(),
+            fmt::format("must be one, or one for each of {} cases", count));
+  std::vector<Case> cases;
+  for (std::size_t i = 0; i < count; ++i) {
+    cases.push_back({at(positions, i), at(question.motions, i), {}});
+    if (!forces.empty()) cases.back().force_amplitude = at(forces, i);
+  }
+  return cases;
+}
+
+DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOptions& options) {
+  if (!one.force_amplitude)
+    return std::visit(
+        [&](const auto& motion) { return relaxation_damping(law, one.position, motion, options); },
+        one.motion);
+  const auto* force = std::get_if<AtForce>(&one.position);
+  require(force != nullptr, "force_amplitude", *one.force_amplitude,
+          "goes with a mean force; give `normal_force` or `pressure`");
+  return std::visit(
+      [&](const auto& motion) {
+        return relaxation_damping_force_controlled(law, force->force, *one.force_amplitude, motion,
+                                                   options);
+      },
+      one.motion);
+}
+
+/// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential
+/// oscillation tends to.
+double slow_limit_power(const ContactLaw& law, const Case& one, const DampingOptions& options) {
+  const auto& motion = std::get<TwoFrequencies>(one.motion);
+  const double velocity =
+      motion.tangential_amplitude * motion.tangential_angular_frequency * std::numbers::sqrt2 / 2;
+  Case drag = one;
+  drag.motion = Drag{motion.normal_amplitude, velocity, motion.normal_angular_frequency};
+  return result_of(law, drag, options).power;
+}
+
+/// Small-amplitude form over the exact one. Without a common period the two are means, and the work
+/// is not known.
+double small_over_exact(const DampingResult& result, const Motion& motion) {
+  if (!std::isnan(result.work_per_cycle))
+    return result.small_amplitude_work / result.work_per_cycle;
+  const auto* two = std::get_if<TwoFrequencies>(&motion);
+  if (two == nullptr) return not_known;
+  return result.small_amplitude_work * two->normal_angular_frequency / (2 * std::numbers::pi) /
+         result.power;
+}
+
+/// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
+/// of it.
+Premises premises_of_case(const ContactAnswer& contact, const Case& one,
+                          const DampingResult& result, const ContactFacts& facts) {
+  Motion motion = one.motion;
+  if (one.force_amplitude)
+    std::visit(
+        [&](auto& m) { m.normal_amplitude = *one.force_amplitude / result.normal_stiffness; },
+        motion);
+  const ContactFacts known = contact.facts_at(facts, result.indentation);
+  return std::visit(
+      [&](const auto& m) { return premises_of(*contact.law, result.indentation, m, known); },
+      motion);
+}
+
+TrajectoryDamping unknown_loss() {
+  TrajectoryDamping loss;
+  loss.work_per_cycle = loss.relaxation_work = loss.slip_work = loss.power = loss.damping_constant =
+      loss.storage_stiffness = loss.loss_factor = not_known;
+  return loss;
+}
+
+/// A slow motion that turns back; the others are followed.
+TrajectoryDamping slow_loss_with_slip(const ContactLaw& law, const Drag& motion, double indentation,
+                                      const ContactFacts& facts) {
+  const LossWithSlip loss =
+      loss_with_slip(law, indentation, motion, facts.friction_coefficient, facts.excursion);
+  TrajectoryDamping damping = unknown_loss();
+  damping.work_per_cycle = loss.work_per_cycle;
+  damping.relaxation_work = loss.relaxation_work;
+  damping.slip_work = loss.slip_work;
+  damping.power = loss.work_per_cycle * motion.angular_frequency / (2 * std::numbers::pi);
+  damping.damping_constant = closed_form::damping_constant(loss.work_per_cycle, motion);
+  return damping;
+}
+
+TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Case& one, double indentation,
+                                    const DampingQuestion& question, const Context& context) {
+  const auto* drag = std::get_if<Drag>(&one.motion);
+  if (drag && !std::isnan(question.facts.excursion))
+    return slow_loss_with_slip(law, *drag, indentation, question.facts);
+  const auto* two = std::get_if<TwoFrequencies>(&one.motion);
+  if (one.force_amplitude || (two && common_period(*two).normal_cycles == 0)) return unknown_loss();
+  return cycle_of(law, one.motion, indentation, question.steps, question.facts.friction_coefficient,
+                  context)
+      .loss;
+}
+
+/// The place of a load, whose pressure came back with round-off.
+std::size_t place_of(const ForceCurve& curve, double pressure) {
+  const auto nearest = std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
+    return std::abs(sample.pressure - pressure);
+  });
+  return std::size_t(nearest - curve.samples.begin());
+}
+
+/// Each load with its neighbours, from which K_t/K has its slope.
+ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double>& pressures) {
+  ForceCurve loads = all;
+  loads.samples.clear();
+  for (std::size_t k = 0; k < all.samples.size(); ++k)
+    if (std::ranges::any_of(pressures, [&](double pressure) {
+          const std::size_t asked = place_of(all, pressure);
+          return k + 1 >= asked && k <= asked + 1;
+        }))
+      loads.samples.push_back(all.samples[k]);
+  return loads;
+}
+
+/// A surface is not interpolated between loads: contacts inside the oscillation give W and its
+/// error.
+void resolve_on_surface(const DampingQuestion& question, const std::vector<double>& pressures,
+                        const Material& material, const Context& context, DampingAnswer& answer) {
+  const Motion& motion = question.motions.front();
+  const Oscillation one = std::holds_alternative<Drag>(motion)
+                              ? Oscillation(std::get<Drag>(motion))
+                              : Oscillation(std::get<EqualFrequency>(motion));
+  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
+  const ForceCurve loads = loads_with_neighbours(*answer.contact.curve, pressures);
+  const std::vector<SurfaceDamping> found = surface_damping(
+      *answer.contact.surface, material, one, loads,
+      {.hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress});
+  for (std::size_t i = 0; i < answer.results.size(); ++i) {
+    const SurfaceDamping& load = found[place_of(loads, pressures[i])];
+    DampingResult& result = answer.results[i];
+    answer.damping_constant_error.push_back(load.damping_constant_error());
+    result.work_per_cycle = load.work_per_cycle;
+    result.damping_constant = load.damping_constant;
+    result.error_estimate = load.error;
+    result.converged = load.converged;
+    answer.error_estimate.push_back(load.error);
+    if (!(load.error < std::abs(load.work_per_cycle))) {
+      answer.doubts.push_back(
+          fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
+                      "salebra study --surface with --relative-error halves the cells further",
+                      format_quantity(pressures[i], Dimension::pressure)));
+      result.work_per_cycle = result.damping_constant = DampingResult::unknown;
+    }
+    if (omega > 0) result.power = result.work_per_cycle * omega / (2 * std::numbers::pi);
+  }
+}
+
+void require_motion_of_surface(const DampingQuestion& question) {
+  require_that(question.motions.size() == 1 && question.force_amplitude.empty() &&
+                   !std::holds_alternative<TwoFrequencies>(question.motions.front()),
+               "surface",
+               "takes one motion of equal frequencies or drag; give several `pressure`, or a "
+               "`curve`");
+}
+
+}  // namespace
+
+DampingAnswer ask(DampingQuestion question, const Context& context) {
+  require_that(!question.motions.empty(), "motions", "not given; give one");
+  auto* surface = std::get_if<SurfaceContact>(&question.contact);
+  std::vector<double> pressures;
+  Material material;
+  if (surface) {
+    require_motion_of_surface(question);
+    surface->normal_amplitude =
+        std::visit([](const auto& m) { return m.normal_amplitude; }, question.motions.front());
+    pressures = surface->pressure;
+    material = surface->material;
+  }
+  DampingAnswer answer{ask(std::move(question.contact), context)};
+  const ContactLaw& law = *answer.contact.law;
+  const DampingOptions options{.hold = question.hold, .amplitude = question.amplitude};
+  const std::vector<Case> cases = cases_of(answer.contact.positions, question);
+  for (const Case& one : cases) {
+    answer.motions.push_back(one.motion);
+    answer.results.push_back(result_of(law, one, options));
+    const double done = double(answer.results.size());
+    if (context.on_progress &&
+        !context.on_progress({"damping", done / double(cases.size()), static_cast<int>(done), 0}))
+      throw Interrupted("damping: stopped before all cases were done");
+  }
+  if (surface) resolve_on_surface(question, pressures, material, context, answer);
+  std::vector<std::string> doubts;  // one line for all cases
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Case& one = cases[i];
+    const DampingResult& result = answer.results[i];
+    answer.ratio.push_back(1 / small_over_exact(result, one.motion));
+    answer.premises.push_back(premises_of_case(answer.contact, one, result, question.facts));
+    if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {
+      answer.periods.push_back(common_period(*two));
+      answer.slow_limit_power.push_back(slow_limit_power(law, one, options));
+    }
+    if (!std::isnan(question.facts.friction_coefficient))
+      answer.with_slip.push_back(
+          loss_with_slip_of(law, one, result.indentation, question, context));
+    const auto* drag = std::get_if<Drag>(&one.motion);
+    if (drag == nullptr || !doubts.empty()) continue;
+    const ForceCurve* curve = answer.contact.curve ? &*answer.contact.curve : nullptr;
+    doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
+                            spot_radius(question.facts, law, curve, result.indentation));
+  }
+  answer.doubts.insert(answer.doubts.end(), doubts.begin(), doubts.end());
+  return answer;
+}
+
+DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
+                      double friction_coefficient, const Context& context) {
+  DampingCycle cycle;
+  cycle.path = std::visit([&](const auto& m) { return sample(m, indentation, steps); }, motion);
+  TrajectoryDampingOptions options{.on_progress = context.on_progress};
+  if (!std::isnan(friction_coefficient)) options.friction_coefficient = friction_coefficient;
+  cycle.loss = trajectory_damping(law, cycle.path, options);
+  const auto* equal = std::get_if<EqualFrequency>(&motion);
+  // Its frequency is not known.
+  if (equal && !(equal->angular_frequency > 0))
+    cycle.loss.power = cycle.loss.damping_constant = not_known;
+  return cycle;
+}
+
+PathAnswer ask(const PathQuestion& question, const Context& context) {
+  const auto law = law_of(question.contact, context);
+  const double friction = question.facts.friction_coefficient;
+  const bool planar = !question.transverse.empty();
+  require(!planar || std::isnan(friction), "friction_coefficient", friction,
+          "cannot be combined with a trajectory in two directions, whose slip is not followed; "
+          "leave it out, or the fourth column");
+  TrajectoryDampingOptions options{.on_progress = context.on_progress};
+  if (!std::isnan(friction)) options.friction_coefficient = friction;
+  PathAnswer answer;
+  answer.loss = planar ? trajectory_damping(*law, question.path, question.transverse)
+                       : trajectory_damping(*law, question.path, options);
+  const auto [low, high] = std::ranges::minmax(question.path.indentation);
+  answer.premises =
+      premises_of(*law, question.path, at_state(question.facts, *law, nullptr, 0.5 * (low + high)));
+  if (!planar) return answer;
+  // Slip is judged along x alone, where it is one of the vector.
+  Premises& judged = answer.premises;
+  judged.slip_of_opening_levels = judged.slip_of_closed_levels = {};
+  judged.largest.clear();
+  judged.regime = Regime::unknown;
+  return answer;
+}
+
+DamperAnswer ask(DamperQuestion question, const Context& context) {
+  const std::vector<double>&amplitudes = question.normal_amplitude,
+        &omega = question.angular_frequency;
+  require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
+  if (auto* surface = std::get_if<SurfaceContact>(&question.contact))
+    surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
+  DamperAnswer answer{ask(std::move(question.contact), context)};
+  const ContactLaw& law = *answer.contact.law;
+  require(answer.contact.positions.size() == 1, "normal_force",
+          fmt::format("{} positions", answer.contact.positions.size()),
+          "are given; a damper takes one");
+  const Position& position = answer.contact.positions.front();
+  const DampingOptions options{
+      .hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress};
+  const bool one = amplitudes.size() == 1 && omega.size() == 1;
+  for (const double amplitude : amplitudes) {
+    Drag motion{amplitude, 0, std::ranges::max(omega)};
+    const double indentation = relaxation_damping(law, position, motion, options).indentation;
+    motion.drag_velocity = question.drag_velocity;
+    answer.premises.push_back(premises_of(law, indentation, motion,
+                                          answer.contact.facts_at(question.facts, indentation)));
+  }
+  if (!amplitudes.empty())
+    answer.map = damper_map(law, position, amplitudes, omega, options);
+  else
+    require_that(question.falling_slope.has_value(), "normal_amplitude",
+                 "missing; give it, or `falling_slope` to have it computed");
+  if (question.oscillator) {
+    require(one, "mass", question.oscillator->mass,
+            "kg needs one `normal_amplitude` and one `frequency`");
+    answer.decay = oscillator_decay(law, position, {amplitudes.front(), omega.front()},
+                                    *question.oscillator, options);
+  }
+  if (!question.falling_slope) return answer;
+  require_positive(*question.falling_slope, "falling_slope");
+  for (const double frequency : omega)
+    answer.stabilising_amplitude.push_back(stabilising_amplitude(
+        law, position, frequency, *question.falling_slope, question.largest_amplitude, options));
+  return answer;
+}
+
+std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
+                                        double spot_radius) {
+  const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
+  if (!(path > 2 * spot_radius)) return {};
+  return {fmt::format(
+      "the slow motion moves on by 2 pi v/w = {} in one normal cycle, beyond a contact spot of {} "
+      "across; take a lower `drag_velocity` or a higher `frequency`",
+      format_quantity(path, Dimension::length),
+      format_quantity(2 * spot_radius, Dimension::length))};
+}
+
+}  // namespace salebra
