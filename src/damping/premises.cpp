@@ -603,8 +603,14 @@ double length_of(const ContactLaw& law, double mean, double amplitude) {
   return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
 }
 
-// The largest motions without slip, for μ or, where it is not known, for three of them. displacement:
-// that of 5 % in units of μ/g. closed_limits: of the levels that stay closed, for a μ/g.
+void set_limits(Premise& premise, const Limits& limits, double unit) {
+  premise.limit_5_percent = unit * limits.five;
+  premise.limit_20_percent = unit * limits.twenty;
+}
+
+// The largest motions without slip, for μ or, where it is not known, for three of them.
+// displacement: that of 5 % in units of μ/g. closed_limits: of the levels that stay closed, for a
+// μ/g.
 template <class ClosedLimits>
 std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const ContactFacts& facts,
                                            double modulus_ratio, double displacement,
@@ -624,6 +630,19 @@ std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const Con
     motions.push_back(largest);
   }
   return motions;
+}
+
+// By the verdicts on the slip of both kinds of levels. stretch: μ/g.
+Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Premises& premises,
+                 double stretch) {
+  const Premise& opening = premises.slip_of_opening_levels;
+  const Premise& closed = premises.slip_of_closed_levels;
+  if (opening.verdict == Verdict::unknown || closed.verdict == Verdict::unknown)
+    return premises.regime;
+  if (opening.verdict == Verdict::holds && closed.verdict == Verdict::holds) return Regime::no_slip;
+  return slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch)
+             ? Regime::sliding
+             : Regime::partial_slip;
 }
 
 Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
@@ -672,24 +691,17 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   premises.largest =
       largest_motions(motion, facts, law.modulus_ratio(), displacements.five, closed_limits);
   if (!motion.drag) {
-    closed.limit_5_percent = stretch * displacements.five;
-    closed.limit_20_percent = stretch * displacements.twenty;
+    set_limits(closed, displacements, stretch);
   } else if (closed.needs.empty()) {
     const Limits limits = closed_limits(stretch);
-    closed.limit_5_percent = stretch * limits.five;
-    closed.limit_20_percent = stretch * limits.twenty;
+    set_limits(closed, limits, stretch);
     if (std::isnan(closed.value)) closed.needs = "excursion";
     // No excursion is short enough.
     if (limits.twenty == 0) closed.verdict = Verdict::broken, closed.needs.clear();
   }
   if (closed.needs.empty()) judge(closed);
-  const bool slow = !motion.drag || closed.value >= 2 * pi * displacement;
-  if (opening.verdict != Verdict::unknown && closed.verdict != Verdict::unknown && slow)
-    premises.regime = opening.verdict == Verdict::holds && closed.verdict == Verdict::holds
-                          ? Regime::no_slip
-                      : slides(law, motion, displacement / stretch, closed.value / stretch)
-                          ? Regime::sliding
-                          : Regime::partial_slip;
+  if (!motion.drag || closed.value >= 2 * pi * displacement)
+    premises.regime = regime_of(law, motion, premises, stretch);
   return premises;
 }
 

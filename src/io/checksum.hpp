@@ -8,11 +8,11 @@
 
 namespace salebra::detail {
 
-/// The one checksum of the tree, of sidecars, kept surfaces and checkpoints; archives and HDF5 have
-/// those of their formats, by their libraries. Of a stream of bytes, however it is cut into pieces. Each step is a bijection of the
-/// state for a given word and of the word for a given state: streams of one length that differ
-/// within a single aligned word of eight bytes never agree. It tells damage, not intent. Cost: one
-/// pass, several GB/s.
+/// Checksum of a stream of bytes, however it is cut into pieces: the one of the tree, for sidecars,
+/// kept surfaces and checkpoints. Archives and HDF5 have those of their formats, by their libraries.
+/// Each step is a bijection of the state for a given word and of the word for a given state: streams
+/// of one length that differ within a single aligned word of eight bytes never agree. It tells
+/// damage, not intent. Cost: one pass, several GB/s.
 class Checksum {
  public:
   Checksum() = default;

@@ -215,8 +215,8 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
   return result;
 }
 
-// e_c by what a step has seen. with_clipped: counts the pressure that the bounds took, where the set
-// stays as it is.
+// e_c by what a step has seen. with_clipped: counts the pressure that the bounds took, where the
+// set stays as it is.
 template <class Real>
 double ActiveSetCg<Real>::estimate_of(const StepSums& step, const Run& run,
                                       bool with_clipped) const {
