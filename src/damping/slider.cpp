@@ -438,11 +438,19 @@ double first_reached(const std::function<double(double)>& excess, double low, do
   return SliderThreshold::unknown;
 }
 
+// A slider on a contact, without the oscillation that should steady it.
+struct SlidingPair {
+  const ContactLaw& law;
+  const Position& position;
+  const Slider& slider;
+  double friction_coefficient;
+  const SliderOptions& options;
+};
+
 // Threshold over what `normal_of` makes an oscillation from, from `low`, where nothing sticks.
-SliderThreshold threshold(const ContactLaw& law, const Position& position, const Slider& slider,
-                          double friction_coefficient, double low, double high,
-                          const std::function<NormalOscillation(double)>& normal_of,
-                          const SliderOptions& options) {
+SliderThreshold threshold(const SlidingPair& pair, double low, double high,
+                          const std::function<NormalOscillation(double)>& normal_of) {
+  const auto& [law, position, slider, friction_coefficient, options] = pair;
   const double needed = slider.falling_slope - slider.support_damping;
   SliderThreshold threshold;
   if (!(low < high)) return threshold;
@@ -573,12 +581,10 @@ SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& posit
   check_falling(slider);
   const double low =
       slider.velocity / angular_frequency / limit_of_slope(law, position, friction_coefficient);
-  return threshold(
-      law, position, slider, friction_coefficient, low, largest_amplitude,
-      [&](double amplitude) {
-        return NormalOscillation{amplitude, angular_frequency};
-      },
-      options);
+  return threshold({law, position, slider, friction_coefficient, options}, low, largest_amplitude,
+                   [&](double amplitude) {
+                     return NormalOscillation{amplitude, angular_frequency};
+                   });
 }
 
 SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
@@ -593,12 +599,10 @@ SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Positio
       slider.velocity / normal_amplitude / limit_of_slope(law, position, friction_coefficient);
   // Slower oscillations do not average.
   const double low = std::max(touch, 4.01 * natural_frequency(slider));
-  return threshold(
-      law, position, slider, friction_coefficient, low, largest_angular_frequency,
-      [&](double frequency) {
-        return NormalOscillation{normal_amplitude, frequency};
-      },
-      options);
+  return threshold({law, position, slider, friction_coefficient, options}, low,
+                   largest_angular_frequency, [&](double frequency) {
+                     return NormalOscillation{normal_amplitude, frequency};
+                   });
 }
 
 }  // namespace salebra
