@@ -14,7 +14,7 @@ import subprocess
 import tempfile
 
 PAGE = pathlib.Path(__file__).with_name("direct_simulation.md")
-SWEEP = {"cylinder": 6e-6, "parabola": 6e-6, "pyramids": 1.8e-6, "sinusoids": 1.35e-6}  # u_z, m
+SWEEP = {"cylinder": 6e-6, "paraboloid": 6e-6, "pyramids": 1.8e-6, "sinusoids": 1.35e-6}  # u_z, m
 ROUGH_MODULUS, ROUGH_SLOPE = 1e9, 0.1  # E* in Pa and h' of the generated surfaces
 
 
@@ -107,7 +107,7 @@ def convergence(runs, _):
     keys = [(c, n, k) for c in ("45deg", "b") for n in points for k in steps]
 
     def run(case, n, k):
-        return runs.answer("oscillate", "--shape", "parabola", "--points", n, "--steps", k, "--contact-modulus", "1GPa",
+        return runs.answer("oscillate", "--shape", "paraboloid", "--points", n, "--steps", k, "--contact-modulus", "1GPa",
                            "--poisson", poisson, *motion(case, 6e-6))
 
     answers = dict(zip(keys, runs.all(run, keys)))
@@ -197,7 +197,7 @@ def mindlin(runs, _):
     amplitude = 0.7 * friction * depth
 
     def run(n, k):
-        return runs.answer("oscillate", "--shape", "parabola", "--points", n, "--steps", k, "--levels", 4,
+        return runs.answer("oscillate", "--shape", "paraboloid", "--points", n, "--steps", k, "--levels", 4,
                            "--contact-modulus", modulus, "--poisson", 0, "--friction", friction, "--phase", "90deg",
                            "--normal-amplitude", 1e-6 * depth, "--tangential-amplitude", amplitude)
 

@@ -295,7 +295,7 @@ void add_oscillate_command(Program& program) {
   arguments->motion.mode = "equal-frequency";
   Command& command = program.add_command(
       "oscillate", "three-dimensional simulation of an oscillating contact",
-      {"salebra oscillate --shape cylinder,parabola,pyramids,sinusoids --contact-modulus 1GPa "
+      {"salebra oscillate --shape cylinder,paraboloid,pyramids,sinusoids --contact-modulus 1GPa "
        "--poisson 0.3 --plot figure3.png",
        "salebra oscillate --surface rough.h5 --pressure 10MPa --contact-modulus 115GPa --poisson "
        "0.3 "

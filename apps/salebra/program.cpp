@@ -199,7 +199,7 @@ struct FormerCommand {
 };
 constexpr FormerCommand former_commands[]{
     {"damper", "damping, without --drag-velocity, or with --mass or --falling-slope"},
-    {"figure3", "oscillate, with --shape cylinder,parabola,pyramids,sinusoids"},
+    {"figure3", "oscillate, with --shape cylinder,paraboloid,pyramids,sinusoids"},
     {"friction", "sliding, with the same options"},
     {"gw", "contact, with --model gw_moments or gw_deterministic"},
     {"info", "statistics"},

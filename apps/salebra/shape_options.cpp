@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/shape.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace salebra::cli {
 namespace {
 
 /// The numbers that follow a shape's name, in the order of its maker's arguments.
-struct Shape {
+struct MadeShape {
   std::vector<std::string> options;
   std::function<Surface(const Grid2D&, const std::vector<double>&, const PlanePoint&)> make;
 };
@@ -27,41 +28,41 @@ Index whole(double value, const char* option) {
 }
 
 /// Axes stand at the point; repeated shapes are moved by it.
-Shape shape_named(const std::string& name) {
+MadeShape maker_of(Shape shape) {
   using Values = std::vector<double>;
-  if (name == "sphere")
+  if (shape == Shape::sphere)
     return {{"--radius"},
             [](auto& grid, const Values& v, auto& at) { return sphere_surface(grid, v[0], at); }};
-  if (name == "paraboloid")
+  if (shape == Shape::paraboloid)
     return {{"--radius"}, [](auto& grid, const Values& v, auto& at) {
               return paraboloid_surface(grid, v[0], at);
             }};
-  if (name == "elliptic-paraboloid")
+  if (shape == Shape::elliptic_paraboloid)
     return {{"--radius-x", "--radius-y"}, [](auto& grid, const Values& v, auto& at) {
               return elliptic_paraboloid_surface(grid, v[0], v[1], at);
             }};
-  if (name == "ellipsoid")
+  if (shape == Shape::ellipsoid)
     return {{"--semi-x", "--semi-y", "--semi-z"}, [](auto& grid, const Values& v, auto& at) {
               return ellipsoid_surface(grid, v[0], v[1], v[2], at);
             }};
-  if (name == "cone")
+  if (shape == Shape::cone)
     return {{"--angle"},
             [](auto& grid, const Values& v, auto& at) { return cone_surface(grid, v[0], at); }};
-  if (name == "wedge")
+  if (shape == Shape::wedge)
     return {{"--angle"},
             [](auto& grid, const Values& v, auto& at) { return wedge_surface(grid, v[0], at); }};
-  if (name == "ridge")
+  if (shape == Shape::ridge)
     return {{"--radius"},
             [](auto& grid, const Values& v, auto& at) { return ridge_surface(grid, v[0], at); }};
-  if (name == "cylinder")
+  if (shape == Shape::cylinder)
     return {{"--radius", "--depth"}, [](auto& grid, const Values& v, auto& at) {
               return flat_punch_surface(grid, v[0], v[1], at);
             }};
-  if (name == "rounded-cylinder")
+  if (shape == Shape::rounded_cylinder)
     return {{"--radius", "--edge-radius"}, [](auto& grid, const Values& v, auto& at) {
               return rounded_punch_surface(grid, v[0], v[1], at);
             }};
-  if (name == "pyramids")
+  if (shape == Shape::pyramids)
     return {{"--count-x", "--count-y", "--angle"}, [](auto& grid, const Values& v, auto& at) {
               return pyramids_surface(grid, whole(v[0], "--count-x"), whole(v[1], "--count-y"),
                                       v[2], at);
@@ -76,10 +77,10 @@ Shape shape_named(const std::string& name) {
 
 void ShapeOptions::add_to(Command& app) {
   const Heading under(app, "Shape, in place of a spectrum");
-  add_choice(app, "--shape", shape,
-             {"sphere", "paraboloid", "elliptic-paraboloid", "ellipsoid", "cone", "wedge", "ridge",
-              "cylinder", "rounded-cylinder", "pyramids", "sinusoid"},
-             "shape");
+  std::vector<std::string> words;
+  for (const auto& [value, word] : Words<Shape>::values)
+    if (value != Shape::power) words.push_back(option_word(value));
+  add_choice(app, "--shape", shape, words, "shape");
   const auto length = [&](const char* name, std::optional<double>& value, const char* help) {
     add_quantity(app, name, value, Dimension::length, help);
   };
@@ -105,7 +106,7 @@ void ShapeOptions::add_to(Command& app) {
 }
 
 Surface ShapeOptions::surface(const Grid2D& grid) const {
-  const Shape named = shape_named(shape);
+  const MadeShape named = maker_of(*value_of<Shape>(shape));
   const std::vector<std::pair<std::string, const std::optional<double>*>> known{
       {"--radius", &radius},       {"--radius-x", &radius_x}, {"--radius-y", &radius_y},
       {"--semi-x", &semi_x},       {"--semi-y", &semi_y},     {"--semi-z", &semi_z},

@@ -77,7 +77,7 @@ double ratio(const OscillationOutcome& outcome, double value, double reference) 
 }  // namespace
 
 const std::vector<std::string>& oscillating_shapes() {
-  static const std::vector<std::string> names{"cylinder",  "parabola", "pyramids",
+  static const std::vector<std::string> names{"cylinder",  "paraboloid", "pyramids",
                                               "sinusoids", "cone",     "elliptic-paraboloid"};
   return names;
 }
@@ -90,7 +90,7 @@ OscillatingBody oscillating_shape(const std::string& shape, const Grid2D& grid) 
   if (shape == "cylinder")
     return {flat_punch_surface(grid, 0.3 * size, size, center), Boundary::free, 0.02 * size,
             0.006 * size};
-  if (shape == "parabola")
+  if (shape == "paraboloid")
     return {paraboloid_surface(grid, 4 * size, center), Boundary::free, 0.02 * size, 0.006 * size};
   if (shape == "cone")
     return {cone_surface(grid, 0.05, center), Boundary::free, 0.02 * size, 0.006 * size};

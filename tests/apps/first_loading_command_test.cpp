@@ -121,7 +121,7 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
 TEST_CASE("A shape flows too, but on the cells that it has", "[first_loading]") {
   const ProgramTest test;
   const std::string shape =
-      "oscillate --shape parabola --points 32 --method levels --levels 8 --json" + material;
+      "oscillate --shape paraboloid --points 32 --method levels --levels 8 --json" + material;
   const json elastic = test.run(shape).json();
   const json flowed = test.run(shape + "--hardness 200MPa").json();
   CHECK(number(flowed, "first_loading", "yielded_area_fraction") > 0);

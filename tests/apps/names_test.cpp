@@ -262,7 +262,7 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
   const std::string drag = " --drag-velocity 1mm/s --frequency 20kHz ";
   const std::string rough =
       "--points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um --rms-height 10nm ";
-  const std::string shape = "oscillate --shape parabola --points 24 --steps 8 --levels 4 " + body;
+  const std::string shape = "oscillate --shape paraboloid --points 24 --steps 8 --levels 4 " + body;
   test.write("study.toml", study_text("seeds = [3, 4]"));
   test.write("path.txt", "0 1e-6 0\n1 1.2e-6 1e-7\n2 1.1e-6 2e-7\n3 0.8e-6 1e-7\n4 1e-6 0\n");
   test.write("planar.txt",

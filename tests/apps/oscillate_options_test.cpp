@@ -26,7 +26,7 @@ std::vector<double> numbers(const nlohmann::json& object, const char* key) {
 TEST_CASE("oscillate takes a position as depth, force, pressure or gap", "[oscillate]") {
   const ProgramTest test;
   const std::string parabola =
-      "oscillate --shape parabola --points 32 --levels 4 --method levels" + material;
+      "oscillate --shape paraboloid --points 32 --levels 4 --method levels" + material;
   const auto deep = test.run(parabola + "--indentation 10um").json();
   // Hertz up to the cells: the apex lies between them.
   CHECK(number(deep, "force") == Approx(4.0 / 3 * 1e9 * std::sqrt(4e-3 * 1e-15)).epsilon(0.02));
@@ -59,7 +59,7 @@ TEST_CASE("oscillate answers for Eqs (12) and (15), finite amplitude and the exp
           "[oscillate]") {
   const ProgramTest test;
   const std::string parabola =
-      "oscillate --shape parabola --points 32 --steps 16 --levels 12 --decay-length 8um" + material;
+      "oscillate --shape paraboloid --points 32 --steps 16 --levels 12 --decay-length 8um" + material;
   const double amplitude = 6e-6, k = amplitude / 8e-6, modulus_ratio = 2 * 0.7 / 1.7;
   const double hertz = std::sqrt(4e-3) * 1e9 / std::sqrt(20e-6);  // F'' at 20 µm
   const auto equal = test.run(parabola + "--phase 45deg").json();
@@ -148,7 +148,7 @@ TEST_CASE("oscillate keeps one boundary in all its solves", "[oscillate]") {
         .run("oscillate --points 32 --steps 32 --levels 8 --friction 100" + material + options)
         .json();
   };
-  const std::string parabola = "--shape parabola --indentation 5um ";
+  const std::string parabola = "--shape paraboloid --indentation 5um ";
   const auto free = run(parabola), same = run(parabola + "--boundary free");
   const auto periodic = run(parabola + "--boundary periodic"), waves = run("--shape sinusoids");
   CHECK(same["work_per_cycle"] == free["work_per_cycle"]);
@@ -240,11 +240,11 @@ TEST_CASE("oscillate warns of a loss that is not steady and of steps that are to
 TEST_CASE("Several shapes move as they are told", "[oscillate]") {
   const ProgramTest test;
   const std::string command =
-      "oscillate --shape parabola,pyramids,sinusoids --points 24 --steps 8" + material;
+      "oscillate --shape paraboloid,pyramids,sinusoids --points 24 --steps 8" + material;
   const auto quarter = test.run(command).json(),
              eighth = test.run(command + "--phase 45deg").json();
   const auto drag = test.run(command + "--mode drag").json();
-  for (const char* shape : {"parabola", "pyramids", "sinusoids"}) {
+  for (const char* shape : {"paraboloid", "pyramids", "sinusoids"}) {
     const auto &a = quarter[shape], &b = eighth[shape], &c = drag[shape];
     CHECK(a["time_in_periods"].size() == 9);
     CHECK(number(b, "work_per_cycle") == Approx(number(a, "work_per_cycle") / 2).epsilon(1e-6));
@@ -254,15 +254,15 @@ TEST_CASE("Several shapes move as they are told", "[oscillate]") {
       CHECK(number(c, "small_amplitude_work") / number(c, "force_curvature") ==
             Approx(0.75 * (pi * pi - 4) * number(a, "small_amplitude_work") /
                    number(a, "force_curvature")));
-    CHECK((shape != std::string("parabola") || c["small_amplitude_work"].is_number()));
+    CHECK((shape != std::string("paraboloid") || c["small_amplitude_work"].is_number()));
     CHECK(a["routes_agree"] == true);
     CHECK(c["routes_agree"] == true);
   }
   // What tells the shapes apart: a² = Rδ up to 26 µm; 16 pyramids whose contacts are about those of
   // cones of their slope, a = 2δ/(π 0.1) up to 7.8 µm; waves drawn out along the motion, so that
   // K_t < (G*/E*)K, and across it would be more.
-  CHECK(number(quarter["parabola"], "contact_area_max") == Approx(pi * 4e-3 * 26e-6).epsilon(0.1));
-  CHECK(number(quarter["parabola"], "ratio_finite") == Approx(1).epsilon(0.05));
+  CHECK(number(quarter["paraboloid"], "contact_area_max") == Approx(pi * 4e-3 * 26e-6).epsilon(0.1));
+  CHECK(number(quarter["paraboloid"], "ratio_finite") == Approx(1).epsilon(0.05));
   CHECK(number(quarter["pyramids"], "contact_area_max") ==
         Approx(16 * pi * std::pow(2 * 7.8e-6 / (pi * 0.1), 2)).epsilon(0.5));
   CHECK(number(quarter["sinusoids"], "ratio_finite") < 0.95);

@@ -217,7 +217,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
        "--law paraboloid --radius 1mm --indentation 100nm --drag-velocity 1um/s --prony "
        "3GPa:1ms" +
            body + drag},
-      {"oscillate", "--shape parabola --points 32 --method levels" + body},
+      {"oscillate", "--shape paraboloid --points 32 --method levels" + body},
       {"study", "study.toml --no-stick --no-report -o study.h5"},
       {"compare", "study.toml --no-stick --no-report --models gw_moments"},
       {"verify", ""},

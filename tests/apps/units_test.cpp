@@ -283,7 +283,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
               .status == 0);
   const std::string law = " --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
   const std::string drag = " --drag-velocity 1mm/s --frequency 20kHz ";
-  const std::string shape = "oscillate --shape parabola --points 32 --steps 16 " + body;
+  const std::string shape = "oscillate --shape paraboloid --points 32 --steps 16 " + body;
   // What --json holds beside the answer in words.
   const std::set<std::string> tables{"local",         "psd",           "profile_psd_x",
                                      "profile_psd_y", "correlation",   "correlation_x",
