@@ -273,6 +273,10 @@ void damp(const DampingArguments& arguments, Session& session) {
   question.contact = contact_of(arguments, session);
   const DamperAnswer answer = ask(std::move(question), session.context());
   warn(answer.contact.doubts, session);
+  if (answer.contact.surface)
+    session.note(
+        "the law is through some loads of the surface: the error of what follows from it is not "
+        "known");
   Json object = Json::object();
   if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
   if (omega.size() > 1) object["angular_frequency"] = omega;

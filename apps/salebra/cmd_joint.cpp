@@ -122,15 +122,32 @@ void run(const JointArguments& arguments, Session& session) {
     report.fraction = (double(losses.size()) + report.fraction) / double(motions.size());
     return progress(report);
   };
-  for (const TangentialOscillation& motion : motions)
-    losses.push_back(oscillates
-                         ? joint_loss(law, position, motion, friction, *arguments.normal_amplitude,
-                                      phase, arguments.steps, of_all)
-                         : joint_loss(law, position, motion, friction));
+  if (contact.surface && !oscillates)
+    losses =
+        surface_joint_loss(*contact.surface, arguments.material.material_with_tangential_modulus(),
+                           law, position, motions, friction, progress);
+  else
+    for (const TangentialOscillation& motion : motions)
+      losses.push_back(oscillates
+                           ? joint_loss(law, position, motion, friction,
+                                        *arguments.normal_amplitude, phase, arguments.steps, of_all)
+                           : joint_loss(law, position, motion, friction));
   if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
     throw NotConverged(
         fmt::format("joint: {} of {} integrals did not reach the tolerance", lost, losses.size()));
 
+  if (contact.surface && oscillates)
+    session.note(
+        "the loss is that of a law through some loads: its error is not known while the "
+        "normal force oscillates");
+  if (const auto lost = std::ranges::count_if(
+          losses, [](const JointLoss& one) { return std::isnan(one.work_per_cycle); });
+      lost > 0)
+    session.note(
+        fmt::format("n/a at {} of {} motions: the error of the loss is larger than the "
+                    "loss, because too few cells part where the joint slips; a finer "
+                    "surface helps",
+                    lost, losses.size()));
   const double indentation = losses.front().indentation;
   const double area =
       arguments.nominal_area.value_or(contact.curve ? contact.curve->nominal_area : 0);

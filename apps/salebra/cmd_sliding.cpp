@@ -84,6 +84,10 @@ ContactAnswer contact_of(const SlidingArguments& arguments, Session& session) {
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; sliding takes one, and several --velocities");
+  if (contact.surface)
+    session.note(
+        "the law is through some loads of the surface: the error of what follows from it "
+        "is not known");
   return contact;
 }
 

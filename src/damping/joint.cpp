@@ -6,8 +6,13 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/sweep.hpp>
 #include <salebra/damping/joint.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/tangential_contact.hpp>
+#include <salebra/surface/refine.hpp>
+#include <utility>
 #include <vector>
 
 #include "contact/quadrature.hpp"
@@ -204,6 +209,37 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       "tangential force; reduce it, or give a displacement");
 }
 
+// Contacts of a surface, none of which may fail.
+NormalContactState solved(NormalContactState state) {
+  if (state.interrupted) throw Interrupted("joint: interrupted");
+  if (!state.converged) throw NotConverged("joint: a contact of the surface did not converge");
+  return state;
+}
+
+// One load in full stick.
+ForceCurve stuck_at(double pressure, const Surface& surface, const Material& material,
+                    const Progress& on_progress) {
+  SweepOptions sweep;
+  sweep.stick = true;
+  sweep.contact.on_progress = on_progress;
+  ForceCurve curve = sweep_pressures(surface, material, {pressure}, sweep);
+  if (curve.samples.empty()) throw Interrupted("joint: interrupted");
+  if (!curve.samples.front().converged)
+    throw NotConverged("joint: a contact of the surface did not converge");
+  return curve;
+}
+
+// The loss of a normal oscillation about the indentation under a pressure.
+SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, const Surface& surface,
+                             const Material& material, const Progress& on_progress) {
+  const ForceCurve curve = stuck_at(pressure, surface, material, on_progress);
+  SurfaceDampingOptions options;
+  options.on_progress = on_progress;
+  SurfaceDamping damping = surface_damping(surface, material, motion, curve, options).front();
+  if (!damping.converged) throw NotConverged("joint: a contact of the surface did not converge");
+  return damping;
+}
+
 // A quantity over the steps of a simulated cycle, of which the last is the first of the next.
 struct Swing {
   Swing(const CycleResult& cycle, double CycleSample::*quantity)
@@ -254,6 +290,62 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   loss.converged = levels.converged();
   set_ratios(loss);
   return loss;
+}
+
+std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
+                                          const ContactLaw& law, const Position& position,
+                                          const std::vector<TangentialOscillation>& motions,
+                                          double friction_coefficient,
+                                          const Progress& on_progress) {
+  std::vector<JointLoss> losses;
+  for (const TangentialOscillation& motion : motions)
+    losses.push_back(joint_loss(law, position, motion, friction_coefficient));
+  if (losses.empty()) return losses;
+  const Surface fine = refined(surface, 2);
+  const double area = surface.grid.area(), limit = friction_coefficient / law.modulus_ratio();
+  NormalContactOptions contact;
+  contact.on_progress = on_progress;
+  // c is the difference of two indentations, of which it may be a hundredth.
+  contact.tolerance = 1e-10;
+  const auto at_force = [&](double force) {
+    return solved(press_to_pressure(fine, material.contact_modulus, force / area, contact));
+  };
+  const auto at_indentation = [&](double level) {
+    return solved(press_to_indentation(fine, material.contact_modulus, level, contact));
+  };
+  const double level = losses.front().indentation;
+  const NormalContactState high = at_force(law.force(level));
+  // K_t/((G*/E*)K) hardly changes where a joint slips. The law interpolates both stiffnesses.
+  const ForceSample stuck =
+      stuck_at(high.force / area, surface, material, on_progress).samples.front();
+  const double ratio = stuck.tangential_stiffness / (law.modulus_ratio() * stuck.normal_stiffness);
+  contact.initial_pressure = &high.contact_pressure;
+  for (std::size_t k = 0; k < losses.size(); ++k) {
+    JointLoss& loss = losses[k];
+    double depth = loss.tangential_amplitude / limit, change = 0;
+    if (std::holds_alternative<TangentialForce>(motions[k])) {
+      const double force = high.force - loss.tangential_force / (friction_coefficient * ratio);
+      check_below_sliding(loss.tangential_force, friction_coefficient * ratio * high.force, "");
+      const double by_law = std::exchange(depth, high.indentation - at_force(force).indentation);
+      change = (depth / by_law - 1) / 3;
+      loss.tangential_amplitude = limit * depth;
+    } else {
+      loss.tangential_force = friction_coefficient * ratio *
+                              (high.force - at_indentation(high.indentation - depth).force);
+    }
+    const double pressure = at_indentation(high.indentation - depth / 2).force / area;
+    const EqualFrequency as_normal{.normal_amplitude = depth / 2,
+                                   .tangential_amplitude = loss.tangential_amplitude,
+                                   .phase = pi / 2};
+    const SurfaceDamping found = damping_about(pressure, as_normal, surface, material, on_progress);
+    loss.work_per_cycle = found.work_per_cycle / 2;
+    loss.work_error = std::hypot(found.error / 2, loss.exponent * loss.work_per_cycle * change);
+    if (!(loss.work_error < std::abs(loss.work_per_cycle)))
+      loss.work_per_cycle = loss.work_error = JointLoss::unknown;
+    loss.slip_work = loss.work_per_cycle;
+    set_ratios(loss);
+  }
+  return losses;
 }
 
 JointLoss joint_loss(const ContactLaw& law, const Position& position,

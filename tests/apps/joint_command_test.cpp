@@ -78,16 +78,26 @@ TEST_CASE("joint simulates a surface cell by cell beside the springs of its curv
     };
     CHECK(number(direct, "tangential_force") ==
           Approx(number(answer, "tangential_force")).epsilon(1e-9));
-    // The errors are those of the law through 13 forces and of the steps: 0.7 % of the loss.
+    // The simulation has the cells as they are, the answer cells of half the size. At 0.73 of
+    // sliding these change x by 4 % and W, which grows with the power 4.5 of the force, by 11 %; at
+    // 0.4 both by 1.3 and 0.5 %. The steps are 0.7 % of the loss.
     CHECK(number(direct, "tangential_amplitude") ==
-          Approx(number(answer, "tangential_amplitude")).epsilon(0.02));
+          Approx(number(answer, "tangential_amplitude")).epsilon(i == 0 ? 0.02 : 0.06));
     CHECK(number(direct, "work_per_cycle") ==
-          Approx(number(answer, "work_per_cycle")).epsilon(0.08));
+          Approx(number(answer, "work_per_cycle")).epsilon(i == 0 ? 0.03 : 0.15));
+    CHECK(number(answer, "work_error") > 0);
+    CHECK(number(answer, "work_error") < 0.1 * number(answer, "work_per_cycle"));
     CHECK(number(direct, "relaxation_work") == 0);
     CHECK(number(direct, "work_per_cycle_per_area") ==
           Approx(number(direct, "work_per_cycle") / 1e-10));
   }
   CHECK_FALSE(direct.contains("exponent"));
+  CHECK_FALSE(direct.contains("work_error"));
+  const auto oscillating = test.run(command +
+                                    "--tangential-forces 60uN --normal-amplitude 1nm "
+                                    "--json");
+  CHECK_FALSE(oscillating.json().contains("work_error"));
+  CHECK(oscillating.err.find("its error is not known") != std::string::npos);
   CHECK(test.files() == std::set<std::string>{"r.h5", "j.csv", "j.motions.csv", "j.direct.csv"});
   check_refused(test.run(command + "--tangential-forces 0.2mN --direct-steps 32"),
                 "at which the contact slides");

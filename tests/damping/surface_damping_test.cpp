@@ -9,6 +9,7 @@
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/shapes.hpp>
@@ -150,6 +151,34 @@ double work_by_contacts(const Surface& surface, double pressure, const Drag& mot
   return 4 * way * way * material.modulus_ratio() * sum;
 }
 
+// W of a joint by contacts between the forces F and F − T/μ, the levels that slip, with K_t = K:
+// 4μ² ∫_0^c (c − 2t) K(δ − t) dt.
+double joint_work_by_contacts(const Surface& surface, const Material& stuck, double pressure,
+                              double tangential_force, double friction_coefficient) {
+  constexpr int intervals = 16;
+  NormalContactOptions options;
+  options.tolerance = 1e-10;
+  const NormalContactState high =
+      press_to_pressure(surface, stuck.contact_modulus, pressure, options);
+  const double least = high.force - tangential_force / friction_coefficient;
+  const double depth = high.indentation - press_to_pressure(surface, stuck.contact_modulus,
+                                                            least / surface.grid.area(), options)
+                                              .indentation;
+  Field start = high.contact_pressure;
+  options.initial_pressure = &start;
+  double sum = 0, above = high.force, from = 0;
+  for (int k = 1; k <= intervals; ++k) {
+    const double to = depth * std::pow(std::sin(pi * k / (2 * intervals)), 2);
+    const NormalContactState state =
+        press_to_indentation(surface, stuck.contact_modulus, high.indentation - to, options);
+    start = state.contact_pressure;
+    sum += (above - state.force) * (depth - from - to);
+    above = state.force;
+    from = to;
+  }
+  return 4 * friction_coefficient * friction_coefficient * sum;
+}
+
 struct Count {
   int cases = 0, held = 0;
   std::vector<double> over_actual;
@@ -276,6 +305,44 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
   // 12 % for all 120 seeds.
   std::ranges::sort(stated);
   CHECK(stated[stated.size() / 2] < 0.2);
+}
+
+TEST_CASE("The loss of a joint of a surface has an error that holds, at small forces too") {
+  // Of 48 surfaces of sixteen kinds 98 % hold; the law through 13 forces alone misses by up to 150 %
+  // at 0.25 μF. With ν = 0 K_t is K.
+  const Material stuck = Material::of_contact_modulus(1e9, 0);
+  constexpr double friction = 0.3;
+  int held = 0;
+  double largest_of_law = 0;
+  std::vector<double> stated;
+  for (const int seed : {0, 1, 2, 3, 4, 27}) {
+    const Surface surface = other_surface(seed);
+    const double pressure = std::array{0.004, 0.02, 0.08}[std::size_t(seed % 3)] * 0.1 * 1e9;
+    const double force =
+        std::array{0.09, 0.3}[std::size_t(seed % 2)] * friction * pressure * surface.grid.area();
+    std::vector<double> pressures;
+    for (int k = -7; k <= 5; ++k) pressures.push_back(pressure * std::pow(1.6, k));
+    const ForceCurve curve = sweep_pressures(surface, stuck, pressures);
+    const TabulatedLaw law(curve, stuck.modulus_ratio());
+    const Position position = AtForce{pressure * surface.grid.area()};
+    const TangentialOscillation motion = TangentialForce{force};
+    const JointLoss result =
+        surface_joint_loss(surface, stuck, law, position, {motion}, friction)[0];
+    const double converged =
+        joint_work_by_contacts(refined(surface, 4), stuck, pressure, force, friction);
+    INFO(seed << ' ' << result.work_per_cycle / converged << ' ' << result.work_error / converged);
+    const double ratio = std::abs(result.work_per_cycle - converged) / result.work_error;
+    CHECK(ratio < 1.6);
+    held += ratio <= 1;
+    stated.push_back(result.work_error / result.work_per_cycle);
+    const double by_law = joint_loss(law, position, motion, friction).work_per_cycle;
+    largest_of_law = std::max(largest_of_law, std::abs(by_law / converged - 1));
+  }
+  CHECK(held >= 5);
+  CHECK(largest_of_law > 0.2);
+  // The median of 48 is 20 %.
+  std::ranges::sort(stated);
+  CHECK(stated[3] < 0.4);
 }
 
 TEST_CASE("Ridges along the grid, whose cells touch row by row, have errors that hold too") {

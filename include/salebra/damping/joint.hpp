@@ -17,6 +17,7 @@ struct JointLoss {
   double work_per_cycle = unknown;        ///< W, J
   double relaxation_work = unknown;       ///< of it, by levels that open and close, J
   double slip_work = unknown;             ///< of it, by levels that stay closed, J
+  double work_error = unknown;            ///< of W, of a surface, J
   double secant_stiffness = unknown;      ///< K_s = T/x, N/m
   double loss_factor = unknown;           ///< W/(2π · ½K_s x²)
   double exponent = unknown;              ///< d ln W/d ln T; 3 at small T for every smooth law
@@ -34,6 +35,7 @@ constexpr void describe(auto&& visit, std::type_identity<JointLoss>) {
   visit(&S::work_per_cycle, Extensive{quantity::work_per_cycle});
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
+  visit(&S::work_error, Extensive{"work_error", energy, "error of work_per_cycle"});
   visit(&S::secant_stiffness, Extensive{"secant_stiffness", stiffness,
                                         "tangential force over displacement, both half ranges"});
   visit(&S::loss_factor, quantity::loss_factor);
@@ -67,6 +69,23 @@ using TangentialOscillation = std::variant<TangentialAmplitude, TangentialForce>
 JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options = {});
+
+/// The same of a surface, with W by contacts inside the range of slip, δ − c to δ, and its error:
+/// half of surface_damping() for a normal oscillation of c/2 about δ − c/2 at φ0 = 90°. A law through
+/// loads that lie farther apart than this range is interpolated there, and has no error. The other
+/// numbers are those of the law.
+/// The depth c of a force, or the force of a displacement, is that of contacts on cells of half the
+/// size. Error: of surface_damping(); and of a force, d ln W/d ln T times a third of what c differs
+/// by from that of the law. W that is no larger than its error is NaN, and the error is.
+/// law      through the curve of this surface and material at `position`
+/// throws   NotConverged where a contact did not converge; Interrupted; and as above
+/// cost     for each motion some nine contacts on the cells as they are and three on cells of half
+///          the size
+std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
+                                          const ContactLaw& law, const Position& position,
+                                          const std::vector<TangentialOscillation>& motions,
+                                          double friction_coefficient,
+                                          const Progress& on_progress = {});
 
 /// Adds a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or the force T
 /// cos(ωt + φ0). Followed step by step to the steady state: exact for straight steps, of second
