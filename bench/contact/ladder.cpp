@@ -62,7 +62,7 @@ Solved solve(const Surface& surface, const Case& c, LadderShare share) {
     if (k + 1 == levels.size()) {
       guess.setConstant(target.value);
     } else {
-      detail::prolong(levels[k + 1], solved.pressure, gap, solved.outcome.level, levels[k],
+      detail::prolong({levels[k + 1], solved.pressure, gap, solved.outcome.level}, levels[k],
                       c.boundary, 0.6 / cell_compliance(grid, 1), guess.data());
     }
     solved.pressure = std::move(guess);

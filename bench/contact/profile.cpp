@@ -93,7 +93,7 @@ void profile(const Surface& surface, double load) {
     if (k + 1 == levels.size()) {
       guess.setConstant(target.value);
     } else {
-      detail::prolong(levels[k + 1], pressure, gap, outcome.level, level, Boundary::periodic,
+      detail::prolong({levels[k + 1], pressure, gap, outcome.level}, level, Boundary::periodic,
                       0.6 / cell_compliance(level.grid, 1), guess.data());
     }
     pressure = std::move(guess);
