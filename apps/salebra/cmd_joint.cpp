@@ -8,7 +8,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/questions/damping.hpp>
 
 #include "figures.hpp"
 #include "first_loading.hpp"
@@ -170,9 +170,9 @@ void run(const JointArguments& arguments, Session& session) {
   const EqualFrequency motion{arguments.normal_amplitude.value_or(0), largest.tangential_amplitude,
                               phase, 2 * std::numbers::pi * arguments.frequency.value_or(0)};
   if (session.has_plot()) {
-    const SampledMotion path = sample(motion, indentation, arguments.steps);
-    session.plot(joint_figure(losses, path,
-                              trajectory_damping(law, path, {.friction_coefficient = friction})));
+    const DampingCycle largest_cycle =
+        cycle_of(law, motion, indentation, arguments.steps, friction, session.context());
+    session.plot(joint_figure(losses, largest_cycle.path, largest_cycle.loss));
   }
   add_first_loading(answer, contact.first_loading);
   // A constant normal force is the limit of small normal amplitudes.

@@ -190,11 +190,13 @@ TEST_CASE("Wrong usage is refused in one line", "[program]") {
 TEST_CASE("A command's former name is answered with the present one", "[program]") {
   const ProgramTest test;
   const auto [former, now] = GENERATE(table<std::string, std::string>({
+      {"damper", "damping, "},
       {"figure3", "oscillate"},
       {"friction", "sliding"},
       {"gw", "contact, "},
       {"info", "statistics"},
       {"manual", "help, "},
+      {"mdr", "damping, "},
       {"slider", "sliding"},
       {"sweep", "contact, "},
   }));
@@ -202,6 +204,13 @@ TEST_CASE("A command's former name is answered with the present one", "[program]
   for (const std::string before : {"", "help "})
     check_refused(test.run(before + former), former + ": is now " + now);
   CHECK(test.run(now.substr(0, now.find(',')) + " --help").status == 0);
+}
+
+TEST_CASE("The coefficient of friction and the shapes have one word each", "[program]") {
+  const ProgramTest test;
+  check_refused(test.run("damping --friction 0.3"), "did you mean --friction-coefficient?");
+  for (const std::string command : {"damping --law", "oscillate --shape", "generate --shape"})
+    check_refused(test.run(command + " parabola"), "paraboloid");
 }
 
 TEST_CASE("A misspelt choice is answered with the nearest, whatever the option", "[program]") {
