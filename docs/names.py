@@ -5,7 +5,7 @@ import pathlib
 import re
 
 _ROOT = pathlib.Path(__file__).resolve().parent.parent
-_TABLE = ("include/salebra/**/*.hpp", "generators/include/salebra/**/*.hpp", "src/results/quantity.cpp")
+_TABLE = ("include/salebra/**/*.hpp", "generators/include/salebra/**/*.hpp", "src/**/*.hpp", "src/results/quantity.cpp")
 _PER_AREA = {"N": "Pa", "J": "J/m^2", "N/m": "Pa/m"}
 
 

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <string>
 #include <vector>
+
+#include "base/convolution.hpp"
 
 // What every transport must do: the same checks for threads of a test and for MPI. Each throws
 // Error where the transport does not.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/hdf5_runner.hpp>
+#include "io/hdf5_runner.hpp"
 
 /// What the program and the Python package install so that a file of a stranger can do no harm.
 namespace salebra::confinement {

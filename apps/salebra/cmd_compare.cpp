@@ -14,6 +14,7 @@
 
 #include "compare_figure.hpp"
 #include "program.hpp"
+#include "results/describe.hpp"
 #include "study_command.hpp"
 #include "text.hpp"
 

@@ -13,9 +13,6 @@
 #include <salebra/contact/sweep.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/results/columns.hpp>
-#include <salebra/results/describe.hpp>
-#include <salebra/results/quantity_group.hpp>
 #include <salebra/study/contact_models.hpp>
 
 #include "contact_command.hpp"
@@ -23,6 +20,9 @@
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
 #include "program.hpp"
+#include "results/columns.hpp"
+#include "results/describe.hpp"
+#include "results/quantity_group.hpp"
 
 namespace salebra::cli {
 namespace {

@@ -2,10 +2,10 @@
 // `salebra convert`: a surface from one file format to another.
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/io/surface_formats.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/surface/fill.hpp>
 
+#include "io/surface_formats.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "surface_figure.hpp"

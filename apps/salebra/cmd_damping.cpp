@@ -6,19 +6,19 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/io/number_table.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/questions/answer_json.hpp>
 #include <salebra/questions/damping.hpp>
-#include <salebra/results/quantity_group.hpp>
 
 #include "answer_file.hpp"
 #include "damping_maps.hpp"
 #include "figures.hpp"
+#include "io/number_table.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
+#include "questions/answer_json.hpp"
+#include "results/quantity_group.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

@@ -6,7 +6,6 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/fit.hpp>
-#include <salebra/results/columns.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "answer_file.hpp"
@@ -14,6 +13,7 @@
 #include "law_words.hpp"
 #include "options.hpp"
 #include "program.hpp"
+#include "results/columns.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

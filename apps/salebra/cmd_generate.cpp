@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/filtered_noise.hpp>
@@ -17,6 +16,7 @@
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "base/memory.hpp"
 #include "dry_run.hpp"
 #include "options.hpp"
 #include "plausibility.hpp"

@@ -8,9 +8,9 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/io/text_file.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "io/text_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
 

@@ -9,8 +9,6 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/questions/oscillation.hpp>
-#include <salebra/results/columns.hpp>
-#include <salebra/results/cycle_recorder.hpp>
 
 #include "friction_options.hpp"
 #include "options.hpp"
@@ -18,6 +16,8 @@
 #include "premise_options.hpp"
 #include "program.hpp"
 #include "record_options.hpp"
+#include "results/columns.hpp"
+#include "results/cycle_recorder.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

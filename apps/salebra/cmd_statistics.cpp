@@ -9,7 +9,6 @@
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/fill.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/psd_convention.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -19,6 +18,7 @@
 #include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "surface/psd_convention.hpp"
 #include "surface_figure.hpp"
 #include "text.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <salebra/base/error.hpp>
-#include <salebra/results/columns.hpp>
 #include <salebra/study/verification.hpp>
 
 #include "program.hpp"
+#include "results/columns.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/plot.hpp>
 #include <salebra/study/study.hpp>
 #include <vector>
+
+#include "io/plot.hpp"
 
 namespace salebra::cli {
 

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/memory.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
+#include "base/memory.hpp"
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
 #include "curve_json.hpp"

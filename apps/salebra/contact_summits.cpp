@@ -3,7 +3,6 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
-#include <salebra/results/columns.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
@@ -11,6 +10,7 @@
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
 #include "curve_json.hpp"
+#include "results/columns.hpp"
 
 namespace salebra::cli {
 namespace {

@@ -4,7 +4,8 @@
 #include <optional>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/normal.hpp>
-#include <salebra/io/plot.hpp>
+
+#include "io/plot.hpp"
 
 /// The pictures of contacts and of their force curves.
 namespace salebra::cli {

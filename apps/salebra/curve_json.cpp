@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/results/columns.hpp>
+
+#include "results/columns.hpp"
 
 namespace salebra::cli {
 

@@ -7,10 +7,10 @@
 #include <salebra/base/error.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/quantity_group.hpp>
 
 #include "figures.hpp"
 #include "options.hpp"
+#include "results/quantity_group.hpp"
 
 namespace salebra::cli {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/study/realisation.hpp>
 
+#include "base/memory.hpp"
 #include "option_words.hpp"
 
 namespace salebra::cli {

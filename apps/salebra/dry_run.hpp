@@ -3,11 +3,11 @@
 
 #include <optional>
 #include <salebra/study/configuration.hpp>
-#include <salebra/study/cost.hpp>
 #include <string>
 
 #include "options.hpp"
 #include "session.hpp"
+#include "study/cost.hpp"
 
 namespace salebra::cli {
 

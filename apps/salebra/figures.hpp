@@ -3,11 +3,12 @@
 
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/stress_map.hpp>
-#include <salebra/io/plot.hpp>
 #include <salebra/questions/damping.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/plot.hpp"
 
 /// The pictures of the commands about damping.
 namespace salebra::cli {

@@ -3,7 +3,8 @@
 
 #include <optional>
 #include <salebra/questions/contact.hpp>
-#include <salebra/results/columns.hpp>
+
+#include "results/columns.hpp"
 
 /// --hardness of the commands that press a surface.
 namespace salebra::cli {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/results/quantity_group.hpp>
+
+#include "results/quantity_group.hpp"
 
 namespace salebra::cli {
 

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <salebra/base/error.hpp>
 #include <salebra/base/shape.hpp>
-#include <salebra/io/number_table.hpp>
 #include <utility>
+
+#include "io/number_table.hpp"
 
 namespace salebra::cli {
 

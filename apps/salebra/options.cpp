@@ -9,12 +9,12 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/io/surface_formats.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/plausibility.hpp>
 
+#include "io/surface_formats.hpp"
 #include "plausibility.hpp"
+#include "surface/plausibility.hpp"
 
 namespace salebra::cli {
 

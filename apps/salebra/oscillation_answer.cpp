@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/results/columns.hpp>
-#include <salebra/results/quantity_group.hpp>
 
 #include "first_loading.hpp"
 #include "grid_axes.hpp"
+#include "results/columns.hpp"
+#include "results/quantity_group.hpp"
 
 namespace salebra::cli {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/plot.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/questions/oscillation.hpp>
 #include <string>
 
+#include "io/plot.hpp"
 #include "session.hpp"
 
 /// How `oscillate` tells its outcomes.

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
-#include <salebra/results/columns.hpp>
 
 #include "first_loading.hpp"
 #include "option_words.hpp"
+#include "results/columns.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

@@ -14,11 +14,11 @@
 #include <new>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/printable.hpp>
-#include <salebra/base/suggestion.hpp>
-#include <salebra/base/undefined_points.hpp>
 #include <salebra/base/version.hpp>
 
+#include "base/printable.hpp"
+#include "base/suggestion.hpp"
+#include "base/undefined_points.hpp"
 #include "confinement/confinement.hpp"
 #include "help_text.hpp"
 #include "option_words.hpp"

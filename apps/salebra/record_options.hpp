@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <salebra/results/cycle_recorder.hpp>
 #include <string>
 #include <vector>
 
 #include "options.hpp"
+#include "results/cycle_recorder.hpp"
 
 namespace salebra::cli {
 

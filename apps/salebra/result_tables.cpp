@@ -8,9 +8,9 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/io/text_file.hpp>
 
 #include "answer_file.hpp"
+#include "io/text_file.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

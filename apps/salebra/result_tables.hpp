@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/results/columns.hpp>
 #include <salebra/results/quantity.hpp>
 #include <string>
 #include <vector>
 
+#include "results/columns.hpp"
 #include "session.hpp"
 
 namespace salebra::cli {

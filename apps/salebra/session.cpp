@@ -13,10 +13,10 @@
 #include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/printable.hpp>
-#include <salebra/io/input.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
+#include "base/printable.hpp"
+#include "io/input.hpp"
 #include "option_words.hpp"
 #include "revision.inc"
 #include "terminal.hpp"

@@ -6,9 +6,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/io/json.hpp>
 #include <salebra/io/output.hpp>
-#include <salebra/io/plot.hpp>
 #include <salebra/io/provenance.hpp>
 #include <salebra/questions/context.hpp>
 #include <set>
@@ -16,6 +14,8 @@
 #include <string_view>
 
 #include "command.hpp"
+#include "io/json.hpp"
+#include "io/plot.hpp"
 #include "launch.hpp"
 #include "named_files.hpp"
 #include "progress_bar.hpp"

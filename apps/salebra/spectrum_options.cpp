@@ -6,11 +6,11 @@
 #include <salebra/base/error.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
-#include <salebra/io/number_table.hpp>
-#include <salebra/results/columns.hpp>
 #include <utility>
 
+#include "io/number_table.hpp"
 #include "options.hpp"
+#include "results/columns.hpp"
 
 namespace salebra::cli {
 namespace {

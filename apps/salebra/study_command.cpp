@@ -18,12 +18,12 @@
 #include <salebra/base/version.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/report/report.hpp>
-#include <salebra/results/columns.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
 
 #include "dry_run.hpp"
 #include "law_words.hpp"
+#include "results/columns.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {

@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_premises.hpp>
 #include <string>
 #include <vector>
 
 #include "options.hpp"
 #include "premise_options.hpp"
+#include "results/describe.hpp"
 #include "session.hpp"
+#include "study/study_premises.hpp"
 
 /// What `study` and `compare` have in common.
 namespace salebra::cli {

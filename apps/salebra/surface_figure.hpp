@@ -3,9 +3,10 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/io/plot.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
+
+#include "io/plot.hpp"
 
 namespace salebra::cli {
 

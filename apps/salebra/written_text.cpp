@@ -2,7 +2,7 @@
 // Answer that is a text for another program: to a file or to stdout.
 #include "written_text.hpp"
 
-#include <salebra/io/text_file.hpp>
+#include "io/text_file.hpp"
 
 namespace salebra::cli {
 

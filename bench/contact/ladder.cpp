@@ -17,12 +17,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "contact/normal/active_set_cg.hpp"
 #include "contact/normal/nested_contact.hpp"
 #include "process_cost.hpp"

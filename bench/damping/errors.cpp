@@ -18,9 +18,10 @@
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/refine.hpp>
 #include <string>
 #include <vector>
+
+#include "surface/refine.hpp"
 
 using namespace salebra;
 

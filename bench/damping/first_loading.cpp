@@ -16,9 +16,10 @@
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>
-#include <salebra/surface/refine.hpp>
 #include <utility>
 #include <vector>
+
+#include "surface/refine.hpp"
 
 using namespace salebra;
 

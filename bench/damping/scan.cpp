@@ -13,7 +13,8 @@
 #include <salebra/damping/level_quadrature.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>
-#include <salebra/surface/refine.hpp>
+
+#include "surface/refine.hpp"
 
 using namespace salebra;
 

@@ -18,11 +18,12 @@
 #include <fstream>
 #include <limits>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/random.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <string>
 #include <vector>
+
+#include "base/random.hpp"
 
 namespace {
 

@@ -10,9 +10,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
-#include <salebra/base/fft.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <vector>
+
+#include "base/fft.hpp"
 
 namespace {
 

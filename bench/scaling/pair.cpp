@@ -8,12 +8,13 @@
 #include <cstdlib>
 #include <functional>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/mpi/mpi.hpp>
 #include <vector>
+
+#include "contact/half_space/half_space.hpp"
 
 using namespace salebra;
 

@@ -2,9 +2,10 @@
 // Sum of two surfaces, and crop of a surface.
 #include <algorithm>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/generators/composite.hpp>
 #include <string>
+
+#include "base/memory.hpp"
 
 namespace salebra {
 namespace {

@@ -4,14 +4,15 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <vector>
+
+#include "base/convolution.hpp"
+#include "base/memory.hpp"
 
 namespace salebra {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <salebra/base/column_fft.hpp>
-#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/forecast.hpp>
 #include <sstream>
 
+#include "base/column_fft.hpp"
+#include "base/loop_progress.hpp"
 #include "modes.hpp"
 
 namespace salebra {

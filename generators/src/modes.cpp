@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <salebra/base/random.hpp>
 #include <vector>
+
+#include "base/random.hpp"
 
 namespace salebra::detail {
 namespace {

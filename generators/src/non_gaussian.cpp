@@ -6,13 +6,13 @@
 #include <functional>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <vector>
 
+#include "base/fft.hpp"
+#include "base/memory.hpp"
 #include "synthesis.hpp"
 
 namespace salebra {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <salebra/base/column_fft.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/random.hpp>
 #include <salebra/generators/profile.hpp>
 #include <sstream>
 
+#include "base/column_fft.hpp"
+#include "base/random.hpp"
 #include "modes.hpp"
 #include "radial_moments.hpp"
 #include "self_affine.hpp"

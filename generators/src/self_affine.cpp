@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/powers.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
 
+#include "base/powers.hpp"
 #include "radial_moments.hpp"
 
 namespace salebra {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <string>
+
+#include "base/memory.hpp"
 
 namespace salebra {
 namespace {

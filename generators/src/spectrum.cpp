@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
 #include <vector>
 
+#include "base/loop_progress.hpp"
 #include "modes.hpp"
 
 namespace salebra {

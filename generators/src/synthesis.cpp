@@ -2,8 +2,8 @@
 // Heights from random modes by inverse transform, after a check of the memory.
 #include "synthesis.hpp"
 
-#include <salebra/base/column_fft.hpp>
-#include <salebra/base/memory.hpp>
+#include "base/column_fft.hpp"
+#include "base/memory.hpp"
 
 namespace salebra::detail {
 

@@ -3,8 +3,9 @@
 
 #include <complex>
 #include <numbers>
-#include <salebra/base/fft.hpp>
 #include <vector>
+
+#include "base/fft.hpp"
 
 /// Fourier coefficients of a surface, h(x) = Σ a(i, j) exp(2πi(ix/lx + jy/ly)), for any integers i,
 /// j.

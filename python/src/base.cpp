@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/printable.hpp>
 #include <salebra/base/spectral_moments.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>
@@ -16,6 +15,7 @@
 #include <salebra/results/quantity.hpp>
 #include <tuple>
 
+#include "base/printable.hpp"
 #include "bindings.hpp"
 #include "interop/citations.hpp"
 #include "interop/described.hpp"

@@ -16,7 +16,6 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/level_quadrature.hpp>
-#include <salebra/results/cycle_recorder.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
@@ -28,6 +27,7 @@
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
+#include "results/cycle_recorder.hpp"
 
 namespace salebra::python {
 namespace {

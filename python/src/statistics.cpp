@@ -6,7 +6,6 @@
 
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
-#include <salebra/surface/psd_convention.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -17,6 +16,7 @@
 #include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
+#include "surface/psd_convention.hpp"
 
 namespace salebra::python {
 namespace {

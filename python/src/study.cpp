@@ -21,6 +21,7 @@
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
+#include "results/describe.hpp"
 
 namespace salebra::python {
 namespace {

@@ -12,7 +12,6 @@
 #include <salebra/surface/fill.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
-#include <salebra/surface/plausibility.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "bindings.hpp"
@@ -20,6 +19,7 @@
 #include "interop/citations.hpp"
 #include "interop/described.hpp"
 #include "interop/running.hpp"
+#include "surface/plausibility.hpp"
 
 namespace salebra::python {
 namespace {

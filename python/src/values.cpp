@@ -18,11 +18,11 @@
 #include <salebra/study/study.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
-#include <salebra/surface/psd_convention.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 
 #include "bindings.hpp"
 #include "interop/surface.hpp"
+#include "surface/psd_convention.hpp"
 
 namespace salebra::python {
 namespace {

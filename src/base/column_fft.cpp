@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real field from the columns of its half-spectrum, so that no full complex array is held, and
 // columns of the half-spectrum of a field.
+#include "column_fft.hpp"
+
 #include <algorithm>
 #include <optional>
-#include <salebra/base/column_fft.hpp>
-#include <salebra/base/loop_progress.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <vector>
 
 #include "fftw.hpp"
+#include "loop_progress.hpp"
+#include "memory.hpp"
 
 namespace salebra {
 namespace {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cyclic convolution of fields with stored kernels by FFT, two real rows in one complex transform.
+#include "convolution.hpp"
+
 #include <algorithm>
 #include <optional>
-#include <salebra/base/convolution.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 
 #include "fftw.hpp"
+#include "memory.hpp"
 #include "spectrum_columns.hpp"
 #include "spectrum_kernels.hpp"
 

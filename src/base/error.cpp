@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/printable.hpp>
+
+#include "printable.hpp"
 
 namespace salebra {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two-dimensional real-to-complex FFT in float and double, by FFTW; the lock of FFTW's planner.
-#include <salebra/base/fft.hpp>
+#include "fft.hpp"
 
 #include "fftw.hpp"
 

@@ -4,8 +4,9 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/base/undefined_points.hpp>
 #include <string>
+
+#include "undefined_points.hpp"
 
 namespace salebra {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Progress of a loop that several threads share: rate-limited reports, and interruption.
+#include "loop_progress.hpp"
+
 #include <salebra/base/error.hpp>
-#include <salebra/base/loop_progress.hpp>
 #include <string>
 
 namespace salebra {

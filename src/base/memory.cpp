@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Large-page allocation, uninitialised fields, and the memory that the machine has available.
+#include "memory.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -7,7 +9,6 @@
 #include <cstdint>
 #include <new>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <vector>
 

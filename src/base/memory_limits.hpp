@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <salebra/base/memory.hpp>
 #include <string>
 #include <vector>
+
+#include "memory.hpp"
 
 namespace salebra::detail {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elementwise power of positive numbers, compiled for each vector width.
+#include "powers.hpp"
+
 #include <cstddef>
-#include <salebra/base/powers.hpp>
 
 #include "elementary.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Escapes for what a terminal would obey.
+#include "printable.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <salebra/base/printable.hpp>
 
 namespace salebra {
 namespace {

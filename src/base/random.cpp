@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random numbers keyed by seed and wave vector: Philox 4x32-10, Box-Muller, random phases.
-#include <Random123/philox.h>
+#include "random.hpp"
 
-#include <salebra/base/random.hpp>
+#include <Random123/philox.h>
 
 #include "elementary.hpp"
 

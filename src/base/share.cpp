@@ -5,8 +5,9 @@
 #include <complex>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
+
+#include "memory.hpp"
 
 namespace salebra {
 namespace {

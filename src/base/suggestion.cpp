@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nearest name by edit distance, for "did you mean" in messages.
+#include "suggestion.hpp"
+
 #include <algorithm>
 #include <array>
-#include <salebra/base/suggestion.hpp>
 #include <utility>
 
 namespace salebra {

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
@@ -14,6 +13,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/memory.hpp"
 #include "base/task_pool.hpp"
 #include "normal/contact_memory.hpp"
 

@@ -11,11 +11,11 @@
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/damping/tangential_contact.hpp>
-#include <salebra/surface/refine.hpp>
 #include <utility>
 #include <vector>
 
 #include "contact/quadrature.hpp"
+#include "surface/refine.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {

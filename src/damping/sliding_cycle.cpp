@@ -7,13 +7,13 @@
 #include <map>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "cycle_engine.hpp"
 
 namespace salebra {

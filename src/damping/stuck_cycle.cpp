@@ -5,9 +5,9 @@
 #include <cmath>
 #include <map>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <utility>
 
+#include "base/memory.hpp"
 #include "cycle_engine.hpp"
 
 namespace salebra {

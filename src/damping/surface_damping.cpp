@@ -7,7 +7,6 @@
 #include <map>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
@@ -16,12 +15,13 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/refine.hpp>
 
+#include "base/memory.hpp"
 #include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
 #include "phase_quadrature.hpp"
+#include "surface/refine.hpp"
 
 namespace salebra {
 namespace {

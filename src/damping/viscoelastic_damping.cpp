@@ -6,10 +6,10 @@
 #include <complex>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/loop_progress.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
 
+#include "base/loop_progress.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
 #include "surface/dense_systems.hpp"
 

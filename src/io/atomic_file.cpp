@@ -10,9 +10,10 @@
 #include <cstdio>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/io/text_file.hpp>
 #include <string>
 #include <utility>
+
+#include "text_file.hpp"
 
 namespace salebra {
 namespace {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <salebra/io/plot.hpp>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "plot.hpp"
 
 namespace salebra::detail {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/plot.hpp>
 #include <string>
+
+#include "plot.hpp"
 
 namespace salebra::detail {
 

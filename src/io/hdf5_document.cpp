@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <salebra/io/hdf5_runner.hpp>
 
+#include "hdf5_runner.hpp"
 #include "loaded_surface.hpp"
 
 namespace salebra {

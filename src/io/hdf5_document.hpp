@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <salebra/base/share.hpp>
-#include <salebra/io/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "input_file.hpp"
+#include "json.hpp"
 
 /// What an HDF5 file says, as plain values: the one interface between HDF5 and everything that
 /// reads.

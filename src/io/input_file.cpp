@@ -11,13 +11,13 @@
 #include <cerrno>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
-#include <salebra/io/input.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "checksum.hpp"
+#include "input.hpp"
 #include "loaded_surface.hpp"
 
 namespace salebra {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // JSON values and their text, of json.hpp.
+#include "json.hpp"
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <salebra/io/json.hpp>
 #include <stdexcept>
 #include <type_traits>
 

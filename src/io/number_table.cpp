@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables of numbers from text files with a fixed number of columns.
+#include "number_table.hpp"
+
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/io/number_table.hpp>
 #include <string>
 
 #include "loaded_surface.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing of a figure by gnuplot in a child process, to a file that appears whole.
+#include "plot.hpp"
+
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -11,7 +13,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/io/plot.hpp>
 #include <sstream>
 
 #include "atomic_file.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/plot.hpp>
 #include <utility>
 
 #include "display_axis.hpp"
+#include "plot.hpp"
 
 namespace salebra::detail {
 

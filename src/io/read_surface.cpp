@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/io/input.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/surface/plausibility.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "base/memory.hpp"
+#include "input.hpp"
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
+#include "surface/plausibility.hpp"
 #include "surface_format.hpp"
 
 namespace salebra {

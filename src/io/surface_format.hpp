@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
-#include <salebra/io/surface_formats.hpp>
 #include <string_view>
 #include <vector>
 
 #include "loaded_surface.hpp"
+#include "surface_formats.hpp"
 
 namespace salebra::detail {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of surface formats: how each is recognised, read and written, and what it keeps.
-#include <salebra/io/surface_formats.hpp>
+#include "surface_formats.hpp"
 
 #include "surface_format.hpp"
 

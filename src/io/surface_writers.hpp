@@ -3,10 +3,11 @@
 
 #include <filesystem>
 #include <salebra/base/grid.hpp>
-#include <salebra/io/json.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string>
+
+#include "json.hpp"
 
 /// What the writers behind write_surface share. It has checked the surface.
 namespace salebra::detail {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <salebra/base/memory.hpp>
-#include <salebra/io/surface_formats.hpp>
 
+#include "base/memory.hpp"
 #include "loaded_surface.hpp"
+#include "surface_formats.hpp"
 
 namespace salebra::detail {
 namespace {

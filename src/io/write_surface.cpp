@@ -11,7 +11,6 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/io/json.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "atomic_file.hpp"
 #include "checksum.hpp"
 #include "hdf5_output.hpp"
+#include "json.hpp"
 #include "sidecar.hpp"
 #include "surface_format.hpp"
 #include "surface_writers.hpp"

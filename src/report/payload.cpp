@@ -10,11 +10,12 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/results/quantity.hpp>
-#include <salebra/study/estimate.hpp>
 #include <salebra/study/realisation.hpp>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "study/estimate.hpp"
 
 namespace salebra::detail {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/json.hpp>
 #include <salebra/io/result_file.hpp>
+
+#include "io/json.hpp"
 
 namespace salebra::detail {
 

@@ -2,11 +2,11 @@
 // Report page: template, style, scripts and data in one HTML file.
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/io/text_file.hpp>
 #include <salebra/report/report.hpp>
 #include <string_view>
 
 #include "assets.hpp"
+#include "io/text_file.hpp"
 #include "payload.hpp"
 #include "summary.hpp"
 

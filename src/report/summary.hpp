@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/json.hpp>
 #include <string>
 #include <string_view>
+
+#include "io/json.hpp"
 
 namespace salebra::detail {
 

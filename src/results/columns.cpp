@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Columns of described structs, and objects made of them.
-#include <salebra/results/columns.hpp>
+#include "columns.hpp"
+
 #include <stdexcept>
 
 namespace salebra::detail {

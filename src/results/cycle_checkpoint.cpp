@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints of simulated cycles: states and settings in an HDF5 file
 // (results/cycle_checkpoint.hpp).
+#include "cycle_checkpoint.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 #include <salebra/base/version.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/cycle_checkpoint.hpp>
 
 #include "base/archive.hpp"
 #include "io/checksum.hpp"

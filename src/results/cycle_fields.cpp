@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pressure, traction and slip fields of chosen steps of a cycle, one file a frame, with a list.
+#include "cycle_fields.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/cycle_fields.hpp>
-#include <salebra/results/quantity_group.hpp>
 
 #include "io/atomic_file.hpp"
+#include "quantity_group.hpp"
 
 namespace salebra {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checkpoints and fields of cycles while they run (results/cycle_recorder.hpp).
+#include "cycle_recorder.hpp"
+
 #include <algorithm>
 #include <salebra/base/error.hpp>
-#include <salebra/results/cycle_recorder.hpp>
 #include <utility>
 
 namespace salebra {

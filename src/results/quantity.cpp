@@ -26,8 +26,6 @@
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/spectrum.hpp>
-#include <salebra/results/columns.hpp>
-#include <salebra/results/cycle_fields.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/bearing.hpp>
@@ -37,6 +35,9 @@
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 #include <vector>
+
+#include "columns.hpp"
+#include "cycle_fields.hpp"
 
 namespace salebra {
 namespace {

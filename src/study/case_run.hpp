@@ -5,6 +5,8 @@
 #include <salebra/study/study.hpp>
 #include <vector>
 
+#include "estimate.hpp"
+
 namespace salebra::detail {
 
 /// The seeds of a point; one, 0, for a measured surface.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Estimated time, memory and disk space of a study before it runs.
+#include "cost.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <chrono>
@@ -7,14 +9,13 @@
 #include <complex>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/generators/forecast.hpp>
-#include <salebra/study/cost.hpp>
 #include <salebra/study/realisation.hpp>
 #include <vector>
 
+#include "base/fft.hpp"
+#include "base/memory.hpp"
 #include "case_run.hpp"
 
 namespace salebra {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Means over realisations with Student and bootstrap intervals.
+#include "estimate.hpp"
+
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/random.hpp>
-#include <salebra/study/estimate.hpp>
+
+#include "base/random.hpp"
 
 namespace salebra {
 namespace {

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -15,13 +14,14 @@
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
-#include <salebra/surface/plausibility.hpp>
 #include <string>
 #include <type_traits>
 #include <utility>
 
+#include "base/memory.hpp"
 #include "case_run.hpp"
 #include "contact_models.hpp"
+#include "surface/plausibility.hpp"
 
 namespace salebra {
 namespace {

@@ -13,13 +13,13 @@
 #include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/study/cost.hpp>
 #include <salebra/study/study.hpp>
 
+#include "base/memory.hpp"
 #include "base/task_pool.hpp"
 #include "case_run.hpp"
+#include "cost.hpp"
 #include "study_lock.hpp"
 
 namespace salebra {

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/study/cost.hpp>
 #include <salebra/study/study.hpp>
 
+#include "base/memory.hpp"
 #include "case_run.hpp"
+#include "cost.hpp"
 
 namespace salebra {
 namespace {

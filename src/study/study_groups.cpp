@@ -8,9 +8,11 @@
 #include <salebra/base/words.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>
-#include <salebra/results/quantity_group.hpp>
-#include <salebra/study/study_premises.hpp>
 #include <set>
+
+#include "results/describe.hpp"
+#include "results/quantity_group.hpp"
+#include "study_premises.hpp"
 
 namespace salebra::detail {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Premises and losses with slip of a study, from the mean curve of the boundary elements.
+#include "study_premises.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/units.hpp>
 #include <salebra/damping/closed_form.hpp>
-#include <salebra/study/study_premises.hpp>
 
 namespace salebra {
 namespace {

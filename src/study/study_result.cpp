@@ -10,6 +10,9 @@
 #include <salebra/contact/theories.hpp>
 #include <salebra/study/study.hpp>
 
+#include "estimate.hpp"
+#include "results/describe.hpp"
+
 namespace salebra {
 
 EnsembleMean StudyResult::mean(const NumberOf<Realisation>& number) const {

@@ -10,8 +10,9 @@
 #include <cctype>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/suggestion.hpp>
 #include <sstream>
+
+#include "base/suggestion.hpp"
 
 namespace salebra::detail {
 namespace {

@@ -5,9 +5,10 @@
 #include <functional>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
+
+#include "base/memory.hpp"
 
 namespace salebra {
 namespace {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <salebra/base/convolution.hpp>
-#include <salebra/base/fft.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "base/convolution.hpp"
+#include "base/fft.hpp"
+#include "base/memory.hpp"
 #include "base/special_values.hpp"
 #include "ring_means.hpp"
 

@@ -5,13 +5,13 @@
 #include <complex>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/surface/axis.hpp>
 #include <salebra/surface/moments.hpp>
 #include <vector>
 
+#include "base/fft.hpp"
 #include "neighbour_rows.hpp"
 #include "profiles.hpp"
 #include "shape.hpp"

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/surface/peaks.hpp>
 
+#include "base/memory.hpp"
 #include "shape.hpp"
 
 namespace salebra {

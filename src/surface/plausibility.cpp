@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Doubts of heights: slopes that no surface has.
+#include "plausibility.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/surface/plausibility.hpp>
 #include <utility>
 
 #include "neighbour_rows.hpp"

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/surface/axis.hpp>
 #include <span>
 #include <vector>
+
+#include "base/memory.hpp"
 
 namespace salebra::detail {
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Conversion of power spectra to the conventions of other programs.
+#include "psd_convention.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/surface/psd_convention.hpp>
 
 namespace salebra {
 namespace {

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Interpolation of heights on a finer grid: Fourier where periodic, a periodic bicubic spline
 // elsewhere.
+#include "refine.hpp"
+
 #include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/surface/refine.hpp>
 #include <vector>
+
+#include "base/fft.hpp"
+#include "base/memory.hpp"
 
 namespace salebra {
 namespace {

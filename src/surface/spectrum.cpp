@@ -5,12 +5,12 @@
 #include <complex>
 #include <numbers>
 #include <optional>
-#include <salebra/base/column_fft.hpp>
-#include <salebra/base/fft.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>
 
+#include "base/column_fft.hpp"
+#include "base/fft.hpp"
+#include "base/memory.hpp"
 #include "profiles.hpp"
 #include "ring_means.hpp"
 #include "spectrum_lattice.hpp"

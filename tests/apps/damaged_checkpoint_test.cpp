@@ -4,12 +4,12 @@
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <salebra/base/error.hpp>
-#include <salebra/results/cycle_checkpoint.hpp>
 #include <sstream>
 
 #include "confinement/confinement.hpp"
 #include "damping/islands.hpp"
 #include "io/scratch.hpp"
+#include "results/cycle_checkpoint.hpp"
 
 using namespace salebra;
 

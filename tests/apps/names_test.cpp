@@ -8,12 +8,12 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/describe.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_premises.hpp>
 
+#include "results/describe.hpp"
 #include "run_program.hpp"
+#include "study/study_premises.hpp"
 #include "study/study_text.hpp"
 
 using namespace salebra;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/cycle_checkpoint.hpp>
 
+#include "results/cycle_checkpoint.hpp"
 #include "run_program.hpp"
 #include "skipped.hpp"
 

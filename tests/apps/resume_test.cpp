@@ -9,11 +9,11 @@
 #include <chrono>
 #include <fstream>
 #include <regex>
-#include <salebra/base/random.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/report/report.hpp>
 #include <thread>
 
+#include "base/random.hpp"
 #include "run_program.hpp"
 #include "same_results.hpp"
 #include "skipped.hpp"

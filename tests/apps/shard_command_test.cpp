@@ -9,9 +9,9 @@
 #include <chrono>
 #include <fstream>
 #include <regex>
-#include <salebra/base/random.hpp>
 #include <thread>
 
+#include "base/random.hpp"
 #include "run_program.hpp"
 #include "same_results.hpp"
 #include "skipped.hpp"

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/column_fft.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <salebra/base/column_fft.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <vector>
 
+#include "base/fft.hpp"
 #include "ranks_in_threads.hpp"
 
 using namespace salebra;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/convolution.hpp"
+
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <salebra/base/convolution.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
+
+#include "base/memory.hpp"
 
 using namespace salebra;
 

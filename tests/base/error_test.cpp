@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/printable.hpp>
 #include <type_traits>
+
+#include "base/printable.hpp"
 
 using namespace salebra;
 

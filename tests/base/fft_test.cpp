@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/fft.hpp"
+
 #include <catch2/catch.hpp>
 #include <numbers>
-#include <salebra/base/fft.hpp>
 #include <vector>
 
 using namespace salebra;

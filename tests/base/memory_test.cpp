@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the memory that machine, cgroups and resource limits leave, with made-up trees of /proc
 // and /sys.
+#include "base/memory.hpp"
+
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -10,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 
 #include "base/memory_limits.hpp"
 #include "io/scratch.hpp"

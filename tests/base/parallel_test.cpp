@@ -4,12 +4,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/loop_progress.hpp>
 #include <salebra/base/parallel.hpp>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "base/loop_progress.hpp"
 
 using namespace salebra;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/powers.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <salebra/base/powers.hpp>
 #include <vector>
 
 TEST_CASE("Vectorised powers are those of the standard library", "[powers]") {

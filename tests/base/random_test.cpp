@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/random.hpp"
+
 #include <Random123/philox.h>
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <salebra/base/random.hpp>
 #include <vector>
 
 using namespace salebra;

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 
+#include "base/convolution.hpp"
 #include "conformance.hpp"
 #include "one_of_many.hpp"
 #include "ranks_in_threads.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/suggestion.hpp"
+
 #include <catch2/catch.hpp>
-#include <salebra/base/suggestion.hpp>
 
 using namespace salebra;
 

@@ -14,7 +14,8 @@
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/refine.hpp>
+
+#include "surface/refine.hpp"
 
 using namespace salebra;
 

@@ -9,13 +9,13 @@
 #include <functional>
 #include <map>
 #include <salebra/base/error.hpp>
-#include <salebra/io/number_table.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <stdexcept>
 
 #include "../../src/io/loaded_surface.hpp"
 #include "../../src/io/surface_format.hpp"
 #include "../../src/io/x3p.hpp"
+#include "io/number_table.hpp"
 
 namespace salebra::fuzz {
 namespace {

@@ -9,12 +9,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/cycle_checkpoint.hpp>
-#include <salebra/results/cycle_fields.hpp>
-#include <salebra/results/cycle_recorder.hpp>
 #include <sstream>
 
 #include "damping/islands.hpp"
+#include "results/cycle_checkpoint.hpp"
+#include "results/cycle_fields.hpp"
+#include "results/cycle_recorder.hpp"
 #include "scratch.hpp"
 
 using namespace salebra;

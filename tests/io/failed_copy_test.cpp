@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
-#include <salebra/io/json.hpp>
 
 #include "io/hdf5_document.hpp"
+#include "io/json.hpp"
 
 using salebra::Json;
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // JSON values and their text, against an independent reader.
+#include "io/json.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <salebra/io/json.hpp>
 
 using salebra::Json;
 

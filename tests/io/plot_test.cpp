@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/plot.hpp"
+
 #include <unistd.h>
 
 #include <array>
@@ -8,7 +10,6 @@
 #include <fstream>
 #include <iterator>
 #include <salebra/base/error.hpp>
-#include <salebra/io/plot.hpp>
 #include <sstream>
 
 #include "../../src/io/gnuplot_script.hpp"

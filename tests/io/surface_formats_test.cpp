@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of formats against docs/formats.md, and Gwyddion's own format byte by byte.
+#include "io/surface_formats.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -7,7 +9,6 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/io/surface_formats.hpp>
 #include <salebra/io/write_surface.hpp>
 
 #include "scratch.hpp"

@@ -3,9 +3,10 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/answer_json.hpp>
 #include <salebra/questions/damping.hpp>
 #include <vector>
+
+#include "questions/answer_json.hpp"
 
 using namespace salebra;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the estimated memory and time of one surface over processes and groups.
+#include "study/cost.hpp"
+
 #include <catch2/catch.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/study/cost.hpp>
 #include <tuple>
 
 #include "study_text.hpp"

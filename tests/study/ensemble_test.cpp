@@ -5,7 +5,6 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/random.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
@@ -21,9 +20,11 @@
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>
 
+#include "base/random.hpp"
 #include "io/scratch.hpp"
 #include "small_study.hpp"
 #include "study/case_run.hpp"
+#include "study/estimate.hpp"
 
 using namespace salebra;
 

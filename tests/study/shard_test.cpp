@@ -7,13 +7,13 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/study/cost.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
 
 #include "../../src/study/realisation_record.hpp"
 #include "../../src/study/study_lock.hpp"
 #include "small_study.hpp"
+#include "study/cost.hpp"
 
 using namespace salebra;
 using Catch::Contains;

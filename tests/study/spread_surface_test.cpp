@@ -9,7 +9,6 @@
 #include <salebra/damping/cycle.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/results/cycle_fields.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -17,6 +16,7 @@
 #include <salebra/surface/peaks.hpp>
 
 #include "ranks_in_threads.hpp"
+#include "results/cycle_fields.hpp"
 
 using namespace salebra;
 

@@ -18,6 +18,7 @@
 
 #include "ranks_in_threads.hpp"
 #include "small_study.hpp"
+#include "study/estimate.hpp"
 
 using namespace salebra;
 

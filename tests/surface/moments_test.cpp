@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/base/undefined_points.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "base/undefined_points.hpp"
 #include "test_surfaces.hpp"
 
 using namespace salebra;

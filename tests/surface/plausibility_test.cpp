@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/plausibility.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/surface/plausibility.hpp>
 #include <string>
 
 #include "test_surfaces.hpp"

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/psd_convention.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -6,7 +8,6 @@
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
-#include <salebra/surface/psd_convention.hpp>
 
 #include "test_surfaces.hpp"
 

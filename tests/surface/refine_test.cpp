@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "surface/refine.hpp"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/surface/refine.hpp>
 
 using namespace salebra;
 

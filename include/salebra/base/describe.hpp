@@ -83,6 +83,10 @@ void for_each_member(Visitor&& visit) {
       std::type_identity<T>{});
 }
 
+/// Any number of a T: a member, a member function, or a function of it.
+template <class T>
+using NumberOf = std::function<double(const T&)>;
+
 /// Calls visit(access, quantity) for every column of T, those of its parts included; access(const
 /// T&) is its value.
 template <Described T, class Visitor>

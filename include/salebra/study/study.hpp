@@ -2,11 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <salebra/base/communicator.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/study/configuration.hpp>
-#include <salebra/study/estimate.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
@@ -26,6 +26,26 @@ struct StudyFlag {
 constexpr void describe(auto&& visit, std::type_identity<StudyFlag>) {
   visit(&StudyFlag::name, Kept{"name", "what may be off"});
   visit(&StudyFlag::text, Kept{"text", "a sentence for the user"});
+}
+
+/// A mean with its 95 % interval; NaN limits if unavailable.
+struct EnsembleMean {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+
+  /// Half the width of the interval over |mean|; NaN without one.
+  double relative_precision() const;
+};
+
+/// Their unit is that of what the mean is of.
+constexpr void describe(auto&& visit, std::type_identity<EnsembleMean>) {
+  using S = EnsembleMean;
+  visit(&S::mean, Kept{"mean", "mean over the surfaces"});
+  visit(&S::low, Kept{"low", "lower limit of the interval"});
+  visit(&S::high, Kept{"high", "upper limit of the interval"});
+  visit(&S::relative_precision,
+        Kept{"relative_precision", "half the width of the interval over the mean"});
 }
 
 /// Whether the mean over the first `surfaces` of an ensemble is looked at on its own, for a

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/normal/normal.hpp>
-#include <salebra/results/describe.hpp>
 #include <salebra/study/configuration.hpp>
 #include <string>
 #include <vector>

@@ -8,9 +8,9 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/random.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 
+#include "base/random.hpp"
 #include "height_density.hpp"
 
 namespace salebra {

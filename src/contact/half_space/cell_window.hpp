@@ -3,7 +3,8 @@
 
 #include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
+
+#include "half_space.hpp"
 
 namespace salebra::detail {
 

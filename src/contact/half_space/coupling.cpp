@@ -3,12 +3,13 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
 #include <vector>
+
+#include "base/convolution.hpp"
+#include "base/fft.hpp"
 
 namespace salebra {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "base/memory.hpp"
+#include "half_space.hpp"
 #include "tile.hpp"
 
 namespace salebra::detail {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elastic half-space kernels, normal and tangential, as convolutions; stencil of their inverse.
+#include "half_space.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,13 +10,12 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <span>
 #include <vector>
 
+#include "base/fft.hpp"
+#include "base/memory.hpp"
 #include "base/spectrum_columns.hpp"
 #include "framed_field.hpp"
 #include "normal_symbol.hpp"

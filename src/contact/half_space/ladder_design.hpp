@@ -2,9 +2,9 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "half_space.hpp"
 #include "normal_symbol.hpp"
 
 namespace salebra::detail {

@@ -4,12 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "base/convolution.hpp"
 #include "framed_field.hpp"
+#include "half_space.hpp"
 #include "ladder_design.hpp"
 #include "ladder_kernels.hpp"
 #include "normal_symbol.hpp"

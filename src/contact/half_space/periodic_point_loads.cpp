@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/error.hpp>
+
+#include "base/convolution.hpp"
 
 namespace salebra::detail {
 namespace {

@@ -4,9 +4,10 @@
 #include <complex>
 #include <cstdint>
 #include <memory>
-#include <salebra/base/fft.hpp>
 #include <span>
 #include <vector>
+
+#include "base/fft.hpp"
 
 namespace salebra::detail {
 

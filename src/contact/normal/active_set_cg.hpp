@@ -5,14 +5,14 @@
 #include <chrono>
 #include <cstddef>
 #include <optional>
-#include <salebra/base/convolution.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "base/convolution.hpp"
+#include "base/memory.hpp"
 #include "contact/half_space/framed_field.hpp"
+#include "contact/half_space/half_space.hpp"
 #include "contact/half_space/near_field_ladder.hpp"
 #include "contact/half_space/normal_symbol.hpp"
 #include "contact_residual.hpp"

@@ -6,11 +6,12 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <utility>
+
+#include "base/memory.hpp"
 
 namespace salebra {
 namespace {

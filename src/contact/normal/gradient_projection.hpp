@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/contact/half_space/half_space.hpp>
-
+#include "contact/half_space/half_space.hpp"
 #include "contact_residual.hpp"
 
 namespace salebra::detail {

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
+
+#include "base/memory.hpp"
 
 namespace salebra::detail {
 namespace {

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "contact_memory.hpp"
 #include "nested_contact.hpp"
 

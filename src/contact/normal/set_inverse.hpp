@@ -3,8 +3,9 @@
 
 #include <memory>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
+
+#include "contact/half_space/half_space.hpp"
 
 namespace salebra::detail {
 

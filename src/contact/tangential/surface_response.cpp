@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/memory.hpp>
 #include <salebra/base/parallel.hpp>
 #include <utility>
 
+#include "base/memory.hpp"
 #include "conjugate_gradients.hpp"
 #include "contact/normal/contact_memory.hpp"
 

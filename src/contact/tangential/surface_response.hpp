@@ -3,16 +3,16 @@
 
 #include <array>
 #include <optional>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <vector>
 
+#include "base/convolution.hpp"
 #include "contact/half_space/cell_window.hpp"
 #include "contact/half_space/framed_field.hpp"
+#include "contact/half_space/half_space.hpp"
 #include "contact/normal/set_inverse.hpp"
 
 namespace salebra::detail {

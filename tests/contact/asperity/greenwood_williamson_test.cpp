@@ -5,9 +5,10 @@
 #include <numbers>
 #include <random>
 #include <salebra/base/error.hpp>
-#include <salebra/base/fft.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/surface/moments.hpp>
+
+#include "base/fft.hpp"
 
 using namespace salebra;
 using std::numbers::pi;

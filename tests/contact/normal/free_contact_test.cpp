@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <salebra/contact/normal/normal.hpp>
 
+#include "contact/half_space/half_space.hpp"
 #include "rough_surface.hpp"
 
 using namespace salebra;

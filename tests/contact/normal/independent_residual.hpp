@@ -3,10 +3,10 @@
 
 #include <complex>
 #include <numbers>
-#include <salebra/base/fft.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <vector>
 
+#include "base/fft.hpp"
+#include "contact/half_space/half_space.hpp"
 #include "polonsky_keer.hpp"
 
 namespace salebra::test {

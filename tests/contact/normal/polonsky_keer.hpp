@@ -5,9 +5,10 @@
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <salebra/base/fft.hpp>
 #include <salebra/base/grid.hpp>
 #include <vector>
+
+#include "base/fft.hpp"
 
 namespace salebra::test {
 

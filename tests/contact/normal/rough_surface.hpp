@@ -6,9 +6,10 @@
 #include <complex>
 #include <cstdint>
 #include <numbers>
-#include <salebra/base/fft.hpp>
 #include <salebra/base/grid.hpp>
 #include <vector>
+
+#include "base/fft.hpp"
 
 namespace salebra::test {
 

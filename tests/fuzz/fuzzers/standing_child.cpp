@@ -15,13 +15,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <salebra/io/hdf5_runner.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "../../../src/io/hdf5_document.hpp"
 #include "../../../src/io/loaded_surface.hpp"
+#include "io/hdf5_runner.hpp"
 
 namespace salebra {
 namespace {

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
 #include <cstdio>
-#include <salebra/base/fft.hpp>
-#include <salebra/contact/half_space/material.hpp>
+#include <numbers>
+#include <salebra/contact/normal/normal.hpp>
 
-// Touches a header-only type, a compiled function of salebra::salebra, and FFTW behind
+// A sinusoidal surface closes at Westergaard's pressure, πE*·amplitude/wavelength: one wave, which
+// the grid has exactly. Touches a compiled function of salebra::salebra, and FFTW behind
 // salebra::base.
 int main() {
   const auto material = salebra::Material::of_contact_modulus(115e9, 0.3);
-  salebra::Field field = salebra::Field::Constant(4, 4, 1.0);
-  Eigen::Array<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> modes(4, 3);
-  salebra::RealFft2D<double>(4, 4).forward(field.data(), modes.data());
-  std::printf("G*/E* = %.4f, sum = %.0f\n", material.modulus_ratio(), modes(0, 0).real());
-  const bool right = std::abs(material.modulus_ratio() - 1.4 / 1.7) < 1e-12 &&
-                     std::abs(modes(0, 0).real() - 16) < 1e-12;
-  return right ? 0 : 1;
+  const salebra::Grid2D grid{64, 64, 1e-3, 1e-3};
+  salebra::Surface surface{grid, salebra::Field(64, 64)};
+  for (salebra::Index i = 0; i < 64; ++i)
+    surface.heights.row(i) = 1e-6 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / 64);
+  const double closing = std::numbers::pi * material.contact_modulus * 1e-6 / 1e-3;
+  const auto state = salebra::press_to_pressure(surface, material.contact_modulus, 1.01 * closing);
+  std::printf("area fraction %.4f, mean gap %.3g m\n", state.contact_area_fraction, state.mean_gap);
+  return state.converged && state.contact_area_fraction == 1 ? 0 : 1;
 }

@@ -4,7 +4,6 @@
 #include <memory>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
 namespace salebra {

@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
+#include <salebra/base/words.hpp>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace salebra {
+
+/// periodic: the cell repeats for ever, and the mean of every displacement over it is zero (the far
+/// field is the reference). free: one loaded patch on an infinite half-space, displacement zero far
+/// away.
+enum class Boundary { periodic, free };
+
+template <>
+struct Words<Boundary> {
+  static constexpr auto values = std::to_array<std::pair<Boundary, std::string_view>>(
+      {{Boundary::periodic, "periodic"}, {Boundary::free, "free"}});
+};
 
 /// One elastic half-space; a rigid body has an infinite modulus.
 struct ElasticBody {

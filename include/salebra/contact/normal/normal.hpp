@@ -8,7 +8,7 @@
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
+#include <salebra/contact/half_space/material.hpp>
 
 namespace salebra {
 

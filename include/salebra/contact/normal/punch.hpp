@@ -5,7 +5,7 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
-#include <salebra/contact/half_space/half_space.hpp>
+#include <salebra/contact/half_space/material.hpp>
 
 namespace salebra {
 

@@ -2,31 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
-#include <salebra/base/describe.hpp>
+#include <salebra/study/study.hpp>
 #include <vector>
 
 namespace salebra {
-
-/// A mean with its 95 % interval; NaN limits if unavailable.
-struct EnsembleMean {
-  double mean = std::numeric_limits<double>::quiet_NaN();
-  double low = std::numeric_limits<double>::quiet_NaN();
-  double high = std::numeric_limits<double>::quiet_NaN();
-
-  /// Half the width of the interval over |mean|; NaN without one.
-  double relative_precision() const;
-};
-
-/// Their unit is that of what the mean is of.
-constexpr void describe(auto&& visit, std::type_identity<EnsembleMean>) {
-  using S = EnsembleMean;
-  visit(&S::mean, Kept{"mean", "mean over the surfaces"});
-  visit(&S::low, Kept{"low", "lower limit of the interval"});
-  visit(&S::high, Kept{"high", "upper limit of the interval"});
-  visit(&S::relative_precision,
-        Kept{"relative_precision", "half the width of the interval over the mean"});
-}
 
 /// Mean and Student-t 95 % interval of the mean, over the values that are not NaN; no limits for
 /// fewer than two.

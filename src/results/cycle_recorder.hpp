@@ -4,10 +4,11 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
-#include <salebra/results/cycle_checkpoint.hpp>
-#include <salebra/results/cycle_fields.hpp>
 #include <string>
 #include <vector>
+
+#include "cycle_checkpoint.hpp"
+#include "cycle_fields.hpp"
 
 namespace salebra {
 

@@ -2,23 +2,12 @@
 #pragma once
 
 #include <array>
-#include <salebra/base/convolution.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
+#include "base/convolution.hpp"
+
 namespace salebra {
-
-/// periodic: the cell repeats for ever, and the mean of every displacement over it is zero (the far
-/// field is the reference). free: one loaded patch on an infinite half-space, displacement zero far
-/// away.
-enum class Boundary { periodic, free };
-
-template <>
-struct Words<Boundary> {
-  static constexpr auto values = std::to_array<std::pair<Boundary, std::string_view>>(
-      {{Boundary::periodic, "periodic"}, {Boundary::free, "free"}});
-};
 
 /// Integrals over a rectangle dx × dy centred at the origin, seen from (x, y); ξ, η, r run from its
 /// points to (x, y).

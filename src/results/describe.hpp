@@ -7,18 +7,15 @@
 #include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/suggestion.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
+#include "base/suggestion.hpp"
+
 /// What faces read from descriptions (base/describe.hpp).
 namespace salebra {
-
-/// Any number of a T: a member, a member function, or a function of it.
-template <class T>
-using NumberOf = std::function<double(const T&)>;
 
 template <class Value>
 concept Number = std::is_arithmetic_v<Value> || std::same_as<Value, std::optional<double>>;

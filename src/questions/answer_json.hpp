@@ -3,10 +3,11 @@
 
 #include <concepts>
 #include <optional>
-#include <salebra/results/columns.hpp>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "results/columns.hpp"
 
 namespace salebra {
 

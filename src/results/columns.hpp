@@ -5,10 +5,11 @@
 #include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/words.hpp>
-#include <salebra/io/json.hpp>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "io/json.hpp"
 
 /// Descriptions as tables, for faces that need no types: the program's answers, the glossary.
 namespace salebra {
