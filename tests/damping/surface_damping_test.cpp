@@ -309,7 +309,7 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
 }
 
 TEST_CASE("The loss of a joint of a surface has an error that holds, at small forces too") {
-  // Of 48 surfaces of sixteen kinds 98 % hold; the law through 13 forces alone misses by up to 150 %
+  // Of 48 surfaces of twelve kinds 98 % hold; the law through 13 forces alone misses by up to 150 %
   // at 0.25 μF. With ν = 0 K_t is K.
   const Material stuck = Material::of_contact_modulus(1e9, 0);
   constexpr double friction = 0.3;
