@@ -176,7 +176,7 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
     if (!(load.error < std::abs(load.work_per_cycle))) {
       answer.doubts.push_back(
           fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
-                      "salebra study --surface with --relative-error halves the cells further",
+                      "a study of the surface with a `relative_error` halves the cells further",
                       format_quantity(pressures[i], Dimension::pressure)));
       result.work_per_cycle = result.damping_constant = DampingResult::unknown;
     }
