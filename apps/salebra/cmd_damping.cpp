@@ -311,7 +311,7 @@ void run(const DampingArguments& arguments, Session& session) {
 void add_damping_command(Program& program) {
   auto arguments = std::make_shared<DampingArguments>();
   Command& command = program.add_command(
-      "damping", "what a contact loses while it oscillates, and the damper that it is",
+      "damping", "what an oscillating contact loses, and how it damps",
       {"salebra damping --curve curve.h5 --pressure 10MPa --poisson 0.3 --normal-amplitude "
        "1:20nm:8 --drag-velocity 100nm/s --frequency 20kHz --plot damping.png",
        "salebra damping --law sphere --radius 10mm --indentation 1um --contact-modulus 1GPa "
