@@ -101,12 +101,12 @@ void MapOptions::check(const std::vector<Motion>& motions, const Session& sessio
 void MapOptions::write(const DampingAnswer& answer, int steps, Session& session) const {
   const Motion& motion = answer.motions.front();
   const double indentation = answer.results.front().indentation;
-  const auto* equal = std::get_if<EqualFrequency>(&motion);
   if (!stress_map.empty())
-    write_stress_map(*this, indenter_of(answer, stress_map), indentation,
-                     equal ? Oscillation(*equal) : Oscillation(std::get<Drag>(motion)), session);
+    write_stress_map(*this, indenter_of(answer, stress_map), indentation, *oscillation_of(motion),
+                     session);
   if (!friction_map.empty())
-    write_friction_map(*this, *answer.contact.law, indentation, *equal, steps, session);
+    write_friction_map(*this, *answer.contact.law, indentation, std::get<EqualFrequency>(motion),
+                       steps, session);
 }
 
 }  // namespace salebra::cli

@@ -28,7 +28,7 @@ DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>
 }
 
 /// The premises of an answer, of a law made of `curve` if there is one.
-Premises judged(const ContactLaw& law, const AnyMotion& motion, double indentation,
+Premises judged(const ContactLaw& law, const Motion& motion, double indentation,
                 const ContactFacts& facts, const ForceCurve* curve) {
   return with_motion(motion, [&](const auto& one) {
     return premises_of(law, indentation, one, at_state(facts, law, curve, indentation));
@@ -43,7 +43,7 @@ void bind_damping_result(nb::module_& m) {
 void bind_theorem(nb::module_& m) {
   m.def(
       "relaxation_damping",
-      [](const ContactLaw& law, const AnyMotion& motion, std::optional<double> indentation,
+      [](const ContactLaw& law, const Motion& motion, std::optional<double> indentation,
          std::optional<double> force, const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
          double tolerance, const ContactFacts* facts, const ForceCurve* curve) {
         cite({"popov2015"});
@@ -149,7 +149,7 @@ list of DampingResult
 )");
   m.def(
       "relaxation_damping_force_controlled",
-      [](const ContactLaw& law, double mean_force, double force_amplitude, const AnyMotion& motion,
+      [](const ContactLaw& law, double mean_force, double force_amplitude, const Motion& motion,
          const Choice<Amplitude>& amplitude, double tolerance, const ContactFacts* facts,
          const ForceCurve* curve) {
         cite({"popov2015"});
@@ -162,7 +162,7 @@ list of DampingResult
                                                        options);
           });
           // The normal oscillation has the amplitude that the stiffness makes of the force's.
-          AnyMotion moved = motion;
+          Motion moved = motion;
           std::visit(
               [&](auto& one) { one.normal_amplitude = force_amplitude / result.normal_stiffness; },
               moved);

@@ -8,6 +8,7 @@
 #include <salebra/damping/oscillation.hpp>
 
 #include "bindings.hpp"
+#include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
 
 namespace salebra::python {
@@ -107,14 +108,9 @@ displacement : array_like
           nb::arg("time"), nb::arg("indentation"), nb::arg("displacement"));
   m.def(
       "sample",
-      [](const std::variant<EqualFrequency, Drag, TwoFrequencies>& motion, double mean_indentation,
-         int steps) {
-        if (const auto* two = std::get_if<TwoFrequencies>(&motion))
-          return sample(*two, mean_indentation, steps);
-        const Oscillation one = std::holds_alternative<Drag>(motion)
-                                    ? Oscillation(std::get<Drag>(motion))
-                                    : Oscillation(std::get<EqualFrequency>(motion));
-        return sample(one, mean_indentation, steps);
+      [](const Motion& motion, double mean_indentation, int steps) {
+        return with_motion(motion,
+                           [&](const auto& one) { return sample(one, mean_indentation, steps); });
       },
       nb::arg("motion"), nb::arg("mean_indentation"), nb::arg("steps"),
       "One period about a mean indentation (m), `steps` straight steps for each normal cycle, "

@@ -85,13 +85,11 @@ void bind_premise_classes(nb::module_& m) {
       .def("__repr__", [](const Premises& self) { return "Premises(" + verdicts(self) + ")"; });
   m.def(
       "premises_of",
-      [](const ContactLaw& law, const AnyMotion& motion, std::optional<double> indentation,
+      [](const ContactLaw& law, const Motion& motion, std::optional<double> indentation,
          std::optional<double> force, const ContactFacts* facts, const ForceCurve* curve) {
         const Position position = position_of(indentation, force);
-        const auto* at = std::get_if<AtIndentation>(&position);
         return unlocked([&] {
-          const double mean =
-              at ? at->indentation : law.indentation_of(std::get<AtForce>(position).force);
+          const double mean = indentation_of(law, position);
           const ContactFacts all = at_state(known(facts), law, curve, mean);
           return with_motion(motion,
                              [&](const auto& one) { return premises_of(law, mean, one, all); });

@@ -191,13 +191,11 @@ double small_amplitude_factor(const ContactLaw& law, double curvature, const Ker
 }
 
 double settled_indentation(const ContactLaw& law, const Position& position) {
-  if (const auto* at = std::get_if<AtIndentation>(&position)) {
+  if (const auto* at = std::get_if<AtIndentation>(&position))
     require_finite(at->indentation, "indentation");
-    return at->indentation;
-  }
-  const double force = std::get<AtForce>(position).force;
-  require_positive(force, "force");
-  return law.indentation_of(force);
+  else
+    require_positive(std::get<AtForce>(position).force, "force");
+  return indentation_of(law, position);
 }
 
 DampingResult damping_of(const ContactLaw& law, const Position& position, const Kernel& kernel,
@@ -270,6 +268,11 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
 }
 
 }  // namespace
+
+double indentation_of(const ContactLaw& law, const Position& position) {
+  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
+  return law.indentation_of(std::get<AtForce>(position).force);
+}
 
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
   require_finite(mean_indentation, "indentation");

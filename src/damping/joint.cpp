@@ -23,11 +23,6 @@ namespace {
 
 using std::numbers::pi;
 
-double indentation_of(const ContactLaw& law, const Position& position) {
-  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
-  return law.indentation_of(std::get<AtForce>(position).force);
-}
-
 void check(const TangentialOscillation& motion, double friction_coefficient) {
   require_positive(friction_coefficient, "friction_coefficient");
   if (const auto* force = std::get_if<TangentialForce>(&motion))

@@ -31,6 +31,12 @@ SampledMotion sample_cycles(double mean, double amplitude, double angular_freque
 
 }  // namespace
 
+std::optional<Oscillation> oscillation_of(const Motion& motion) {
+  if (const auto* equal = std::get_if<EqualFrequency>(&motion)) return *equal;
+  if (const auto* drag = std::get_if<Drag>(&motion)) return *drag;
+  return {};
+}
+
 CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles) {
   require_positive(motion.normal_angular_frequency, "normal_angular_frequency");
   require_positive(motion.tangential_angular_frequency, "tangential_angular_frequency");

@@ -14,12 +14,14 @@
 #include <type_traits>
 
 #include "base/special_values.hpp"
+#include "judge.hpp"
 #include "mean_rise.hpp"
 
 namespace salebra {
 namespace {
 
 using detail::infinity;
+using detail::judge;
 using detail::unknown;
 using std::numbers::pi;
 
@@ -430,15 +432,6 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
     deepest = 0.5 * (low - high);
   }
   return law.force(deepest) <= stuck_share * least;
-}
-
-void judge(Premise& premise, bool large_is_good = false) {
-  const double value = premise.value;
-  if (std::isnan(value)) return;
-  const auto beyond = [&](double limit) { return large_is_good ? value < limit : value > limit; };
-  premise.verdict = beyond(premise.limit_20_percent)  ? Verdict::broken
-                    : beyond(premise.limit_5_percent) ? Verdict::doubtful
-                                                      : Verdict::holds;
 }
 
 // What a turning point of a slow motion at a random phase costs, in losses of one normal cycle. A

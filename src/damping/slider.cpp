@@ -486,9 +486,7 @@ void check_falling(const Slider& slider) {
 // v_c = (μE*/G*)u_z ω, over u_z ω.
 double limit_of_slope(const ContactLaw& law, const Position& position,
                       double friction_coefficient) {
-  const double indentation = std::holds_alternative<AtForce>(position)
-                                 ? law.indentation_of(std::get<AtForce>(position).force)
-                                 : std::get<AtIndentation>(position).indentation;
+  const double indentation = indentation_of(law, position);
   return friction_coefficient * law.normal_stiffness(indentation) /
          law.tangential_stiffness(indentation);
 }

@@ -241,11 +241,6 @@ std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question, const 
   return std::visit([&](const auto& body) { return law(body, context); }, question);
 }
 
-double indentation_of(const ContactLaw& law, const Position& position) {
-  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
-  return law.indentation_of(std::get<AtForce>(position).force);
-}
-
 IndenterState state_of(const IndenterLaw& law, double indentation) {
   return {.contact_radius = law.contact_radius(indentation),
           .indentation = indentation,

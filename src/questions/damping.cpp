@@ -155,10 +155,7 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
 /// error.
 void resolve_on_surface(const DampingQuestion& question, const std::vector<double>& pressures,
                         const Material& material, const Context& context, DampingAnswer& answer) {
-  const Motion& motion = question.motions.front();
-  const Oscillation one = std::holds_alternative<Drag>(motion)
-                              ? Oscillation(std::get<Drag>(motion))
-                              : Oscillation(std::get<EqualFrequency>(motion));
+  const Oscillation one = *oscillation_of(question.motions.front());
   const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
   const ForceCurve loads = loads_with_neighbours(*answer.contact.curve, pressures);
   const std::vector<SurfaceDamping> found = surface_damping(

@@ -17,6 +17,8 @@
 #include <salebra/questions/contact.hpp>
 #include <salebra/questions/oscillation.hpp>
 
+#include "damping/judge.hpp"
+
 namespace salebra {
 namespace {
 
@@ -337,10 +339,8 @@ Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
     Premise& coupling = premises.coupling;
     coupling.value =
         std::abs(outcome.coupled->work_per_cycle / outcome.frictional->work_per_cycle - 1);
-    coupling.verdict = std::isnan(coupling.value)                   ? Verdict::unknown
-                       : coupling.value > coupling.limit_20_percent ? Verdict::broken
-                       : coupling.value > coupling.limit_5_percent  ? Verdict::doubtful
-                                                                    : Verdict::holds;
+    coupling.verdict = Verdict::unknown;
+    detail::judge(coupling);
   }
   return premises;
 }

@@ -24,6 +24,9 @@ struct AtForce {
 };
 using Position = std::variant<AtIndentation, AtForce>;
 
+/// δ of a position, m.
+double indentation_of(const ContactLaw& law, const Position& position);
+
 enum class Amplitude {
   small,  ///< Eq. (12) or (15) with F'' of the law: the limit u_z → 0
   finite  ///< the theorem of docs/theory.md, section 7, exact at every amplitude

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <salebra/base/words.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <variant>
@@ -65,6 +66,12 @@ constexpr void describe(auto&& visit, std::type_identity<TwoFrequencies>) {
         Kept{"tangential_angular_frequency", "angular frequency of the tangential oscillation",
              angular_frequency});
 }
+
+/// Every motion that has a name.
+using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
+
+/// The motion where it is of one frequency; none for two.
+std::optional<Oscillation> oscillation_of(const Motion& motion);
 
 /// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms; 0/0 where no ratio with at most
 /// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means take the

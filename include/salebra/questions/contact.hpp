@@ -126,9 +126,6 @@ constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
 
 IndenterState state_of(const IndenterLaw& law, double indentation);
 
-/// δ of a position, m.
-double indentation_of(const ContactLaw& law, const Position& position);
-
 /// Puts the residual surface of the first loading in place of the surface, and returns what flowed;
 /// without a hardness nothing.
 /// contact  boundary, tolerance and progress

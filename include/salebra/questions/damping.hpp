@@ -17,9 +17,6 @@
 /// What a contact loses in a motion, and what the answer assumes.
 namespace salebra {
 
-/// Every motion that has a name.
-using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
-
 /// Positions, motions and amplitudes of the force: of each one, for all cases, or one for each.
 struct DampingQuestion {
   ContactQuestion contact;  ///< of a surface, with the pressures; the amplitude comes from here

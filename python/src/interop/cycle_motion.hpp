@@ -18,14 +18,11 @@ inline Trajectory trajectory(const std::variant<EqualFrequency, Drag>& motion,
   return trajectory_of(oscillation(motion), mean_indentation);
 }
 
-using AnyMotion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
-
 /// function(Oscillation) or function(TwoFrequencies).
 template <class Function>
-auto with_motion(const AnyMotion& motion, const Function& function) {
-  if (const auto* two = std::get_if<TwoFrequencies>(&motion)) return function(*two);
-  if (const auto* drag = std::get_if<Drag>(&motion)) return function(Oscillation(*drag));
-  return function(Oscillation(std::get<EqualFrequency>(motion)));
+auto with_motion(const Motion& motion, const Function& function) {
+  if (const auto one = oscillation_of(motion)) return function(*one);
+  return function(std::get<TwoFrequencies>(motion));
 }
 
 /// Where the contact stands: exactly one of the two keywords.
