@@ -78,10 +78,6 @@ ContactQuestion contact_of(const DampingArguments& arguments, Session& session) 
   return arguments.law.question(arguments.material, session, arguments.premises.hardness);
 }
 
-void warn(const std::vector<std::string>& doubts, Session& session) {
-  for (const std::string& line : doubts) session.warn(line);
-}
-
 // --trajectory: one period of (time, indentation, displacement).
 void follow_file(const DampingArguments& arguments, Session& session) {
   require(!arguments.motion.given() && arguments.force_amplitude.empty() &&
@@ -116,7 +112,7 @@ void follow_file(const DampingArguments& arguments, Session& session) {
 // An indenter without a motion.
 void answer_at_rest(const DampingArguments& arguments, Session& session) {
   const ContactAnswer contact = ask(contact_of(arguments, session), session.context());
-  warn(contact.doubts, session);
+  session.warn(contact.doubts);
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; a contact at rest takes one, and damping needs a motion");
@@ -159,8 +155,8 @@ void lose(const DampingArguments& arguments, Session& session) {
                           .facts = arguments.premises.facts(arguments.material),
                           .steps = arguments.steps},
           session.context());
-  warn(answer.contact.doubts, session);
-  warn(answer.doubts, session);
+  session.warn(answer.contact.doubts);
+  session.warn(answer.doubts);
   const bool one = values.empty();
   if (one && !answer.periods.empty() && answer.periods.front().normal_cycles == 0)
     session.note("the frequencies have no common period: power is the mean over a long time");
@@ -272,11 +268,8 @@ void damp(const DampingArguments& arguments, Session& session) {
           "is for a map over --normal-amplitude and --frequency");
   question.contact = contact_of(arguments, session);
   const DamperAnswer answer = ask(std::move(question), session.context());
-  warn(answer.contact.doubts, session);
-  if (answer.contact.surface)
-    session.note(
-        "the law is through some loads of the surface: the error of what follows from it is not "
-        "known");
+  session.warn(answer.contact.doubts);
+  if (answer.contact.surface) session.note(law_of_some_loads);
   Json object = Json::object();
   if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
   if (omega.size() > 1) object["angular_frequency"] = omega;

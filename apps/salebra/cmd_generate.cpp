@@ -121,7 +121,7 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
                 session);
   Forecast expected;
   collectively(session.ranks(), [&] { expected = forecast(grid, *spectrum, session.progress()); });
-  for (const std::string& warning : expected.warnings) session.warn(warning);
+  session.warn(expected.warnings);
   const std::string method = method_of(arguments);
   answer["seed"] = arguments.seed;
   answer["method"] = arguments.non_gaussian() ? "non-gaussian" : method;
@@ -220,7 +220,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   if (arguments.profile) return make_profile(arguments, session);
   if (session.has_output()) require_surface_name(session.output());
   const Grid2D grid = grid_of(arguments);
-  for (const std::string& line : doubts_of_cells(grid)) session.warn(line);
+  session.warn(doubts_of_cells(grid));
   if (arguments.dry_run.dry_run) return estimate(arguments, grid, session);
   Json answer = Json::object();
   Surface surface;
@@ -235,7 +235,7 @@ void run(const GenerateArguments& arguments, Session& session) {
     ReadOptions options;
     options.remarks = &remarks;
     const Surface second = read_surface(arguments.composite, options);
-    for (const std::string& line : remarks) session.warn(line);
+    session.warn(remarks);
     surface = composite_surface(surface, second);
     answer["composite"] = arguments.composite;
   }

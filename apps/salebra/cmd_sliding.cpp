@@ -84,10 +84,7 @@ ContactAnswer contact_of(const SlidingArguments& arguments, Session& session) {
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; sliding takes one, and several --velocities");
-  if (contact.surface)
-    session.note(
-        "the law is through some loads of the surface: the error of what follows from it "
-        "is not known");
+  if (contact.surface) session.note(law_of_some_loads);
   return contact;
 }
 

@@ -120,8 +120,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
-  for (const std::string& line : doubts_of_profile(*profile, law.contact_radius(indentation)))
-    session.warn(line);
+  session.warn(doubts_of_profile(*profile, law.contact_radius(indentation)));
   const ContactFacts facts =
       at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
 

@@ -118,7 +118,7 @@ ContactAnswer LawOptions::contact(const MaterialOptions& material, Session& sess
   ContactQuestion asked = question(material, session, hardness);
   if (auto* body = std::get_if<SurfaceContact>(&asked)) body->normal_amplitude = normal_amplitude;
   ContactAnswer contact = ask(std::move(asked), session.context());
-  for (const std::string& line : contact.doubts) session.warn(line);
+  session.warn(contact.doubts);
   return contact;
 }
 

@@ -206,7 +206,7 @@ StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& 
 Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const {
   if (!recipe.empty()) {
     Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
-    for (const std::string& line : doubts_of_cells(made.grid)) session.warn(line);
+    session.warn(doubts_of_cells(made.grid));
     session.doubt(doubt_of_heights(made));
     const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);
@@ -220,8 +220,8 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const 
   std::vector<std::string> remarks;
   options.remarks = &remarks;
   Surface surface = read_surface(file, options, ranks);
-  for (const auto& lines : {remarks, doubts_of_cells(surface.grid)})
-    for (const std::string& line : lines) session.warn(line);
+  session.warn(remarks);
+  session.warn(doubts_of_cells(surface.grid));
   const Detrend method = value_of<Detrend>(detrend).value_or(default_detrend(surface));
   return detrended(std::move(surface), method);
 }

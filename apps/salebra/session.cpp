@@ -197,6 +197,10 @@ void Session::warn(std::string_view text) {
                            printable(in_options(text))));
 }
 
+void Session::warn(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) warn(line);
+}
+
 void Session::doubt(const std::optional<std::string>& text) {
   if (text) warn(*text);
 }

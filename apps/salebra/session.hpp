@@ -87,6 +87,7 @@ class Session {
   /// remain. The same warning is given once.
   void note(std::string_view text);
   void warn(std::string_view text);
+  void warn(const std::vector<std::string>& lines);
   /// warn() where there is a doubt.
   void doubt(const std::optional<std::string>& text);
 

@@ -469,8 +469,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
     require_all(*parts, missing, others, keys.size());
     warn_of_parts(*parts, others, merge, session);
   }
-  for (const StudyResult& result : results)
-    for (const std::string& warning : result.warnings) session.warn(warning);
+  for (const StudyResult& result : results) session.warn(result.warnings);
   require_finished(results, configuration, parts.get(), ranks);
   if (configuration.relative_error > 0) {
     try {
