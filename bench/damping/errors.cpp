@@ -13,7 +13,6 @@
 #include <numbers>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/spectrum.hpp>
@@ -21,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "damping/work_by_contacts.hpp"
 #include "surface/refine.hpp"
 
 using namespace salebra;
@@ -77,7 +77,7 @@ Surface surface_of(std::size_t kind, int seed, Index points) {
   const auto hills = [&](double cells, int other = 0) {
     return waves(points, seed + other, double(points) / cells, 0, 2 * pi);
   };
-  Surface surface{grid, {}, true};
+  Surface surface{grid, {}, true, {}};
   if (kind == 2)
     surface.heights = waves(points, seed, double(points) / 6, pi * chance(seed, 5), 0.5);
   if (kind == 3) surface.heights = (between(0.3, 1, chance(seed, 5)) * hills(8)).exp();
@@ -102,49 +102,6 @@ Surface every_second(const Surface& surface, Index first) {
   coarse.heights =
       surface.heights(Eigen::seqN(first, coarse.grid.nx, 2), Eigen::seqN(first, coarse.grid.ny, 2));
   return coarse;
-}
-
-// W of the mean K between 33 contacts by their forces, and of K of the last, with K_t/((G*/E*)K) of
-// stick solves at both ends and in the middle.
-double work_by_contacts(const Surface& surface, double pressure, const Drag& motion) {
-  constexpr int intervals = 32;
-  NormalContactOptions options;
-  options.tolerance = 1e-9;
-  NormalContactState state =
-      press_to_pressure(surface, material.contact_modulus, pressure, options);
-  const double center = state.indentation;
-  Field start = state.contact_pressure;
-  options.initial_pressure = &start;
-  std::array<double, intervals + 1> force{}, place{};
-  std::array<double, 3> ratio{1, 1, 1};
-  double last = 0;
-  for (int k = 0; k <= intervals; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    place[at] = center + motion.normal_amplitude * std::cos(pi * k / intervals);
-    last = 0;
-    if (!(place[at] > 0)) continue;
-    state = press_to_indentation(surface, material.contact_modulus, place[at], options);
-    start = state.contact_pressure;
-    force[at] = state.force;
-    if (k % (intervals / 2) != 0) continue;
-    last = normal_stiffness(state, surface.grid, material.contact_modulus, options);
-    ratio[at / (intervals / 2)] =
-        stick_stiffness(contact_set(state), surface.grid, material, {.tolerance = 1e-4}, true).xx /
-        (material.modulus_ratio() * last);
-  }
-  const auto ratio_at = [&](double x) {
-    return ratio[1] + x * (ratio[0] - ratio[2]) / 2 +
-           x * x * ((ratio[0] + ratio[2]) / 2 - ratio[1]);
-  };
-  double sum = 0;
-  for (std::size_t k = 0; k < intervals; ++k) {
-    const double from = pi * double(k) / intervals, to = pi * double(k + 1) / intervals;
-    const double mean = (force[k] - force[k + 1]) / (place[k] - place[k + 1]);
-    sum += (to * to - from * from) / 2 *
-           (mean * ratio_at((std::cos(from) + std::cos(to)) / 2) - last * ratio[2]);
-  }
-  const double way = motion.drag_velocity / motion.angular_frequency;
-  return 4 * way * way * material.modulus_ratio() * sum;
 }
 
 struct Cases {
@@ -193,9 +150,10 @@ int main(int count, char** words) {
     const SurfaceDamping r = surface_damping(
         surface, material, motion, sweep_pressures(surface, material, {pressure}, sweep))[0];
     const Surface finest = refined(surface, 8);
-    const double converged = (work_by_contacts(every_second(finest, 0), pressure, motion) +
-                              work_by_contacts(every_second(finest, 1), pressure, motion)) /
-                             2;
+    const double converged =
+        (work_by_contacts(every_second(finest, 0), material, pressure, motion, 32, true) +
+         work_by_contacts(every_second(finest, 1), material, pressure, motion, 32, true)) /
+        2;
     const double w = std::abs(r.work_per_cycle), actual = (converged - r.work_per_cycle) / w;
     std::printf("%zu %.4f %.4f %.5g %.4f %.4f %.4f %.4f %.4f %.2g %+.4f %d %.3g\n", kind, load,
                 amplitude, r.work_per_cycle, r.error / w, r.cell_error / w, r.scatter / w,
