@@ -45,8 +45,10 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
   require(!coordinate.empty(), "curve", curve.samples.size(), "samples hold no known quantity");
   std::vector<bool> converged;
   for (const ForceSample& sample : curve.samples) converged.push_back(sample.converged);
-  group.flags("converged", converged, {coordinate},
-              std::string(find_quantity("converged").long_name));
+  for_each_column<ForceSample>([&](const auto&, const Quantity& quantity) {
+    if (quantity.name == "converged")
+      group.flags("converged", converged, {coordinate}, std::string(quantity.long_name));
+  });
   group.attribute("model", curve.model);
   group.attribute("nominal_area", curve.nominal_area);
   group.attribute("rms_height", curve.rms_height);
