@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/memory.hpp"
+#include "contact/half_space/half_space.hpp"
 
 namespace salebra {
 namespace {
