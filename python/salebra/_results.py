@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +10,7 @@ import numpy as np
 from . import _core
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     import xarray
 
@@ -37,131 +36,74 @@ def _dataset(
     )
 
 
-def _points(grid: _core.Grid2D) -> dict[str, Any]:
-    return {"x": np.arange(grid.nx) * grid.dx, "y": np.arange(grid.ny) * grid.dy}
+# Coordinates, the variables on each of their combinations, and attributes, by class.
+_DATASETS: dict[type, tuple[tuple[str, ...], dict[tuple[str, ...], tuple[str, ...]], tuple[str, ...]]] = {
+    _core.Surface: (("x", "y"), {("x", "y"): ("heights",)}, ("size_x", "size_y", "periodic", "origin")),
+    _core.NormalContactState: (
+        ("x", "y"), {("x", "y"): ("contact_pressure", "gap")},
+        ("mean_pressure", "force", "mean_gap", "indentation", "contact_area_fraction", "elastic_energy", "residual", "iterations",
+         "contact_modulus", "boundary", "converged"),
+    ),
+    _core.ForceCurve: (
+        ("pressure",),
+        {("pressure",): ("force", "mean_gap", "indentation", "separation", "contact_area_fraction", "normal_stiffness",
+                         "tangential_stiffness", "converged")},
+        ("model", "nominal_area", "rms_height"),
+    ),
+    _core.LocalDecayLength: (("mean_gap",), {("mean_gap",): ("local_decay_length",)}, ()),
+    _core.PowerSpectrum: (("wavenumber_x", "wavenumber_y"), {("wavenumber_x", "wavenumber_y"): ("psd",)}, ("cell",)),
+    _core.RadialSpectrum: (("wavenumber",), {("wavenumber",): ("psd", "modes")}, ()),
+    _core.ProfilePsd: (("wavenumber",), {("wavenumber",): ("profile_psd", "modes")}, ("profiles", "length")),
+    _core.Correlation: (("distance",), {("distance",): ("autocorrelation", "structure", "pairs")}, ()),
+    _core.ScaleDependence: (("spacing",), {("spacing",): ("profile_slope", "profile_curvature", "min_curvature", "stencils")}, ()),
+    _core.HeightHistogram: (("height",), {("height",): ("height_density", "points")}, ("width",)),
+    _core.DamperMap: (
+        ("normal_amplitude", "angular_frequency"), {("normal_amplitude", "angular_frequency"): ("damping_constant",)}, (),
+    ),
+    _core.FrictionMap: (
+        ("friction_number", "phase"), {("friction_number", "phase"): ("loss_ratio", "relaxation_ratio", "slip_ratio")}, (),
+    ),
+    _core.RegimeMap: (
+        ("velocity", "excursion"),
+        {("velocity", "excursion"): ("loss_ratio", "slip_ratio", "regime"), ("velocity",): ("no_slip_excursion",)},
+        ("no_slip_velocity", "sliding_excursion", "critical_velocity", "full_stick_ratio"),
+    ),
+    _core.StressMap: (
+        ("angle", "radial_position"),
+        {("angle", "radial_position"): ("shear", "contact_pressure"), ("angle",): ("contact_radius", "tangential_force")}, (),
+    ),
+    _core.CycleResult: (
+        ("time_in_periods",),
+        {("time_in_periods",): ("indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area", "slip_area",
+                                "tangential_stiffness")},
+        ("work_per_cycle", "dissipated", "relaxation_work", "slip_work"),
+    ),
+}  # fmt: skip
 
 
-@singledispatch
 def to_xarray(result: Any) -> xarray.Dataset:
     """The result as a dataset."""
-    raise TypeError(f"{type(result).__name__} has no form as a dataset")
-
-
-@to_xarray.register(_core.Surface)
-def _(result: _core.Surface) -> xarray.Dataset:
-    attributes = {"size_x": result.size_x, "size_y": result.size_y, "periodic": int(result.periodic), "origin": result.origin}
-    return _dataset({"heights": (("x", "y"), result.heights)}, _points(result.grid), attributes)
-
-
-@to_xarray.register(_core.NormalContactState)
-def _(result: _core.NormalContactState) -> xarray.Dataset:
-    numbers = (
-        "mean_pressure", "force", "mean_gap", "indentation", "contact_area_fraction", "elastic_energy", "residual", "iterations",
-        "contact_modulus", "boundary",
-    )  # fmt: skip
-    attributes = {name: getattr(result, name) for name in numbers} | {"converged": int(result.converged)}
-    fields = {name: (("x", "y"), getattr(result, name)) for name in ("contact_pressure", "gap")}
-    return _dataset(fields, _points(result.grid), attributes)
-
-
-@to_xarray.register(_core.ForceCurve)
-def _(result: _core.ForceCurve) -> xarray.Dataset:
-    names = (
-        "force", "mean_gap", "indentation", "separation", "contact_area_fraction", "normal_stiffness", "tangential_stiffness",
-        "converged",
-    )  # fmt: skip
-    columns = {name: (("pressure",), getattr(result, name)) for name in names}
-    known = {name: column for name, column in columns.items() if not np.all(np.isnan(column[1]))}
-    attributes = {"model": result.model, "nominal_area": result.nominal_area, "rms_height": result.rms_height}
-    return _dataset(known, {"pressure": result.pressure}, attributes)
-
-
-@to_xarray.register(_core.LocalDecayLength)
-def _(result: _core.LocalDecayLength) -> xarray.Dataset:
-    return _dataset({"local_decay_length": (("mean_gap",), result.local_decay_length)}, {"mean_gap": result.mean_gap}, {})
-
-
-@to_xarray.register(_core.PowerSpectrum)
-def _(result: _core.PowerSpectrum) -> xarray.Dataset:
-    order = np.argsort(result.wavenumber_x)
-    return _dataset(
-        {"psd": (("wavenumber_x", "wavenumber_y"), result.psd[order])},
-        {"wavenumber_x": result.wavenumber_x[order], "wavenumber_y": result.wavenumber_y},
-        {"cell": result.cell},
+    if isinstance(result, _core.StudyResult):
+        return _study_dataset(result)
+    axes, variables, names = _DATASETS[type(result)]
+    attributes = {name: getattr(result, name) for name in names}
+    columns = {name: (dims, getattr(result, name)) for dims, of in variables.items() for name in of}
+    if isinstance(result, _core.ForceCurve):  # without what its model does not have
+        columns = {name: column for name, column in columns.items() if not np.isnan(column[1]).all()}
+    data = _dataset(
+        columns,
+        {axis: points(result.grid, axis) if axis in ("x", "y") else getattr(result, axis) for axis in axes},
+        {name: int(value) if isinstance(value, bool) else value for name, value in attributes.items()},
     )
+    return data.sortby("wavenumber_x") if "wavenumber_x" in axes else data
 
 
-@to_xarray.register(_core.RadialSpectrum)
-def _(result: _core.RadialSpectrum) -> xarray.Dataset:
-    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("psd", "modes")}
-    return _dataset(columns, {"wavenumber": result.wavenumber}, {})
+def points(grid: _core.Grid2D, axis: str) -> Any:
+    """Where the points of a grid lie along "x" or "y", m."""
+    return np.arange(getattr(grid, f"n{axis}")) * getattr(grid, f"d{axis}")
 
 
-@to_xarray.register(_core.ProfilePsd)
-def _(result: _core.ProfilePsd) -> xarray.Dataset:
-    columns = {name: (("wavenumber",), getattr(result, name)) for name in ("profile_psd", "modes")}
-    return _dataset(columns, {"wavenumber": result.wavenumber}, {"profiles": result.profiles, "length": result.length})
-
-
-@to_xarray.register(_core.Correlation)
-def _(result: _core.Correlation) -> xarray.Dataset:
-    columns = {name: (("distance",), getattr(result, name)) for name in ("autocorrelation", "structure", "pairs")}
-    return _dataset(columns, {"distance": result.distance}, {})
-
-
-@to_xarray.register(_core.ScaleDependence)
-def _(result: _core.ScaleDependence) -> xarray.Dataset:
-    names = ("profile_slope", "profile_curvature", "min_curvature", "stencils")
-    return _dataset({name: (("spacing",), getattr(result, name)) for name in names}, {"spacing": result.spacing}, {})
-
-
-@to_xarray.register(_core.HeightHistogram)
-def _(result: _core.HeightHistogram) -> xarray.Dataset:
-    columns = {name: (("height",), getattr(result, name)) for name in ("height_density", "points")}
-    return _dataset(columns, {"height": result.height}, {"width": result.width})
-
-
-@to_xarray.register(_core.DamperMap)
-def _(result: _core.DamperMap) -> xarray.Dataset:
-    dims = ("normal_amplitude", "angular_frequency")
-    return _dataset({"damping_constant": (dims, result.damping_constant)}, {name: getattr(result, name) for name in dims}, {})
-
-
-@to_xarray.register(_core.FrictionMap)
-def _(result: _core.FrictionMap) -> xarray.Dataset:
-    dims = ("friction_number", "phase")
-    names = ("loss_ratio", "relaxation_ratio", "slip_ratio")
-    return _dataset({name: (dims, getattr(result, name)) for name in names}, {name: getattr(result, name) for name in dims}, {})
-
-
-@to_xarray.register(_core.RegimeMap)
-def _(result: _core.RegimeMap) -> xarray.Dataset:
-    dims = ("velocity", "excursion")
-    fields = {name: (dims, getattr(result, name)) for name in ("loss_ratio", "slip_ratio", "regime")}
-    curves = {"no_slip_excursion": (("velocity",), result.no_slip_excursion)}
-    names = ("no_slip_velocity", "sliding_excursion", "critical_velocity", "full_stick_ratio")
-    return _dataset({**fields, **curves}, {name: getattr(result, name) for name in dims}, {name: getattr(result, name) for name in names})
-
-
-@to_xarray.register(_core.StressMap)
-def _(result: _core.StressMap) -> xarray.Dataset:
-    fields = {name: (("angle", "radial_position"), getattr(result, name)) for name in ("shear", "contact_pressure")}
-    curves = {name: (("angle",), getattr(result, name)) for name in ("contact_radius", "tangential_force")}
-    return _dataset({**fields, **curves}, {"angle": result.angle, "radial_position": result.radial_position}, {})
-
-
-@to_xarray.register(_core.CycleResult)
-def _(result: _core.CycleResult) -> xarray.Dataset:
-    names = (
-        "indentation", "tangential", "tangential_force", "normal_force", "work", "contact_area", "slip_area",
-        "tangential_stiffness",
-    )  # fmt: skip
-    attributes = {name: getattr(result, name) for name in ("work_per_cycle", "dissipated", "relaxation_work", "slip_work")}
-    return _dataset({name: (("time_in_periods",), getattr(result, name)) for name in names}, {"time_in_periods": result.time_in_periods}, attributes)
-
-
-@to_xarray.register(_core.StudyResult)
-def _(result: _core.StudyResult) -> xarray.Dataset:
+def _study_dataset(result: _core.StudyResult) -> xarray.Dataset:
     columns: dict[str, tuple[tuple[str, ...], Any]] = {}
     described = {name: (units, long_name) for name, units, long_name in (*_core._curve_columns(), *_core._damping_columns())}
     for names, of in ((_core._curve_columns(), result.curve), (_core._damping_columns(), result.damping)):

@@ -43,13 +43,19 @@ def meaning(kind: type, name: str) -> tuple[str, str]:
     return ("" if unit == "1" else unit), (said.rstrip(".") or (long_name if long_name != name else ""))
 
 
+def prefix_of(value: float, unit: str) -> tuple[int, str]:
+    """Power of ten and SI prefix that suit a value."""
+    if unit not in _PREFIXED or value == 0 or not np.isfinite(value):
+        return 0, ""
+    exponent = int(np.clip(3 * np.floor(np.log10(abs(value)) / 3), -15, 12))
+    return exponent, _PREFIX[exponent]
+
+
 def _number(value: float, unit: str) -> str:
     if value != value:
         return "n/a"
-    if unit not in _PREFIXED or value == 0 or not np.isfinite(value):
-        return f"{value:.4g}" + (f" {unit}" if unit else "")
-    exponent = int(np.clip(3 * np.floor(np.log10(abs(value)) / 3), -15, 12))
-    return f"{value / 10.0**exponent:.4g} {_PREFIX[exponent]}{unit}"
+    exponent, prefix = prefix_of(value, unit)
+    return f"{value / 10.0**exponent:.4g}" + (f" {prefix}{unit}" if unit else "")
 
 
 def shown(value: Any, unit: str) -> str:
