@@ -153,9 +153,8 @@ list of DampingResult
          const Choice<Amplitude>& amplitude, double tolerance, const ContactFacts* facts,
          const ForceCurve* curve) {
         cite({"popov2015"});
-        DampingOptions options;
-        options.amplitude = amplitude.value("amplitude");
-        options.tolerance = tolerance;
+        const DampingOptions options{.amplitude = amplitude.value("amplitude"),
+                                     .tolerance = tolerance};
         return unlocked([&] {
           const DampingResult result = with_motion(motion, [&](const auto& one) {
             return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
@@ -191,9 +190,7 @@ void bind_damper(nb::module_& m) {
       [](const ContactLaw& law, double normal_amplitude, double angular_frequency, double mass,
          double spring_stiffness, std::optional<double> indentation, std::optional<double> force,
          const Choice<Hold>& hold, double tolerance) {
-        DampingOptions options;
-        options.hold = hold.value("hold");
-        options.tolerance = tolerance;
+        const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
         return oscillator_decay(law, position_of(indentation, force),
                                 {normal_amplitude, angular_frequency}, {mass, spring_stiffness},
                                 options);
@@ -211,9 +208,7 @@ void bind_damper(nb::module_& m) {
       [](const ContactLaw& law, const Values& normal_amplitudes, const Values& angular_frequencies,
          std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
          double tolerance) {
-        DampingOptions options;
-        options.hold = hold.value("hold");
-        options.tolerance = tolerance;
+        const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
         const Position position = position_of(indentation, force);
         return unlocked([&] {
           return damper_map(law, position, normal_amplitudes.values, angular_frequencies.values,
@@ -229,9 +224,7 @@ void bind_damper(nb::module_& m) {
       [](const ContactLaw& law, double angular_frequency, double falling_slope,
          double largest_amplitude, std::optional<double> indentation, std::optional<double> force,
          const Choice<Hold>& hold, double tolerance) {
-        DampingOptions options;
-        options.hold = hold.value("hold");
-        options.tolerance = tolerance;
+        const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
         return stabilising_amplitude(law, position_of(indentation, force), angular_frequency,
                                      falling_slope, largest_amplitude, options);
       },

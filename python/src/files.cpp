@@ -66,10 +66,7 @@ UserWarning
   m.def(
       "write_surface",
       [](const std::filesystem::path& file, const BoundSurface& surface, bool overwrite) {
-        unlocked([&] {
-          write_surface(file, surface.surface, {}, {overwrite});
-          return 0;
-        });
+        unlocked([&] { write_surface(file, surface.surface, {}, {overwrite}); });
       },
       nb::arg("file"), nb::arg("surface"), nb::kw_only(), nb::arg("overwrite") = false,
       R"(Writes heights in metres, in the format that the extension names.
@@ -107,10 +104,7 @@ A table begins with the names of :class:`ForceCurve`'s columns, each with a unit
   m.def(
       "write_force_curve",
       [](const std::filesystem::path& file, const ForceCurve& curve, bool overwrite) {
-        unlocked([&] {
-          write_force_curve(file, curve, {}, {overwrite});
-          return 0;
-        });
+        unlocked([&] { write_force_curve(file, curve, {}, {overwrite}); });
       },
       nb::arg("file"), nb::arg("curve"), nb::kw_only(), nb::arg("overwrite") = false,
       "Writes a curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text that "

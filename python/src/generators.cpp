@@ -27,6 +27,22 @@
 namespace salebra::python {
 namespace {
 
+/// The parameters of self-affine spectra of surfaces and of profiles.
+template <class Class>
+void self_affine_constructor(Class& bound) {
+  bound.def(
+      "__init__",
+      [](typename Class::Type* self, double hurst, std::optional<double> long_cutoff,
+         std::optional<double> rolloff, double short_cutoff, std::optional<double> rms_height,
+         std::optional<double> rms_slope) {
+        new (self) typename Class::Type(
+            {hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope});
+      },
+      nb::kw_only(), nb::arg("hurst") = 0.8, nb::arg("long_cutoff") = nb::none(),
+      nb::arg("rolloff") = nb::none(), nb::arg("short_cutoff"), nb::arg("rms_height") = nb::none(),
+      nb::arg("rms_slope") = nb::none());
+}
+
 void bind_spectra(nb::module_& m) {
   nb::class_<Spectrum>(m, "Spectrum", nb::dynamic_attr(),
                        R"(Power spectral density of a random surface.
@@ -50,18 +66,13 @@ The mode of wave vector q = 2π(i/lx, j/ly) has the mean power C(q)·(2π)²/(lx
           "Moments that surfaces on this grid have in the mean: sums over the modes that the grid "
           "carries.")
       .def("__repr__", &Spectrum::description);
-  nb::class_<IsotropicSpectrum, Spectrum>(m, "IsotropicSpectrum",
-                                          "A spectrum that depends on ``|q|`` alone.")
-      .def(
-          "radial_density",
-          [](const IsotropicSpectrum& self, const Numbers& q) {
-            return for_each_number(q, [&](double value) { return self.radial_density(value); });
-          },
-          nb::arg("q"),
-          nb::sig("def radial_density(self, q: numpy.typing.ArrayLike) -> typing.Any"),
-          "C, m⁴, at wave numbers > 0, rad/m; a number or an array.");
-  nb::class_<SelfAffineSpectrum, IsotropicSpectrum>(m, "SelfAffineSpectrum",
-                                                    R"(Self-affine spectrum with a plateau.
+  nb::class_<IsotropicSpectrum, Spectrum> radial(m, "IsotropicSpectrum",
+                                                 "A spectrum that depends on ``|q|`` alone.");
+  number_method(radial, "radial_density", "q", &IsotropicSpectrum::radial_density,
+                "C, m⁴, at wave numbers > 0, rad/m; a number or an array.");
+  nb::class_<SelfAffineSpectrum, IsotropicSpectrum> self_affine(
+      m, "SelfAffineSpectrum",
+      R"(Self-affine spectrum with a plateau.
 
 .. math::
     C = C_0 \;(q_L \le q < q_r), \qquad C = C_0\,(q/q_r)^{-2(1+H)} \;(q_r \le q \le q_s), \qquad C = 0 \text{ elsewhere}
@@ -82,19 +93,9 @@ rms_height : float, optional
     m; exactly one of rms_height and rms_slope.
 rms_slope : float, optional
     ``√⟨|∇h|²⟩``.
-)")
-      .def(
-          "__init__",
-          [](SelfAffineSpectrum* self, double hurst, std::optional<double> long_cutoff,
-             std::optional<double> rolloff, double short_cutoff, std::optional<double> rms_height,
-             std::optional<double> rms_slope) {
-            new (self) SelfAffineSpectrum(
-                {hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope});
-          },
-          nb::kw_only(), nb::arg("hurst") = 0.8, nb::arg("long_cutoff") = nb::none(),
-          nb::arg("rolloff") = nb::none(), nb::arg("short_cutoff"),
-          nb::arg("rms_height") = nb::none(), nb::arg("rms_slope") = nb::none())
-      .def_prop_ro("plateau", &SelfAffineSpectrum::plateau, "C0, m⁴.");
+)");
+  self_affine.def_prop_ro("plateau", &SelfAffineSpectrum::plateau, "C0, m⁴.");
+  self_affine_constructor(self_affine);
   nb::class_<TabulatedSpectrum, IsotropicSpectrum>(
       m, "TabulatedSpectrum",
       "A spectrum from a table, straight in ln C against ln q between its points and 0 outside of "
@@ -162,21 +163,30 @@ void bind_forecast(nb::module_& m) {
       "Moments, scatter, memory and warnings of a surface before it is made.");
 }
 
-void bind_makers(nb::module_& m) {
+/// make(grid, spectrum, seed, told, ranks), which several processes may call together; further
+/// arguments of Python stand before the keywords.
+template <class Make, class... Further, class... Argument>
+void maker(nb::module_& m, const char* name, std::type_identity<void(Further...)>, Make make,
+           const char* description, Argument... arguments) {
   m.def(
-      "filtered_noise",
-      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-         const ProcessesArgument& comm, const ProgressArgument& progress) {
+      name,
+      [make](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Further... further,
+             const ProcessesArgument& comm, const ProgressArgument& progress) {
         cite({"salmon2011"});
         const Communicator ranks = comm.ranks();
-        return new_surface(interruptible(
-            progress,
-            [&](const Progress& told) { return filtered_noise(grid, spectrum, seed, told, ranks); },
-            ranks));
+        const auto made = [&](const Progress& told) {
+          return make(grid, spectrum, seed, further..., told, ranks);
+        };
+        return new_surface(interruptible(progress, made, ranks));
       },
-      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::kw_only(),
-      nb::arg("comm") = nb::none(), nb::arg("progress") = false,
-      R"(A periodic Gaussian random surface with a given spectrum, by filtering white noise.
+      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), arguments..., nb::kw_only(),
+      nb::arg("comm") = nb::none(), nb::arg("progress") = false, description);
+}
+
+void bind_makers(nb::module_& m) {
+  const std::type_identity<void()> no_more;
+  maker(m, "filtered_noise", no_more, &filtered_noise,
+        R"(A periodic Gaussian random surface with a given spectrum, by filtering white noise.
 
 .. math:: h(x) = \sum_q a(q) e^{iq\cdot x}, \qquad \langle|a(q)|^2\rangle = C(q)\,(2\pi)^2/(l_x l_y)
 
@@ -202,42 +212,22 @@ InvalidInput
 Interrupted
     If `progress` said stop, in any of the processes.
 )");
-  m.def(
-      "random_phase",
-      [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-         const ProcessesArgument& comm, const ProgressArgument& progress) {
-        cite({"salmon2011"});
-        const Communicator ranks = comm.ranks();
-        return new_surface(interruptible(
-            progress,
-            [&](const Progress& told) { return random_phase(grid, spectrum, seed, told, ranks); },
-            ranks));
-      },
-      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::kw_only(),
-      nb::arg("comm") = nb::none(), nb::arg("progress") = false,
+  maker(
+      m, "random_phase", no_more, &random_phase,
       R"(A periodic surface in which chance decides on phases only: ``|a(q)|² = C(q)·(2π)²/(lx ly)`` exactly.
 
 rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for each seed. Arguments and errors as
 :func:`filtered_noise`.
 )");
-  m.def(
-      "exact_rms",
+  maker(
+      m, "exact_rms", std::type_identity<void(const Choice<Rms>&)>{},
       [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, const Choice<Rms>& which,
-         const ProcessesArgument& comm, const ProgressArgument& progress) {
-        cite({"salmon2011"});
-        const Rms chosen = which.value("which");
-        const Communicator ranks = comm.ranks();
-        return new_surface(interruptible(
-            progress,
-            [&](const Progress& told) {
-              return exact_rms(grid, spectrum, seed, chosen, told, ranks);
-            },
-            ranks));
+         const Progress& told, const Communicator& ranks) {
+        return exact_rms(grid, spectrum, seed, which.value("which"), told, ranks);
       },
-      nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), nb::arg("which") = "height",
-      nb::kw_only(), nb::arg("comm") = nb::none(), nb::arg("progress") = false,
       "A random-phase surface scaled so that its own rms height (or slope) is that of the "
-      "continuum, `spectrum.moments`.");
+      "continuum, `spectrum.moments`.",
+      nb::arg("which") = "height");
   m.def(
       "scale_to_rms",
       [](const BoundSurface& surface, const Choice<Rms>& which, double target) {
@@ -269,16 +259,14 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
 }
 
 void bind_non_gaussian(nb::module_& m) {
-  nb::class_<HeightDistribution>(m, "HeightDistribution", nb::dynamic_attr(),
-                                 "A distribution of heights; location and scale do not matter.")
-      .def(
-          "quantile",
-          [](const HeightDistribution& self, const Numbers& u) {
-            return for_each_number(u, [&](double value) { return self.quantile(value); });
-          },
-          nb::arg("u"), nb::sig("def quantile(self, u: numpy.typing.ArrayLike) -> typing.Any"),
-          "Height that a fraction u of the surface lies below, 0 < u < 1.")
-      .def_ro("name", &HeightDistribution::name);
+  nb::class_<HeightDistribution> heights(
+      m, "HeightDistribution", nb::dynamic_attr(),
+      "A distribution of heights; location and scale do not matter.");
+  number_method(
+      heights, "quantile", "u",
+      [](const HeightDistribution& self, double u) { return self.quantile(u); },
+      "Height that a fraction u of the surface lies below, 0 < u < 1.");
+  heights.def_ro("name", &HeightDistribution::name);
   m.def("gaussian_heights", &gaussian_heights, "Normal heights.");
   m.def("weibull_heights", &weibull_heights, nb::arg("shape"),
         "Weibull: u = 1 − exp(−x^shape), shape > 0.");
@@ -377,21 +365,11 @@ void bind_profiles(nb::module_& m) {
       .def("density", &ProfileSpectrum::density, nb::arg("q"), "``C₁(|q|)``, m³.")
       .def_prop_ro("moments", &ProfileSpectrum::moments)
       .def("__repr__", &ProfileSpectrum::description);
-  nb::class_<SelfAffineProfileSpectrum, ProfileSpectrum>(
+  nb::class_<SelfAffineProfileSpectrum, ProfileSpectrum> self_affine(
       m, "SelfAffineProfileSpectrum",
       "Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. Parameters as "
-      "SelfAffineSpectrum.")
-      .def(
-          "__init__",
-          [](SelfAffineProfileSpectrum* self, double hurst, std::optional<double> long_cutoff,
-             std::optional<double> rolloff, double short_cutoff, std::optional<double> rms_height,
-             std::optional<double> rms_slope) {
-            new (self) SelfAffineProfileSpectrum(
-                {hurst, long_cutoff, rolloff, short_cutoff, rms_height, rms_slope});
-          },
-          nb::kw_only(), nb::arg("hurst") = 0.8, nb::arg("long_cutoff") = nb::none(),
-          nb::arg("rolloff") = nb::none(), nb::arg("short_cutoff"),
-          nb::arg("rms_height") = nb::none(), nb::arg("rms_slope") = nb::none());
+      "SelfAffineSpectrum.");
+  self_affine_constructor(self_affine);
   m.def("filtered_noise_profile", &filtered_noise_profile, nb::arg("points"), nb::arg("length"),
         nb::arg("spectrum"), nb::arg("seed"), "A Gaussian random profile.");
   m.def("random_phase_profile", &random_phase_profile, nb::arg("points"), nb::arg("length"),

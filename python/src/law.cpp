@@ -13,24 +13,6 @@
 #include "interop/surface.hpp"
 
 namespace salebra::python {
-namespace {
-
-using Evaluation = double (ContactLaw::*)(double) const;
-
-void evaluation(nb::class_<ContactLaw>& law, const char* name, const char* argument,
-                Evaluation function, const char* signature, const char* description) {
-  law.def(
-      name,
-      [function](const ContactLaw& self, const Numbers& numbers) {
-        return for_each_number(numbers, [&](double value) { return (self.*function)(value); });
-      },
-      nb::arg(argument), nb::sig(signature), description);
-}
-
-#define SALEBRA_OF_INDENTATION(name) \
-  "def " name "(self, indentation: numpy.typing.ArrayLike) -> typing.Any"
-
-}  // namespace
 
 void bind_law(nb::module_& m) {
   nb::class_<ContactLaw> law(
@@ -40,20 +22,17 @@ void bind_law(nb::module_& m) {
 Indentation δ grows with approach. Functions take a number or an array and return the same shape. Evaluation outside
 [lowest_indentation, highest_indentation] raises InvalidInput; below first touch, laws that define it return 0.
 )");
-  evaluation(law, "force", "indentation", &ContactLaw::force, SALEBRA_OF_INDENTATION("force"),
-             "F(δ), N.");
-  evaluation(law, "normal_stiffness", "indentation", &ContactLaw::normal_stiffness,
-             SALEBRA_OF_INDENTATION("normal_stiffness"), "K = F', N/m.");
-  evaluation(law, "force_curvature", "indentation", &ContactLaw::force_curvature,
-             SALEBRA_OF_INDENTATION("force_curvature"), "K' = F'', N/m².");
-  evaluation(law, "tangential_stiffness", "indentation", &ContactLaw::tangential_stiffness,
-             SALEBRA_OF_INDENTATION("tangential_stiffness"),
-             "K_t, N/m: (G*/E*)K unless the law was given a K_t of its own.");
-  evaluation(law, "tangential_curvature", "indentation", &ContactLaw::tangential_curvature,
-             SALEBRA_OF_INDENTATION("tangential_curvature"), "K_t', N/m².");
-  evaluation(
+  number_method(law, "force", "indentation", &ContactLaw::force, "F(δ), N.");
+  number_method(law, "normal_stiffness", "indentation", &ContactLaw::normal_stiffness,
+                "K = F', N/m.");
+  number_method(law, "force_curvature", "indentation", &ContactLaw::force_curvature,
+                "K' = F'', N/m².");
+  number_method(law, "tangential_stiffness", "indentation", &ContactLaw::tangential_stiffness,
+                "K_t, N/m: (G*/E*)K unless the law was given a K_t of its own.");
+  number_method(law, "tangential_curvature", "indentation", &ContactLaw::tangential_curvature,
+                "K_t', N/m².");
+  number_method(
       law, "indentation_of", "force", &ContactLaw::indentation_of,
-      "def indentation_of(self, force: numpy.typing.ArrayLike) -> typing.Any",
       "δ with F(δ) = force > 0, m; raises InvalidInput where the law does not reach that force.");
   law.def_prop_ro("lowest_indentation", &ContactLaw::lowest_indentation,
                   "−∞ unless the law is a table, m.")

@@ -14,12 +14,6 @@ namespace salebra::python {
 namespace {
 
 using Profile = IndenterProfile;
-using Evaluation = double (Profile::*)(double) const;
-
-std::shared_ptr<Profile> shared(std::unique_ptr<Profile> profile) {
-  cite({"popov_hess2015"});
-  return profile;
-}
 
 void bind_profile(nb::module_& m) {
   nb::class_<Profile> profile(m, "IndenterProfile", nb::dynamic_attr(),
@@ -29,57 +23,41 @@ void bind_profile(nb::module_& m) {
 
 Functions take a number or an array of radii, m, up to `largest_radius`.
 )");
-  const auto evaluation = [&](const char* name, const char* argument, Evaluation function,
-                              const char* signature, const char* description) {
-    profile.def(
-        name,
-        [function](const Profile& self, const Numbers& numbers) {
-          return for_each_number(numbers, [&](double value) { return (self.*function)(value); });
-        },
-        nb::arg(argument), nb::sig(signature), description);
-  };
-  evaluation("height", "r", &Profile::height,
-             "def height(self, r: numpy.typing.ArrayLike) -> typing.Any", "f(r), m.");
-  evaluation("image", "x", &Profile::image,
-             "def image(self, x: numpy.typing.ArrayLike) -> typing.Any", "g(x), m.");
-  evaluation("image_slope", "x", &Profile::image_slope,
-             "def image_slope(self, x: numpy.typing.ArrayLike) -> typing.Any",
-             "g'(x): the c of the paper at the edge.");
-  evaluation("image_integral", "x", &Profile::image_integral,
-             "def image_integral(self, x: numpy.typing.ArrayLike) -> typing.Any",
-             "∫_0^x g dx, m².");
-  evaluation("contact_radius", "indentation", &Profile::contact_radius,
-             "def contact_radius(self, indentation: numpy.typing.ArrayLike) -> typing.Any",
-             "a with g(a) = indentation, m.");
+  number_method(profile, "height", "r", &Profile::height, "f(r), m.");
+  number_method(profile, "image", "x", &Profile::image, "g(x), m.");
+  number_method(profile, "image_slope", "x", &Profile::image_slope,
+                "g'(x): the c of the paper at the edge.");
+  number_method(profile, "image_integral", "x", &Profile::image_integral, "∫_0^x g dx, m².");
+  number_method(profile, "contact_radius", "indentation", &Profile::contact_radius,
+                "a with g(a) = indentation, m.");
   profile.def_prop_ro("flat_radius", &Profile::flat_radius, "Radius of the flat end, m.")
       .def_prop_ro("largest_radius", &Profile::largest_radius, "Where the profile ends, m.")
       .def_prop_ro("has_side", &Profile::has_side,
                    "Whether the contact stops growing at largest_radius.");
 
-  m.def(
-      "cone_profile", [](double angle) { return shared(cone_profile(angle)); }, nb::arg("angle"),
-      "f = r tanθ: g = (π/2) tanθ x, Eqs (4), (5). angle: θ between flank and plane, rad.");
-  m.def(
-      "paraboloid_profile", [](double radius) { return shared(paraboloid_profile(radius)); },
-      nb::arg("radius"), "f = r²/2R: g = x²/R. radius: R, m.");
-  m.def(
-      "power_profile",
-      [](double coefficient, double exponent) {
-        return shared(power_profile(coefficient, exponent));
-      },
-      nb::arg("coefficient"), nb::arg("exponent"), "f = B rⁿ, n > 0: g = κ_n B xⁿ.");
-  m.def(
-      "sphere_profile", [](double radius) { return shared(sphere_profile(radius)); },
-      nb::arg("radius"), "f = R − √(R² − r²), exactly: g = x artanh(x/R). radius: R, m.");
-  m.def(
-      "flat_punch_profile", [](double radius) { return shared(flat_punch_profile(radius)); },
-      nb::arg("radius"), "Cylinder with a flat end, m.");
-  m.def(
-      "rounded_punch_profile",
-      [](double flat_radius, double edge_radius) {
-        return shared(rounded_punch_profile(flat_radius, edge_radius));
-      },
-      nb::arg("flat_radius"), nb::arg("edge_radius"), "Flat end with rounded edge, m.");
+  const auto made_by = [&m](const char* name, auto make, const char* description,
+                            auto... arguments) {
+    m.def(
+        name,
+        [make](decltype(arguments, 0.0)... sizes) -> std::shared_ptr<Profile> {
+          cite({"popov_hess2015"});
+          return make(sizes...);
+        },
+        arguments..., description);
+  };
+  made_by("cone_profile", &cone_profile,
+          "f = r tanθ: g = (π/2) tanθ x, Eqs (4), (5). angle: θ between flank and plane, rad.",
+          nb::arg("angle"));
+  made_by("paraboloid_profile", &paraboloid_profile, "f = r²/2R: g = x²/R. radius: R, m.",
+          nb::arg("radius"));
+  made_by("power_profile", &power_profile, "f = B rⁿ, n > 0: g = κ_n B xⁿ.", nb::arg("coefficient"),
+          nb::arg("exponent"));
+  made_by("sphere_profile", &sphere_profile,
+          "f = R − √(R² − r²), exactly: g = x artanh(x/R). radius: R, m.", nb::arg("radius"));
+  made_by("flat_punch_profile", &flat_punch_profile, "Cylinder with a flat end, m.",
+          nb::arg("radius"));
+  made_by("rounded_punch_profile", &rounded_punch_profile, "Flat end with rounded edge, m.",
+          nb::arg("flat_radius"), nb::arg("edge_radius"));
   nb::class_<TabulatedProfile, Profile>(m, "TabulatedProfile",
                                         "A profile measured or computed at radii: f between them "
                                         "by a monotone cubic, its image by exact quadrature.\n\n"
@@ -102,7 +80,7 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
 void bind_mdr(nb::module_& m) {
   bind_profile(m);
   using Law = IndenterLaw;
-  nb::class_<Law, ContactLaw>(
+  nb::class_<Law, ContactLaw> law(
       m, "IndenterLaw",
       R"(The contact of a profile with an elastic half-space, exact (method of dimensionality reduction).
 
@@ -115,22 +93,14 @@ Parameters
 profile : IndenterProfile
 material : Material
     With G*.
-)")
-      .def(
-          "__init__",
-          [](Law* self, std::shared_ptr<Profile> profile, const Material& material) {
-            new (self) Law(std::move(profile), material);
-          },
-          nb::arg("profile"), nb::arg("material"))
-      .def(
-          "contact_radius",
-          [](const Law& self, const Numbers& indentation) {
-            return for_each_number(indentation,
-                                   [&](double value) { return self.contact_radius(value); });
-          },
-          nb::arg("indentation"),
-          nb::sig("def contact_radius(self, indentation: numpy.typing.ArrayLike) -> typing.Any"),
-          "a, m.")
+)");
+  number_method(law, "contact_radius", "indentation", &Law::contact_radius, "a, m.");
+  law.def(
+         "__init__",
+         [](Law* self, std::shared_ptr<Profile> profile, const Material& material) {
+           new (self) Law(std::move(profile), material);
+         },
+         nb::arg("profile"), nb::arg("material"))
       .def(
           "pressure",
           [](const Law& self, double indentation, const Numbers& r) {

@@ -14,8 +14,9 @@
 namespace salebra::python {
 
 void bind_motion(nb::module_& m) {
-  described_class<EqualFrequency>(m, "EqualFrequency",
-                                  R"(Case (a) of the paper: z = u_z cos ωt, x = u_x cos(ωt + φ0).
+  auto equal = described_class<EqualFrequency>(
+      m, "EqualFrequency",
+      R"(Case (a) of the paper: z = u_z cos ωt, x = u_x cos(ωt + φ0).
 
 Parameters
 ----------
@@ -27,17 +28,9 @@ phase : float
     φ0, rad.
 angular_frequency : float
     ω, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power and damping constant do.
-)")
-      .def(
-          "__init__",
-          [](EqualFrequency* self, double normal_amplitude, double tangential_amplitude,
-             double phase, double angular_frequency) {
-            new (self)
-                EqualFrequency{normal_amplitude, tangential_amplitude, phase, angular_frequency};
-          },
-          nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("tangential_amplitude"),
-          nb::arg("phase"), nb::arg("angular_frequency") = 0.0);
-  described_class<Drag>(
+)");
+  keyword_constructor(equal, 3);
+  auto drag = described_class<Drag>(
       m, "Drag",
       R"(Case (b) of the paper: z = u_z cos ωt and a slow oscillation along x, of velocity v and an excursion far below (μE*/G*)F/K.
 
@@ -51,29 +44,14 @@ drag_velocity : float
     v, m/s.
 angular_frequency : float
     ω > 0, rad/s.
-)")
-      .def(
-          "__init__",
-          [](Drag* self, double normal_amplitude, double drag_velocity, double angular_frequency) {
-            new (self) Drag{normal_amplitude, drag_velocity, angular_frequency};
-          },
-          nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("drag_velocity"),
-          nb::arg("angular_frequency"));
-  described_class<TwoFrequencies>(
+)");
+  keyword_constructor(drag, 3);
+  auto two = described_class<TwoFrequencies>(
       m, "TwoFrequencies",
       "Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal "
       "ones are case (a), slow tangential "
-      "motion tends to case (b).")
-      .def(
-          "__init__",
-          [](TwoFrequencies* self, double normal_amplitude, double tangential_amplitude,
-             double phase, double normal_angular_frequency, double tangential_angular_frequency) {
-            new (self) TwoFrequencies{normal_amplitude, tangential_amplitude, phase,
-                                      normal_angular_frequency, tangential_angular_frequency};
-          },
-          nb::kw_only(), nb::arg("normal_amplitude"), nb::arg("tangential_amplitude"),
-          nb::arg("phase"), nb::arg("normal_angular_frequency"),
-          nb::arg("tangential_angular_frequency"));
+      "motion tends to case (b).");
+  keyword_constructor(two, 5);
   m.def(
       "common_period",
       [](const TwoFrequencies& motion, int most_cycles) {

@@ -34,40 +34,11 @@ std::string verdicts(const Premises& premises) {
 namespace {
 
 void bind_facts(nb::module_& m) {
-  described_class<ContactFacts>(
+  auto facts = described_class<ContactFacts>(
       m, "ContactFacts",
       "What is known of a contact in addition to its law and its motion. NaN: "
-      "not known.")
-      .def(
-          "__init__",
-          [](ContactFacts* self, double friction_coefficient, double hardness, double density,
-             double excursion, double contact_modulus, double dundurs, double loaded_size,
-             double nominal_pressure, double largest_pressure, double mean_contact_pressure,
-             double rms_slope, double first_load) {
-            new (self) ContactFacts{friction_coefficient,
-                                    hardness,
-                                    density,
-                                    excursion,
-                                    contact_modulus,
-                                    dundurs,
-                                    loaded_size,
-                                    nominal_pressure,
-                                    largest_pressure,
-                                    mean_contact_pressure,
-                                    rms_slope,
-                                    first_load};
-          },
-          nb::kw_only(), nb::arg("friction_coefficient") = ContactFacts::unknown,
-          nb::arg("hardness") = ContactFacts::unknown, nb::arg("density") = ContactFacts::unknown,
-          nb::arg("excursion") = ContactFacts::unknown,
-          nb::arg("contact_modulus") = ContactFacts::unknown,
-          nb::arg("dundurs") = ContactFacts::unknown,
-          nb::arg("loaded_size") = ContactFacts::unknown,
-          nb::arg("nominal_pressure") = ContactFacts::unknown,
-          nb::arg("largest_pressure") = ContactFacts::unknown,
-          nb::arg("mean_contact_pressure") = ContactFacts::unknown,
-          nb::arg("rms_slope") = ContactFacts::unknown,
-          nb::arg("first_load") = ContactFacts::unknown);
+      "not known.");
+  keyword_constructor(facts, 0);
 }
 
 void bind_premise_classes(nb::module_& m) {

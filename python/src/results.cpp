@@ -108,10 +108,7 @@ void bind_report(nb::module_& m) {
       [](const std::filesystem::path& results, const std::filesystem::path& html,
          const std::string& title, const std::vector<std::filesystem::path>& direct,
          bool overwrite) {
-        unlocked([&] {
-          write_report(results, html, {{overwrite}, title, direct});
-          return 0;
-        });
+        unlocked([&] { write_report(results, html, {{overwrite}, title, direct}); });
       },
       nb::arg("results"), nb::arg("html"), nb::kw_only(), nb::arg("title") = "",
       nb::arg("direct") = std::vector<std::filesystem::path>{}, nb::arg("overwrite") = false,

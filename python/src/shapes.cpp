@@ -14,15 +14,24 @@ namespace {
 
 using Point = std::pair<double, double>;
 
-ShapeCenter center_of(const std::optional<Point>& center) {
-  if (!center) return {};
-  return PlanePoint{center->first, center->second};
+/// make(grid, sizes…, center) of as many sizes as there are arguments.
+template <class Make, class... Argument>
+void body(nb::module_& m, const char* name, Make make, const char* description,
+          Argument... arguments) {
+  m.def(
+      name,
+      [make](const Grid2D& grid, decltype(arguments, 0.0)... sizes,
+             const std::optional<Point>& center) {
+        ShapeCenter at;
+        if (center) at = PlanePoint{center->first, center->second};
+        return new_surface(make(grid, sizes..., at));
+      },
+      nb::arg("grid"), arguments..., nb::arg("center") = nb::none(), description);
 }
 
 }  // namespace
 
 void bind_shapes(nb::module_& m) {
-  const auto center = [] { return nb::arg("center") = nb::none(); };
   m.def(
       "off_grid_center",
       [](const Grid2D& grid) {
@@ -33,67 +42,27 @@ void bind_shapes(nb::module_& m) {
       "The middle of the grid moved by (0.31, 0.17) of a cell, (x, y) in m: off the grid the "
       "contact area of a symmetric body does "
       "not jump by many cells at a time.");
-  m.def(
-      "paraboloid_surface",
-      [](const Grid2D& grid, double radius, std::optional<Point> at) {
-        return new_surface(paraboloid_surface(grid, radius, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("radius"), center(), "h = −r²/(2 radius), m.");
-  m.def(
-      "elliptic_paraboloid_surface",
-      [](const Grid2D& grid, double radius_x, double radius_y, std::optional<Point> at) {
-        return new_surface(elliptic_paraboloid_surface(grid, radius_x, radius_y, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("radius_x"), nb::arg("radius_y"), center(),
-      "h = −x²/(2 radius_x) − y²/(2 radius_y), m.");
-  m.def(
-      "sphere_surface",
-      [](const Grid2D& grid, double radius, std::optional<Point> at) {
-        return new_surface(sphere_surface(grid, radius, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("radius"), center(),
-      "The upper half of a sphere, h = √(radius² − r²) − radius, and −radius outside of it, m.");
-  m.def(
-      "ellipsoid_surface",
-      [](const Grid2D& grid, double semi_x, double semi_y, double semi_z, std::optional<Point> at) {
-        return new_surface(ellipsoid_surface(grid, semi_x, semi_y, semi_z, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("semi_x"), nb::arg("semi_y"), nb::arg("semi_z"), center(),
-      "The upper half of an ellipsoid of the given semi-axes, m.");
-  m.def(
-      "cone_surface",
-      [](const Grid2D& grid, double angle, std::optional<Point> at) {
-        return new_surface(cone_surface(grid, angle, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("angle"), center(),
-      "h = −r tan(angle), angle between flank and plane, rad.");
-  m.def(
-      "wedge_surface",
-      [](const Grid2D& grid, double angle, std::optional<Point> at) {
-        return new_surface(wedge_surface(grid, angle, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("angle"), center(), "``h = −|x| tan(angle)``: an edge along y.");
-  m.def(
-      "ridge_surface",
-      [](const Grid2D& grid, double radius, std::optional<Point> at) {
-        return new_surface(ridge_surface(grid, radius, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("radius"), center(),
-      "h = −x²/(2 radius): a cylinder lying along y.");
-  m.def(
-      "flat_punch_surface",
-      [](const Grid2D& grid, double radius, double depth, std::optional<Point> at) {
-        return new_surface(flat_punch_surface(grid, radius, depth, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("radius"), nb::arg("depth"), center(),
-      "A standing cylinder with a sharp edge: h = 0 for r <= radius, −depth outside, m.");
-  m.def(
-      "rounded_punch_surface",
-      [](const Grid2D& grid, double flat_radius, double edge_radius, std::optional<Point> at) {
-        return new_surface(rounded_punch_surface(grid, flat_radius, edge_radius, center_of(at)));
-      },
-      nb::arg("grid"), nb::arg("flat_radius"), nb::arg("edge_radius"), center(),
-      "A standing cylinder with a rounded edge, m.");
+  body(m, "paraboloid_surface", &paraboloid_surface, "h = −r²/(2 radius), m.", nb::arg("radius"));
+  body(m, "elliptic_paraboloid_surface", &elliptic_paraboloid_surface,
+       "h = −x²/(2 radius_x) − y²/(2 radius_y), m.", nb::arg("radius_x"), nb::arg("radius_y"));
+  body(m, "sphere_surface", &sphere_surface,
+       "The upper half of a sphere, h = √(radius² − r²) − radius, and −radius outside of it, m.",
+       nb::arg("radius"));
+  body(m, "ellipsoid_surface", &ellipsoid_surface,
+       "The upper half of an ellipsoid of the given semi-axes, m.", nb::arg("semi_x"),
+       nb::arg("semi_y"), nb::arg("semi_z"));
+  body(m, "cone_surface", &cone_surface, "h = −r tan(angle), angle between flank and plane, rad.",
+       nb::arg("angle"));
+  body(m, "wedge_surface", &wedge_surface, "``h = −|x| tan(angle)``: an edge along y.",
+       nb::arg("angle"));
+  body(m, "ridge_surface", &ridge_surface, "h = −x²/(2 radius): a cylinder lying along y.",
+       nb::arg("radius"));
+  body(m, "flat_punch_surface", &flat_punch_surface,
+       "A standing cylinder with a sharp edge: h = 0 for r <= radius, −depth outside, m.",
+       nb::arg("radius"), nb::arg("depth"));
+  body(m, "rounded_punch_surface", &rounded_punch_surface,
+       "A standing cylinder with a rounded edge, m.", nb::arg("flat_radius"),
+       nb::arg("edge_radius"));
   m.def(
       "pyramids_surface",
       [](const Grid2D& grid, Index count_x, Index count_y, double angle, const Point& shift) {

@@ -19,8 +19,8 @@ namespace salebra::python {
 namespace {
 
 void bind_slider_classes(nb::module_& m) {
-  described_class<Slider>(m, "Slider",
-                          R"(A mass that a spring and a dashpot drag over a contact.
+  auto slider = described_class<Slider>(m, "Slider",
+                                        R"(A mass that a spring and a dashpot drag over a contact.
 
 .. math:: m\ddot x + c(\dot x - V) - b\dot x + k(x - Vt) + T = 0
 
@@ -36,15 +36,8 @@ support_damping : float
     c of the dashpot in parallel with the spring, N s/m.
 falling_slope : float
     b of a friction force that falls by b per velocity, N s/m.
-)")
-      .def(
-          "__init__",
-          [](Slider* self, double mass, double spring_stiffness, double velocity,
-             double support_damping, double falling_slope) {
-            new (self) Slider{mass, spring_stiffness, velocity, support_damping, falling_slope};
-          },
-          nb::kw_only(), nb::arg("mass"), nb::arg("spring_stiffness"), nb::arg("velocity"),
-          nb::arg("support_damping") = 0.0, nb::arg("falling_slope") = 0.0);
+)");
+  keyword_constructor(slider, 3);
 
   described_class<SliderMotion>(m, "SliderMotion",
                                 "The motion in which a slider ends, means over slow cycles; NaN is "

@@ -113,12 +113,8 @@ void bind_correlation(nb::module_& m) {
 
 Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 )");
-  m.def(
-      "correlation_map",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return correlation_map(surface.surface); });
-      },
-      nb::arg("surface"), "Correlation of a surface; undefined points take no part.");
+  m.def("correlation_map", &of_surface<correlation_map>, nb::arg("surface"),
+        "Correlation of a surface; undefined points take no part.");
   auto correlation = described_class<Correlation>(
       m, "Correlation", "Autocorrelation and structure function over distance.");
   result_methods(correlation, true);
@@ -164,31 +160,20 @@ Row nx/2 + i and column j hold r = (i·dx, j·dy), j >= 0.
 }
 
 void bind_bearing(nb::module_& m) {
-  nb::class_<BearingCurve>(m, "BearingCurve", nb::dynamic_attr(),
-                           "Abbott and Firestone's bearing curve c(p): the height above which the "
-                           "part p of the surface lies.")
+  nb::class_<BearingCurve> bearing(m, "BearingCurve", nb::dynamic_attr(),
+                                   "Abbott and Firestone's bearing curve c(p): the height above "
+                                   "which the part p of the surface lies.");
+  number_method(bearing, "height", "area_fraction", &BearingCurve::height,
+                "c(p), m; ISO 25178-2 Smc(p).");
+  number_method(bearing, "area_fraction", "height", &BearingCurve::area_fraction,
+                "The part of the surface above a height, m; ISO 25178-2 Smr(c).");
+  bearing
       .def(
           "__init__",
           [](BearingCurve* self, const BoundSurface& surface) {
             new (self) BearingCurve(surface.surface);
           },
           nb::arg("surface"))
-      .def(
-          "height",
-          [](const BearingCurve& self, const Numbers& area_fraction) {
-            return for_each_number(area_fraction, [&](double p) { return self.height(p); });
-          },
-          nb::arg("area_fraction"),
-          nb::sig("def height(self, area_fraction: numpy.typing.ArrayLike) -> typing.Any"),
-          "c(p), m; ISO 25178-2 Smc(p).")
-      .def(
-          "area_fraction",
-          [](const BearingCurve& self, const Numbers& height) {
-            return for_each_number(height, [&](double c) { return self.area_fraction(c); });
-          },
-          nb::arg("height"),
-          nb::sig("def area_fraction(self, height: numpy.typing.ArrayLike) -> typing.Any"),
-          "The part of the surface above a height, m; ISO 25178-2 Smr(c).")
       .def("integral", &BearingCurve::integral, nb::arg("start"), nb::arg("stop"), "∫ c dp, m.")
       .def_prop_ro(
           "heights",

@@ -197,10 +197,7 @@ void bind_result(nb::module_& m) {
       .def(
           "write",
           [](const StudyResult& self, const std::filesystem::path& file, bool overwrite) {
-            unlocked([&] {
-              write_study(file, self, {}, {overwrite});
-              return 0;
-            });
+            unlocked([&] { write_study(file, self, {}, {overwrite}); });
           },
           nb::arg("file"), nb::kw_only(), nb::arg("overwrite") = false,
           "Writes an HDF5 file, each group of which xarray opens as it is: "
@@ -216,21 +213,26 @@ void warn_user_unlocked(const std::string& text) {
 }
 
 void bind_runs(nb::module_& m) {
-  m.def(
-      "run_study",
-      [](const StudyConfiguration& configuration, const std::optional<std::filesystem::path>& parts,
-         bool resume, const ProgressArgument& progress) {
-        cite_study();
-        const std::unique_ptr<StudyParts> folder =
-            parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
-        return interruptible(progress, [&](const Progress& told) {
-          return run_study(
-              configuration,
-              {.on_progress = told, .on_warning = warn_user_unlocked, .parts = folder.get()});
-        });
-      },
-      nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),
-      nb::arg("resume") = true, nb::arg("progress") = false,
+  const auto define = [&m](const char* name, auto run, bool resumes, const char* description) {
+    m.def(
+        name,
+        [run](const StudyConfiguration& configuration,
+              const std::optional<std::filesystem::path>& parts, bool resume,
+              const ProgressArgument& progress) {
+          cite_study();
+          const std::unique_ptr<StudyParts> folder =
+              parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
+          return interruptible(progress, [&](const Progress& told) {
+            return run(
+                configuration,
+                {.on_progress = told, .on_warning = warn_user_unlocked, .parts = folder.get()});
+          });
+        },
+        nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),
+        nb::arg("resume") = resumes, nb::arg("progress") = false, description);
+  };
+  define(
+      "run_study", &run_study, true,
       R"(Surface → statistics → contact models → exponential law → damping, for an ensemble or a measured surface.
 
 Same bits for every thread count, and for a run that was stopped and continued.
@@ -249,22 +251,8 @@ Raises
 NotConverged
     Where fewer than four contacts of a sweep converged.
 )");
-  m.def(
-      "run_ensembles",
-      [](const StudyConfiguration& configuration, const std::optional<std::filesystem::path>& parts,
-         bool resume, const ProgressArgument& progress) {
-        cite_study();
-        const std::unique_ptr<StudyParts> folder =
-            parts ? std::make_unique<StudyParts>(*parts, resume) : nullptr;
-        return interruptible(progress, [&](Progress told) {
-          return run_ensembles(configuration, {.on_progress = std::move(told),
-                                               .on_warning = warn_user_unlocked,
-                                               .parts = folder.get()});
-        });
-      },
-      nb::arg("configuration"), nb::kw_only(), nb::arg("parts") = nb::none(),
-      nb::arg("resume") = false, nb::arg("progress") = false,
-      R"(The ensembles of every point of a configuration's parameter grid.
+  define("run_ensembles", &run_ensembles, false,
+         R"(The ensembles of every point of a configuration's parameter grid.
 
 Parameters
 ----------
@@ -281,10 +269,7 @@ progress : bool or callable
          bool overwrite) {
         std::vector<StudyResult> copies;
         for (const StudyResult* result : results) copies.push_back(*result);
-        unlocked([&] {
-          write_ensembles(file, copies, {}, {overwrite});
-          return 0;
-        });
+        unlocked([&] { write_ensembles(file, copies, {}, {overwrite}); });
       },
       nb::arg("file"), nb::arg("results"), nb::kw_only(), nb::arg("overwrite") = false,
       "Writes the results of :func:`run_ensembles` to one HDF5 file.");

@@ -53,6 +53,30 @@ Examples
 >>> numpy.shares_memory(surface.heights, heights)
 True
 )");
+  const auto property = [&surface](const char* name, auto value, const char* description) {
+    surface.def_prop_ro(
+        name, [value](const BoundSurface& self) { return value(self.surface); }, description);
+  };
+  property(
+      "grid", [](const Surface& s) { return s.grid; }, "Points and size.");
+  property(
+      "nx", [](const Surface& s) { return s.grid.nx; }, "Points along x.");
+  property(
+      "ny", [](const Surface& s) { return s.grid.ny; }, "Points along y.");
+  property(
+      "size_x", [](const Surface& s) { return s.grid.lx; }, "Size along x, m.");
+  property(
+      "size_y", [](const Surface& s) { return s.grid.ly; }, "Size along y, m.");
+  property(
+      "area", [](const Surface& s) { return s.grid.area(); }, "Nominal area, m².");
+  property(
+      "periodic", [](const Surface& s) { return s.periodic; },
+      "Whether the surface repeats itself.");
+  property(
+      "origin", [](const Surface& s) { return s.origin; }, "File, or generator with its seed.");
+  property(
+      "undefined_points", [](const Surface& s) { return s.undefined_points(); },
+      "Number of NaN heights, among the rows of this process.");
   surface
       .def(nb::init<const FieldArgument&, double, double, bool, std::string>(), nb::arg("heights"),
            nb::arg("size_x"), nb::arg("size_y"), nb::kw_only(), nb::arg("periodic") = false,
@@ -103,31 +127,6 @@ root : int
           nb::sig("def __array__(self, dtype: typing.Any = None, copy: bool | None = None) -> "
                   "numpy.typing.NDArray[typing.Any]"),
           "numpy.asarray(surface) is its heights.")
-      .def_prop_ro(
-          "grid", [](const BoundSurface& self) { return self.surface.grid; }, "Points and size.")
-      .def_prop_ro(
-          "nx", [](const BoundSurface& self) { return self.surface.grid.nx; }, "Points along x.")
-      .def_prop_ro(
-          "ny", [](const BoundSurface& self) { return self.surface.grid.ny; }, "Points along y.")
-      .def_prop_ro(
-          "size_x", [](const BoundSurface& self) { return self.surface.grid.lx; },
-          "Size along x, m.")
-      .def_prop_ro(
-          "size_y", [](const BoundSurface& self) { return self.surface.grid.ly; },
-          "Size along y, m.")
-      .def_prop_ro(
-          "area", [](const BoundSurface& self) { return self.surface.grid.area(); },
-          "Nominal area, m².")
-      .def_prop_ro(
-          "periodic", [](const BoundSurface& self) { return self.surface.periodic; },
-          "Whether the surface repeats itself.")
-      .def_prop_ro(
-          "origin", [](const BoundSurface& self) { return self.surface.origin; },
-          "File, or generator with its seed.")
-      .def_prop_ro(
-          "undefined_points",
-          [](const BoundSurface& self) { return self.surface.undefined_points(); },
-          "Number of NaN heights, among the rows of this process.")
       .def("detrended", &detrended_surface, nb::arg("method") = "plane",
            R"(The surface less its trend.
 
@@ -216,21 +215,11 @@ void bind_height_statistics(nb::module_& m) {
       m, "HeightStatistics",
       "Moments of the height distribution over all defined points; no filter is applied. Skewness "
       "and kurtosis of a flat surface are NaN.");
-  m.def(
-      "height_statistics",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return height_statistics(surface.surface); });
-      },
-      nb::arg("surface"),
-      "Moments of the heights; undefined points take no part. Of a surface that is spread over "
-      "processes all of them make this call. Cost: two passes.");
-  m.def(
-      "spectral_moments",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return spectral_moments(surface.surface); });
-      },
-      nb::arg("surface"),
-      R"(Moments of a periodic surface from its spectrum: those of its trigonometric interpolant.
+  m.def("height_statistics", &of_surface<height_statistics>, nb::arg("surface"),
+        "Moments of the heights; undefined points take no part. Of a surface that is spread over "
+        "processes all of them make this call. Cost: two passes.");
+  m.def("spectral_moments", &of_surface<spectral_moments>, nb::arg("surface"),
+        R"(Moments of a periodic surface from its spectrum: those of its trigonometric interpolant.
 
 .. math:: m_{2,x} = \sum_q q_x^2 |\hat h|^2/N^2, \quad m_{4,x} = \sum_q q_x^4 |\hat h|^2/N^2
 
@@ -239,24 +228,14 @@ Raises
 InvalidInput
     Unless the surface is periodic and complete.
 )");
-  m.def(
-      "difference_moments",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return difference_moments(surface.surface); });
-      },
-      nb::arg("surface"),
-      R"(Moments by finite differences of neighbouring points, for measured surfaces.
+  m.def("difference_moments", &of_surface<difference_moments>, nb::arg("surface"),
+        R"(Moments by finite differences of neighbouring points, for measured surfaces.
 
 Where the surface has structure at the scale of the grid they are smaller than the spectral moments: a mode of wave number q
 counts with (2 sin(q dx/2)/dx)² in place of q².
 )");
-  m.def(
-      "surface_moments",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return surface_moments(surface.surface); });
-      },
-      nb::arg("surface"),
-      ":func:`spectral_moments` of a periodic surface, :func:`difference_moments` of any other.");
+  m.def("surface_moments", &of_surface<surface_moments>, nb::arg("surface"),
+        ":func:`spectral_moments` of a periodic surface, :func:`difference_moments` of any other.");
   m.def(
       "_doubt_of_heights",
       [](const BoundSurface& surface) {
@@ -295,11 +274,7 @@ void bind_summits(nb::module_& m) {
       "An ensemble of summits as the Greenwood–Williamson theory uses it; heights are from the "
       "zero of those of the surface.");
   m.def(
-      "find_summits",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return find_summits(surface.surface); });
-      },
-      nb::arg("surface"),
+      "find_summits", &of_surface<find_summits>, nb::arg("surface"),
       R"(Every point that is higher than its eight neighbours, with the least-squares paraboloid through the 3 × 3 points.
 
 Neighbours wrap where the surface is periodic; elsewhere the border is not searched, nor are points beside undefined ones.
@@ -324,15 +299,10 @@ void bind_areal_parameters(nb::module_& m) {
   described_class<ArealParameters>(
       m, "ArealParameters",
       "Areal parameters by the definitions of ISO 25178-2, under their names there.");
-  m.def(
-      "areal_parameters",
-      [](const BoundSurface& surface) {
-        return unlocked([&] { return areal_parameters(surface.surface); });
-      },
-      nb::arg("surface"),
-      "ISO 25178-2 parameters of the surface as it is given: form is removed by "
-      ":meth:`Surface.detrended` alone, no S- or "
-      "L-filter is applied.");
+  m.def("areal_parameters", &of_surface<areal_parameters>, nb::arg("surface"),
+        "ISO 25178-2 parameters of the surface as it is given: form is removed by "
+        ":meth:`Surface.detrended` alone, no S- or "
+        "L-filter is applied.");
 }
 
 }  // namespace

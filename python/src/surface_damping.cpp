@@ -19,15 +19,7 @@ namespace salebra::python {
 
 void bind_surface_damping(nb::module_& m) {
   described_class<SurfaceDamping>(
-      m, "SurfaceDamping", "Damping of one surface at one load, with its error; NaN is unknown.")
-      .def("__repr__", [](const SurfaceDamping& self) {
-        return describe("SurfaceDamping",
-                        {{"damping_constant", self.damping_constant},
-                         {"damping_constant_error", self.damping_constant_error()},
-                         {"work_per_cycle", self.work_per_cycle},
-                         {"error", self.error}},
-                        self.converged ? "converged=True" : "converged=False");
-      });
+      m, "SurfaceDamping", "Damping of one surface at one load, with its error; NaN is unknown.");
   m.def(
       "surface_damping",
       [](const BoundSurface& surface, const Material& material,

@@ -75,8 +75,8 @@ void bind_theories(nb::module_& m) {
 
   described_class<PerssonTheory::Asymptote>(
       m, "PerssonAsymptote", "p = factor·E*·exp(−ū/decay_length), the limit of small pressures.");
-  nb::class_<PerssonTheory>(m, "PerssonTheory", nb::dynamic_attr(),
-                            R"(Mean gap and stiffness by Persson's theory.
+  nb::class_<PerssonTheory> persson(m, "PerssonTheory", nb::dynamic_attr(),
+                                    R"(Mean gap and stiffness by Persson's theory.
 
 .. math:: \bar u(p) = \sqrt\pi\int q^2Cw\int_p^\infty[\gamma+3(1-\gamma)P^2]\,e^{-(wp'/E^*)^2}\frac{dp'}{p'}\,dq
 
@@ -89,60 +89,32 @@ material : Material or float
     Or E* alone, Pa.
 energy_factor : float
     γ in (0, 1]: 0.4 to 0.5 agrees with simulations.
-)")
+)");
+  persson
       .def(
           "__init__",
           [](PerssonTheory* self, std::vector<RoughnessShell> shells,
              const MaterialArgument& material, double energy_factor) {
+            cite({"persson2001", "persson2007", "yang_persson2008"});
             new (self) PerssonTheory(std::move(shells), material.material().contact_modulus,
                                      energy_factor);
           },
           nb::arg("shells"), nb::arg("material"),
           nb::arg("energy_factor") = PerssonTheory::usual_energy_factor)
-      .def(
-          "mean_gap",
-          [](const PerssonTheory& self, const Numbers& pressure) {
-            cite({"persson2007", "yang_persson2008"});
-            return for_each_number(pressure, [&](double p) { return self.mean_gap(p); });
-          },
-          nb::arg("pressure"),
-          nb::sig("def mean_gap(self, pressure: numpy.typing.ArrayLike) -> typing.Any"), "ū, m.")
-      .def(
-          "stiffness_per_area",
-          [](const PerssonTheory& self, const Numbers& pressure) {
-            cite({"persson2007", "yang_persson2008"});
-            return for_each_number(pressure, [&](double p) { return self.stiffness_per_area(p); });
-          },
-          nb::arg("pressure"),
-          nb::sig("def stiffness_per_area(self, pressure: numpy.typing.ArrayLike) -> typing.Any"),
-          "K/A0 = −dp/dū, Pa/m.")
-      .def(
-          "contact_area_fraction",
-          [](const PerssonTheory& self, const Numbers& pressure) {
-            cite({"persson2001"});
-            return for_each_number(pressure,
-                                   [&](double p) { return self.contact_area_fraction(p); });
-          },
-          nb::arg("pressure"),
-          nb::sig(
-              "def contact_area_fraction(self, pressure: numpy.typing.ArrayLike) -> typing.Any"),
-          "A/A0.")
-      .def(
-          "pressure",
-          [](const PerssonTheory& self, const Numbers& mean_gap) {
-            return for_each_number(mean_gap, [&](double gap) { return self.pressure(gap); });
-          },
-          nb::arg("mean_gap"),
-          nb::sig("def pressure(self, mean_gap: numpy.typing.ArrayLike) -> typing.Any"),
-          "The inverse of mean_gap, for ū > 0, Pa.")
       .def_prop_ro("asymptote", &PerssonTheory::asymptote, "The limit of small pressures.")
       .def_prop_ro("rms_height", &PerssonTheory::rms_height, "m")
       .def_prop_ro("rms_slope", &PerssonTheory::rms_slope);
+  number_method(persson, "mean_gap", "pressure", &PerssonTheory::mean_gap, "ū, m.");
+  number_method(persson, "stiffness_per_area", "pressure", &PerssonTheory::stiffness_per_area,
+                "K/A0 = −dp/dū, Pa/m.");
+  number_method(persson, "contact_area_fraction", "pressure", &PerssonTheory::contact_area_fraction,
+                "A/A0.");
+  number_method(persson, "pressure", "mean_gap", &PerssonTheory::pressure,
+                "The inverse of mean_gap, for ū > 0, Pa.");
   m.def(
       "persson_curve",
       [](const PerssonTheory& theory, const Material& material, double nominal_area,
          const Values& pressures) {
-        cite({"persson2007", "yang_persson2008"});
         return persson_curve(theory, material, nominal_area, pressures.values);
       },
       nb::arg("theory"), nb::arg("material"), nb::arg("nominal_area"), nb::arg("pressures"),

@@ -5,8 +5,10 @@
 #include <nanobind/ndarray.h>
 
 #include <cstdint>
+#include <functional>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/tangential/stick.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +52,11 @@ struct Numbers {
 /// function of each number.
 template <class Function>
 nb::object for_each_number(const Numbers& numbers, const Function& function);
+
+/// A method, or a function of an object and a number, that takes and returns arrays too.
+template <class Class, class Function>
+void number_method(Class& bound, const std::string& name, const std::string& argument,
+                   Function function, const char* description);
 
 /// A Field that lives in the memory of a NumPy array. The array must outlive the object, and the
 /// field must keep its size. Where the memory cannot be used as it is (not aligned as Eigen wants
@@ -131,6 +138,20 @@ nb::object for_each_number(const Numbers& numbers, const Function& function) {
   nb::object result = empty_like(numbers, out, size);
   for (std::size_t i = 0; i < size; ++i) out[i] = function(in[i]);
   return result;
+}
+
+template <class Class, class Function>
+void number_method(Class& bound, const std::string& name, const std::string& argument,
+                   Function function, const char* description) {
+  const std::string signature =
+      "def " + name + "(self, " + argument + ": numpy.typing.ArrayLike) -> typing.Any";
+  bound.def(
+      name.c_str(),
+      [function](const typename Class::Type& self, const Numbers& numbers) {
+        return for_each_number(numbers,
+                               [&](double value) { return std::invoke(function, self, value); });
+      },
+      nb::arg(argument.c_str()), nb::sig(signature.c_str()), description);
 }
 
 }  // namespace salebra::python

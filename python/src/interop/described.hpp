@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -9,6 +10,8 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/words.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "interop/arrays.hpp"
 #include "interop/values.hpp"
@@ -93,6 +96,45 @@ nb::class_<T> described_class(nb::module_& module, const char* name, const char*
            std::type_identity<T>{});
   value_methods(bound);
   return bound;
+}
+
+/// A constructor of keywords, one for each number that is described: the first `required` of them
+/// must be given, the others are those of T{}.
+template <Described T>
+void keyword_constructor(nb::class_<T>& bound, std::size_t required) {
+  std::vector<std::pair<std::string, double T::*>> members;
+  describe(
+      [&](auto member, const auto& line) {
+        if constexpr (std::is_same_v<decltype(member), double T::*>)
+          members.emplace_back(line.name, member);
+      },
+      std::type_identity<T>{});
+  std::string signature = "def __init__(self, *";
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    signature += ", " + members[i].first + ": float";
+    const double given = T{}.*members[i].second;
+    if (i >= required)
+      signature += given == given ? fmt::format(" = {:.1f}", given) : " = float('nan')";
+  }
+  bound.def(
+      "__init__",
+      [members, required](T* self, const nb::kwargs& given) {
+        // What nanobind says of other arguments, which salebra._calls explains.
+        const auto accept = [](bool right) {
+          if (!right) throw nb::type_error("incompatible function arguments");
+        };
+        T made;
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+          const auto& [name, member] = members[i];
+          const bool there = given.contains(name.c_str());
+          accept(there ? nb::try_cast(given[name.c_str()], made.*member) : i >= required);
+          found += there;
+        }
+        accept(found == given.size());
+        new (self) T(made);
+      },
+      nb::sig((signature + ") -> None").c_str()));
 }
 
 }  // namespace salebra::python

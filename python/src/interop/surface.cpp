@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surface that shares the memory of a NumPy array, and texts for repr().
+// Surface that shares the memory of a NumPy array.
 #include "interop/surface.hpp"
 
 #include <limits>
-#include <salebra/base/units.hpp>
-#include <salebra/results/quantity.hpp>
 
 namespace salebra::python {
 
@@ -32,19 +30,5 @@ nb::object range_of(const Share& rows) {
 }
 
 BoundSurface* new_surface(Surface surface) { return new BoundSurface(std::move(surface)); }
-
-std::string describe(std::string_view type,
-                     std::initializer_list<std::pair<std::string_view, double>> numbers,
-                     std::string_view rest) {
-  std::string text = std::string(type) + "(";
-  bool first = true;
-  for (const auto& [name, value] : numbers) {
-    text += (first ? "" : ", ") + std::string(name) + "=" +
-            format_quantity(value, find_quantity(name).dimension);
-    first = false;
-  }
-  if (!rest.empty()) text += (first ? "" : ", ") + std::string(rest);
-  return text + ")";
-}
 
 }  // namespace salebra::python

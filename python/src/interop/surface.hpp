@@ -4,7 +4,6 @@
 #include <nanobind/nanobind.h>
 
 #include <concepts>
-#include <initializer_list>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
@@ -12,10 +11,10 @@
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "interop/arrays.hpp"
+#include "interop/running.hpp"
 
 namespace salebra::python {
 
@@ -70,13 +69,14 @@ nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& ranks,
   return nb::cast(gathered.release(), nb::rv_policy::take_ownership);
 }
 
+/// function(surface) without the interpreter's lock.
+template <auto function>
+auto of_surface(const BoundSurface& surface) {
+  return unlocked([&] { return function(surface.surface); });
+}
+
 /// A new Python object of a surface made by the library; its heights are not copied.
 BoundSurface* new_surface(Surface surface);
-
-/// "Name(pressure=1.5 MPa, …)": each number with the unit that salebra gives to its name.
-std::string describe(std::string_view type,
-                     std::initializer_list<std::pair<std::string_view, double>> numbers,
-                     std::string_view rest = {});
 
 /// to_xarray() and, if wanted, plot(), which salebra._results and salebra._plots do.
 template <class Bound>
