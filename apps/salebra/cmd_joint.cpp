@@ -198,34 +198,27 @@ void add_joint_command(Program& program) {
       "loss over force, loop and backbone", OutputCheck::any_name);
   arguments->law.add_to(command);
   arguments->material.add_to(command);
-  const std::string motion = "Motion";
+  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+               "for results per area too; default: that of --curve");
+  command.under("Motion");
   add_values(command, "--tangential-forces", arguments->tangential_forces, Dimension::force,
-             "T of an oscillation between -T and T: one, a list or a range")
-      ->group(motion);
+             "T of an oscillation between -T and T: one, a list or a range");
   add_values(command, "--tangential-amplitudes", arguments->tangential_amplitudes,
-             Dimension::length, "x of an oscillation between -x and x, instead")
-      ->group(motion);
+             Dimension::length, "x of an oscillation between -x and x, instead");
   add_quantity(command, "--normal-amplitude", arguments->normal_amplitude, Dimension::length,
-               "u_z; without it the normal force is constant")
-      ->group(motion);
+               "u_z; without it the normal force is constant");
   add_quantity(command, "--phase", arguments->phase, Dimension::angle,
-               "of the tangential motion against the normal one; default 0")
-      ->group(motion);
+               "of the tangential motion against the normal one; default 0");
   command
       .add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
-      ->range(16, 10000000)
-      ->group(motion);
+      ->range(16, 10000000);
   command
       .add_option("--direct-steps", arguments->direct_steps,
                   "simulates each motion cell by cell too, with so many steps in a cycle; of "
                   "--surface")
-      ->range(16, 100000)
-      ->group(motion);
+      ->range(16, 100000);
   add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency,
-               "in Hz, to judge inertia")
-      ->group(motion);
-  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
-               "for results per area too; default: that of --curve");
+               "in Hz, to judge inertia");
   arguments->premises.add_to(command, false);
 }
 

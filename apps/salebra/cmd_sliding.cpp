@@ -224,39 +224,30 @@ void run(const SlidingArguments& arguments, Session& session) {
 }
 
 void add_slider(Command& command, SlidingArguments& arguments) {
-  const std::string body = "Slider on a spring";
+  const Heading under(command, "Slider on a spring");
   add_quantity(command, "--mass", arguments.mass, Dimension::mass,
-               "m of a slider that a spring drags, in place of steady sliding")
-      ->group(body);
+               "m of a slider that a spring drags, in place of steady sliding");
   add_quantity(command, "--spring-stiffness", arguments.spring_stiffness, Dimension::stiffness,
-               "k of the spring that drags it")
-      ->group(body);
+               "k of the spring that drags it");
   add_quantity(command, "--support-damping", arguments.support_damping, Dimension::damping,
-               "c of a dashpot in parallel with the spring; default 0")
-      ->group(body);
+               "c of a dashpot in parallel with the spring; default 0");
   add_quantity(command, "--falling-slope", arguments.falling_slope, Dimension::damping,
-               "b of a friction force that falls by b per velocity; default 0")
-      ->group(body);
+               "b of a friction force that falls by b per velocity; default 0");
   add_choice<SliderStart>(command, "--start", arguments.start,
                           "where the motion begins: at rest, on the point of slipping, or sliding "
-                          "with a small disturbance; default rest")
-      ->group(body);
+                          "with a small disturbance; default rest");
   add_quantity(command, "--largest-amplitude", arguments.largest_amplitude, Dimension::length,
-               "to look for the threshold in; default 10 times that of the smallest effect")
-      ->group(body);
+               "to look for the threshold in; default 10 times that of the smallest effect");
   command
       .add_option("--steps", arguments.steps,
                   "in a period of the oscillation, doubled until the tolerance is met; default 32")
-      ->range(16, 100000)
-      ->group(body);
+      ->range(16, 100000);
   command
       .add_option("--most-cycles", arguments.most_cycles,
                   "slow cycles after which the motion is given up; default 200")
-      ->range(1, 1000000)
-      ->group(body);
+      ->range(1, 1000000);
   add_quantity(command, "--tolerance", arguments.tolerance, Dimension::dimensionless,
-               "of the amplitude of a slow cycle; default 0.01")
-      ->group(body);
+               "of the amplitude of a slow cycle; default 0.01");
 }
 
 }  // namespace
@@ -277,25 +268,20 @@ void add_sliding_command(Program& program) {
       OutputCheck::any_name);
   arguments->law.add_to(command);
   arguments->material.add_to(command);
-  const std::string motion = "Motion";
+  command.under("Motion");
   SlidingQuestion& sliding = arguments->sliding;
   add_values(command, "--velocities", sliding.velocities, Dimension::velocity,
-             "of sliding, > 0: one, a list or a range; of the drive of a slider")
-      ->group(motion);
+             "of sliding, > 0: one, a list or a range; of the drive of a slider");
   add_values(command, "--velocity-ratios", sliding.velocity_ratios, Dimension::dimensionless,
-             "v/v_c, instead of --velocities")
-      ->group(motion);
+             "v/v_c, instead of --velocities");
   add_values(command, "--excursions", sliding.excursions, Dimension::length,
              "X of slow oscillations between turning points, to map no slip, partial slip and "
-             "sliding over the velocities")
-      ->group(motion);
+             "sliding over the velocities");
   add_values(command, "--normal-amplitude", sliding.normal_amplitude, Dimension::length,
-             "u_z; a map over amplitudes where it is a list or a range; of a slider 0 by default")
-      ->group(motion);
-  arguments->frequency.add_to(command, motion, true);
+             "u_z; a map over amplitudes where it is a list or a range; of a slider 0 by default");
+  arguments->frequency.add_to(command, "Motion", true);
   add_choice<Hold>(command, "--hold", arguments->hold,
-                   "what stays in the mean; default indentation")
-      ->group(motion);
+                   "what stays in the mean; default indentation");
   add_slider(command, *arguments);
   arguments->premises.add_to(command, false);
 }

@@ -160,20 +160,19 @@ void add_viscoelastic_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "losses and complex modulus over the quantity that varies", OutputCheck::any_name);
   arguments->indenter.add_to(command);
-  const std::string position = "Position";
+  command.under("Position");
   add_quantity(command, "--indentation", arguments->indentation, Dimension::length,
-               "mean, from first touch")
-      ->group(position);
+               "mean, from first touch");
   add_quantity(command, "--normal-force", arguments->force, Dimension::force,
-               "of the relaxed contact at rest")
-      ->group(position);
+               "of the relaxed contact at rest");
   arguments->material.add_to(command);
+  command.under("Material");
   command
       .add_option("--prony", arguments->prony,
                   "terms G1:T1,G2:T2,... of the shear relaxation modulus, added to the relaxed one "
                   "of the other options: 3MPa:20ms")
-      ->type_name("LIST")
-      ->group("Material");
+      ->type_name("LIST");
+  command.under("Options");
   arguments->motion.add_to(command);
   command.add_option("--steps", arguments->steps, "straight steps of a cycle; default 512")
       ->range(16, 1000000);

@@ -12,20 +12,16 @@
 namespace salebra::cli {
 
 void FrictionOptions::add_to(Command& app) {
-  const std::string group = "Friction";
+  const Heading under(app, "Friction");
   add_quantity(app, "--friction", friction_coefficient, Dimension::dimensionless,
                "Coulomb's coefficient: steps through the cycle once more, with slip where the "
-               "traction would exceed it; without it nothing slips")
-      ->group(group);
+               "traction would exceed it; without it nothing slips");
   app.add_flag("--coupled", coupled,
-               "steps once more with pressures and tractions coupled by Dundurs' beta")
-      ->group(group);
+               "steps once more with pressures and tractions coupled by Dundurs' beta");
   add_quantity(app, "--dundurs", dundurs, Dimension::dimensionless,
-               "Dundurs' beta, with --coupled; default: that of the material")
-      ->group(group);
+               "Dundurs' beta, with --coupled; default: that of the material");
   app.add_option("--max-periods", max_periods,
-                 "periods with friction, at most, until two lose the same; default 6")
-      ->group(group);
+                 "periods with friction, at most, until two lose the same; default 6");
 }
 
 void FrictionOptions::check() const {

@@ -203,14 +203,15 @@ std::string program_help(const std::deque<Command>& commands) {
                         command.name(), command.what());
   }
   return text + "\n" + std::string(chart) +
-         "\nOptions of every command: salebra help options. Exit status: 0 done, 1 failed while "
-         "running, 2 bad usage or input, 3 surfaces missing (study --merge), 130 interrupted.\n";
+         "\nOptions of every command, values and exit status: salebra help options.\n";
 }
 
 std::string options_help(const Command& command) {
   return section(command, common_options, {}).substr(1) +
          "\nValues take units (10um, 20kHz, 115GPa, 90deg); a bare number is SI. VALUES are one "
-         "value, a list a,b,c or a range from:to:count in geometric progression.\n";
+         "value, a list a,b,c or a range from:to:count in geometric progression.\n\n"
+         "Exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 surfaces missing "
+         "(study --merge), 130 interrupted.\n";
 }
 
 std::string command_help(const Command& command) {

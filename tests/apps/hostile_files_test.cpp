@@ -95,9 +95,9 @@ TEST_CASE("Every command that reads HDF5 refuses storage outside the file", "[ho
   const ProgramTest test;
   lay_baits(test);
   hostile::write_hdf5_files(test.folder());
-  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
-                   "0.2um --rms-height 1nm -o s.h5")
-              .status == 0);
+  test.done(
+      "generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+      "0.2um --rms-height 1nm -o s.h5");
   // Each command meets its dataset where it looks for it; what it says of the rest of the file is
   // its own matter.
   const std::string press = "contact s.h5 --pressure 1MPa --contact-modulus 10GPa ";
@@ -123,9 +123,9 @@ TEST_CASE("Pipes, devices and folders are refused by every reader at once", "[ho
   const ProgramTest test;
   lay_baits(test);
   REQUIRE(mkfifo((test.folder() / "a.npy.json").c_str(), 0600) == 0);
-  REQUIRE(test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
-                   "0.2um --rms-height 1nm -o s.npy")
-              .status == 0);
+  test.done(
+      "generate --points 16 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+      "0.2um --rms-height 1nm -o s.npy");
   fs::copy_file(test.folder() / "s.npy", test.folder() / "a.npy");
   check_harmless(test.run("statistics a.npy"), "a.npy.json: is not a regular file");
   for (const std::string file : {"pipe", "/dev/zero", "/dev/tty", "."}) {
@@ -240,8 +240,7 @@ TEST_CASE("Names of files neither break the line nor command the terminal", "[ho
 TEST_CASE("Names inside a file are printed with their control characters escaped", "[hostile]") {
   const ProgramTest test;
   test.write("points.txt", "1 2\n3 4\n");
-  const auto converted = test.run("convert points.txt s.h5 --size-x 1um --size-y 1um");
-  REQUIRE(converted.status == 0);
+  const auto converted = test.done("convert points.txt s.h5 --size-x 1um --size-y 1um");
   fs::rename(test.folder() / "s.h5", test.folder() / "\x1b[2J.h5");
   const auto result = test.run("convert ./'\x1b[2J.h5' ./'\x1b[1A.npy'");
   CHECK(result.status == 0);

@@ -21,10 +21,8 @@ TEST_CASE("Three hundred surfaces are computed and written with 300 MB of addres
   // The draws that the bootstrap once kept of 300 surfaces and of all fewer would take 360 MB by
   // themselves. Libraries and the stacks of two threads have some 200 MB of addresses; what is
   // resident is 30 MB.
-  const auto result = test.run("study study.toml -o result.h5 --no-report --quiet --threads 2",
-                               "ulimit -v 300000;");
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  const auto result = test.done("study study.toml -o result.h5 --no-report --quiet --threads 2",
+                                "ulimit -v 300000;");
   const salebra::ResultReader reader(test.folder() / "result.h5");
   CHECK(reader.numbers("surface/seed").size() == 300);
   const auto counts = reader.numbers("convergence/surfaces");
@@ -35,9 +33,9 @@ TEST_CASE("Three hundred surfaces are computed and written with 300 MB of addres
 
 TEST_CASE("A contact that a limit of memory does not hold is refused in one line", "[limits]") {
   const ProgramTest test;
-  REQUIRE(test.run("generate --points 2048 --size-x 10um --hurst 0.8 --rolloff 1um --short-cutoff "
-                   "0.1um --rms-height 10nm -o s.h5 --quiet")
-              .status == 0);
+  test.done(
+      "generate --points 2048 --size-x 10um --hurst 0.8 --rolloff 1um --short-cutoff "
+      "0.1um --rms-height 10nm -o s.h5 --quiet");
   // 43 bytes for each of 2048² cells, 180 MB, of 500 in all, of which the program and its heights
   // take the most.
   for (const std::string command : {"contact s.h5 --contact-modulus 1GPa --pressure 1MPa",

@@ -19,10 +19,9 @@ const std::string study = study_text("seeds = [1, 2]");
 TEST_CASE("A study leaves a page beside its results unless it is told not to", "[report]") {
   const ProgramTest test;
   test.write("study.toml", study);
-  REQUIRE(test.run("study study.toml --no-stick --no-report -o plain.h5").status == 0);
+  test.done("study study.toml --no-stick --no-report -o plain.h5");
   CHECK(test.files() == std::set<std::string>{"study.toml", "plain.h5"});
-  const auto result = test.run("study study.toml --no-stick -o result.h5");
-  REQUIRE(result.status == 0);
+  const auto result = test.done("study study.toml --no-stick -o result.h5");
   const ResultReader file(test.folder() / "result.h5");
   const std::string started = file.text_attribute("/", "started").value();
   CHECK(started.size() == 20);
@@ -51,9 +50,8 @@ TEST_CASE("report makes the same page again, whole or not at all", "[report]") {
     return;
   const ProgramTest test;
   test.write("study.toml", study);
-  REQUIRE(test.run("study study.toml --no-stick -o result.h5").status == 0);
-  const auto again = test.run("report result.h5 -o again.html --json");
-  REQUIRE(again.status == 0);
+  test.done("study study.toml --no-stick -o result.h5");
+  const auto again = test.done("report result.h5 -o again.html --json");
   CHECK(again.json()["file"] == "again.html");
   CHECK(test.read("again.html") == test.read("result.html"));
   check_refused(test.run("report result.h5 -o again.html"), "again.html: exists");
@@ -71,7 +69,7 @@ TEST_CASE("report refuses what holds no study", "[report]") {
     return;
   const ProgramTest test;
   test.write("study.toml", study);
-  REQUIRE(test.run("study study.toml --no-stick --no-report -o result.h5").status == 0);
+  test.done("study study.toml --no-stick --no-report -o result.h5");
   check_refused(test.run("report missing.h5"), "missing.h5: does not exist");
   check_refused(test.run("report study.toml"), "study.toml: is no HDF5 file");
   check_refused(test.run("report ."), ".: is not a regular file");
@@ -81,10 +79,9 @@ TEST_CASE("report refuses what holds no study", "[report]") {
     test.write("cut.h5", whole.substr(0, std::size_t(part * double(whole.size()))));
     check_refused(test.run("report cut.h5"), "cut.h5: ");
   }
-  REQUIRE(
-      test.run("generate --points 16 --size-x 1um --hurst 0.8 --rolloff 1um --short-cutoff 0.25um "
-               "--rms-height 1nm -o surface.h5")
-          .status == 0);
+  test.done(
+      "generate --points 16 --size-x 1um --hurst 0.8 --rolloff 1um --short-cutoff 0.25um "
+      "--rms-height 1nm -o surface.h5");
   check_refused(test.run("report surface.h5"), "contains no study");
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5", "cut.h5", "surface.h5"});
 }

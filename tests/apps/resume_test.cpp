@@ -98,13 +98,10 @@ TEST_CASE("A study killed at twenty random moments ends as if nothing had happen
   const bool unfinished = !fs::exists(test.folder() / "result.h5");
   if (unfinished) test.write(".result.h5.99999-0.part", "half of it");
   if (unfinished) {
-    const auto resumed = test.run("study study.toml -o result.h5 --no-report --resume --json");
-    INFO(resumed.err);
-    REQUIRE(resumed.status == 0);
+    const auto resumed = test.done("study study.toml -o result.h5 --no-report --resume --json");
     CHECK_THAT(resumed.err, Contains("2 damaged files of result.h5.parts"));
   }
-  const auto whole = test.run("study study.toml -o whole.h5 --no-report --json --threads 1");
-  REQUIRE(whole.status == 0);
+  const auto whole = test.done("study study.toml -o whole.h5 --no-report --json --threads 1");
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5", "whole.h5"});
   const int compared = compare_groups(ResultReader(test.folder() / "result.h5"),
                                       ResultReader(test.folder() / "whole.h5"), "/");
@@ -117,14 +114,12 @@ TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume
   const fs::path parts = test.folder() / "result.h5.parts", copy = test.folder() / "copy";
   while (parts_in(parts) < 2) REQUIRE(run_and_kill(test, true, std::chrono::microseconds(0)));
   fs::copy(parts, copy);
-  REQUIRE(test.run("study study.toml -o result.h5 --no-report --resume").status == 0);
+  test.done("study study.toml -o result.h5 --no-report --resume");
   // Parts beside a finished result: those that were not yet removed when the process died.
   fs::remove(copy / "lock");
   fs::rename(copy, parts);
   const auto written = fs::last_write_time(test.folder() / "result.h5");
-  const auto again = test.run("study study.toml -o result.h5 --no-report --resume --json");
-  INFO(again.err);
-  REQUIRE(again.status == 0);
+  const auto again = test.done("study study.toml -o result.h5 --no-report --resume --json");
   CHECK(again.json()["files"]["results"] == "result.h5");
   CHECK(again.json()["files"]["report"].is_null());
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
@@ -147,7 +142,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   std::string few = study;
   few.replace(few.find("seed_count = 24"), 15, "seed_count = 2");
   test.write("study.toml", few);
-  REQUIRE(test.run("study study.toml -o result.h5").status == 0);
+  test.done("study study.toml -o result.h5");
   const std::string page = test.read("result.html");
   const std::set<std::string> all{"study.toml", "result.h5", "result.html"};
 
@@ -155,9 +150,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   // may lie there.
   fs::remove(test.folder() / "result.html");
   test.write(".result.html.99999-0.part", "half of it");
-  const auto resumed = test.run("study study.toml -o result.h5 --resume --json");
-  INFO(resumed.err);
-  REQUIRE(resumed.status == 0);
+  const auto resumed = test.done("study study.toml -o result.h5 --resume --json");
   CHECK(resumed.json()["files"]["report"] == "result.html");
   CHECK(test.read("result.html") == page);
   CHECK(test.files() == all);
@@ -174,7 +167,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   CHECK(kept.status == 0);
   CHECK(kept.json()["files"]["report"].is_null());
   CHECK_THAT(kept.err, Contains("no report was written") && Contains("result.html: exists"));
-  REQUIRE(test.run("study study.toml -o result.h5 --resume --overwrite").status == 0);
+  test.done("study study.toml -o result.h5 --resume --overwrite");
   CHECK(test.read("result.html") == page);
   CHECK(test.files() == all);
 }

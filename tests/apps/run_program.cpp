@@ -53,6 +53,14 @@ ProgramTest::Result ProgramTest::run(const std::string& arguments,
   return result;
 }
 
+ProgramTest::Result ProgramTest::done(const std::string& arguments,
+                                      const std::string& before) const {
+  Result result = run(arguments, before);
+  INFO(arguments << "\n" << result.err);
+  REQUIRE(result.status == 0);
+  return result;
+}
+
 void ProgramTest::write(const std::string& file, const std::string& text) const {
   std::ofstream(folder_ / file, std::ios::binary) << text;
 }

@@ -26,6 +26,9 @@ class ProgramTest {
   /// such as "ulimit -f 1;".
   Result run(const std::string& arguments, const std::string& before = "") const;
 
+  /// A run that must succeed.
+  Result done(const std::string& arguments, const std::string& before = "") const;
+
   const std::filesystem::path& folder() const { return folder_; }
   void write(const std::string& file, const std::string& text) const;
   std::string read(const std::string& file) const;

@@ -70,8 +70,7 @@ std::size_t computed_by(const ProgramTest& test, int worker) {
 }
 
 void check_same_as_whole(const ProgramTest& test) {
-  const auto whole = test.run("study study.toml -o whole.h5 --no-report --quiet");
-  REQUIRE(whole.status == 0);
+  const auto whole = test.done("study study.toml -o whole.h5 --no-report --quiet");
   CHECK(compare_groups(ResultReader(test.folder() / "result.h5"),
                        ResultReader(test.folder() / "whole.h5"), "/") > 200);
 }
@@ -83,9 +82,7 @@ constexpr const char* merge = "study study.toml -o result.h5 --no-report --quiet
 TEST_CASE("Shards at once, two of them the same, merge to the result of one run", "[shard]") {
   const ProgramTest test;
   test.write("study.toml", study_of(4));
-  const auto merged = test.run(merge, four_at_once(test, {"1/3", "2/3", "3/3", "3/3"}));
-  INFO(merged.err);
-  REQUIRE(merged.status == 0);
+  const auto merged = test.done(merge, four_at_once(test, {"1/3", "2/3", "3/3", "3/3"}));
   CHECK(merged.json()["points"].size() == 2);
   CHECK(computed_by(test, 0) + computed_by(test, 1) == 6);
   CHECK(computed_by(test, 2) + computed_by(test, 3) >= 2);
@@ -101,9 +98,7 @@ TEST_CASE("Shards at once, two of them the same, merge to the result of one run"
 TEST_CASE("Four processes that take any surface compute each once", "[shard]") {
   const ProgramTest test;
   test.write("study.toml", study_of(12));
-  const auto merged = test.run(merge, four_at_once(test, {"any", "any", "any", "any"}));
-  INFO(merged.err);
-  REQUIRE(merged.status == 0);
+  const auto merged = test.done(merge, four_at_once(test, {"any", "any", "any", "any"}));
   std::size_t sum = 0;
   for (int worker = 0; worker < 4; ++worker) sum += computed_by(test, worker);
   CHECK(sum == 24);
@@ -127,9 +122,7 @@ TEST_CASE("Twenty of four concurrent processes are killed: all surfaces are comp
   // The claims of dead processes of this host are void at once, so that the survivors have left
   // none.
   CHECK(parts_in(test.folder() / "result.h5.parts") == 24);
-  const auto merged = test.run(merge);
-  INFO(merged.err);
-  REQUIRE(merged.status == 0);
+  const auto merged = test.done(merge);
   CHECK(test.files() == std::set<std::string>{"study.toml", "result.h5"});
   check_same_as_whole(test);
 }
@@ -185,9 +178,7 @@ TEST_CASE("A merge of too few surfaces says which shards to run, and exits with 
         "shards, then --merge\n");
   CHECK(test.files() == std::set<std::string>{"study.toml"});
   for (const char* k : {"2", "3", "8"})
-    REQUIRE(
-        test.run(std::string("study study.toml -o result.h5 --quiet --shard ") + k + "/8").status ==
-        0);
+    test.done(std::string("study study.toml -o result.h5 --quiet --shard ") + k + "/8");
   const auto some = test.run(merge);
   CHECK(some.status == 3);
   CHECK_THAT(some.err, Contains("5 of 8 surfaces are missing; run shards 1,4-7 of 8 again, or "
@@ -278,15 +269,13 @@ TEST_CASE("One of several tasks writes nothing but a shard", "[shard]") {
 TEST_CASE("A dry run proposes shards for a job script", "[shard]") {
   const ProgramTest test;
   test.write("study.toml", study_of(500));
-  const auto one = test.run("study study.toml --dry-run --threads 1 --shard-seconds 10h --json");
-  REQUIRE(one.status == 0);
+  const auto one = test.done("study study.toml --dry-run --threads 1 --shard-seconds 10h --json");
   CHECK(one.json()["shards"]["count"] == 1);
   CHECK(one.json()["shards"]["surfaces"] == 1000);
-  CHECK(one.json()["shards"]["seconds"] == Approx(one.json()["seconds"].get<double>()));
+  CHECK(one.json()["shards"]["seconds"] == Approx(one.json()["seconds"]));
   const double seconds = one.json()["seconds"];
-  const auto several = test.run("study study.toml --dry-run --threads 1 --shard-seconds " +
-                                std::to_string(seconds / 10));
-  REQUIRE(several.status == 0);
+  const auto several = test.done("study study.toml --dry-run --threads 1 --shard-seconds " +
+                                 std::to_string(seconds / 10));
   // As exact as the speed of the machine is the same a second time.
   CHECK(std::regex_search(
       several.out, std::regex("shards    [0-9]+ of at most [0-9]+ surfaces, each about .* with 1 "
@@ -308,10 +297,8 @@ TEST_CASE("The examples for GNU parallel and Snakemake make the result of one ru
     }
     const ProgramTest test;
     test.write("study.toml", study_of(4));
-    const auto merged = test.run(std::string("study study.toml -o run.h5 --json --quiet --merge"),
-                                 path + command + " > log 2>&1 || { cat log >&2; exit 99; };");
-    INFO(merged.err);
-    REQUIRE(merged.status == 0);
+    const auto merged = test.done(std::string("study study.toml -o run.h5 --json --quiet --merge"),
+                                  path + command + " > log 2>&1 || { cat log >&2; exit 99; };");
     // The example has merged already.
     CHECK(keys(merged.json()) == std::set<std::string>{"files"});
     fs::rename(test.folder() / "run.h5", test.folder() / "result.h5");

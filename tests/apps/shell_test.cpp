@@ -115,11 +115,11 @@ TEST_CASE("A study file made by init is run by study as it is, and names every k
 
 TEST_CASE("init for a measured surface names it from where the study file lies", "[init]") {
   const ProgramTest test;
-  REQUIRE(test.run("generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
-                   "125nm --rms-height "
-                   "9nm --seed 2 -o scan.npy --quiet")
-              .status == 0);
-  REQUIRE(test.run("init -o scan.toml --surface scan.npy").status == 0);
+  test.done(
+      "generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
+      "125nm --rms-height "
+      "9nm --seed 2 -o scan.npy --quiet");
+  test.done("init -o scan.toml --surface scan.npy");
   const std::string text = test.read("scan.toml");
   CHECK_THAT(text, Contains("\nfile = \"scan.npy\""));
   // A thirtieth of about 9 nm, to one digit.
@@ -139,9 +139,7 @@ TEST_CASE("A dry run of one surface states memory and time for any number of pro
   test.write("large.toml",
              std::regex_replace(small_study, std::regex("points = 64"), "points = 65536"));
   const auto answer = [&](const std::string& command) {
-    const auto run = test.run(command + " --dry-run --json --quiet --threads 1");
-    INFO(command << ": " << run.err);
-    REQUIRE(run.status == 0);
+    const auto run = test.done(command + " --dry-run --json --quiet --threads 1");
     return run.json();
   };
   const std::string pressed = " --recipe large.toml --contact-modulus 1GPa ";
@@ -152,8 +150,7 @@ TEST_CASE("A dry run of one surface states memory and time for any number of pro
   CHECK(contact["network_seconds"] > 0);
   CHECK(contact["seconds"] > contact["network_seconds"]);
   CHECK(contact["memory_bytes"] > 48 * 65536.0 * 65536.0);
-  CHECK(contact["memory_bytes_of_node"].get<double>() ==
-        Approx(contact["memory_bytes"].get<double>() / 64));
+  CHECK(contact["memory_bytes_of_node"] == Approx(contact["memory_bytes"].get<double>() / 64));
   // The position is not the load: a gap has a time too.
   CHECK(answer("contact" + pressed + "--mean-gap 10nm")["seconds"] > 0);
   CHECK(answer("contact" + pressed + "--pressure 1MPa --ranks 2 --stiffness")["memory_bytes"] >

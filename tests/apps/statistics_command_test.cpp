@@ -27,10 +27,10 @@ double integral(const nlohmann::json& x, const nlohmann::json& y) {
 
 TEST_CASE("The statistics of a surface agree with each other", "[statistics]") {
   const ProgramTest test;
-  REQUIRE(test.run(rough).status == 0);
+  test.done(rough);
   const auto found = test.run("statistics rough.h5 --all --json").json();
   const double rms_height = found["rms_height"];
-  CHECK(found["areal"]["Sq"].get<double>() == Approx(rms_height).epsilon(1e-12));
+  CHECK(found["areal"]["Sq"] == Approx(rms_height).epsilon(1e-12));
   // What is printed without --all is a part of it, in the same words.
   const auto shown = test.run("statistics rough.h5 --json").json();
   for (const auto& [name, value] : shown.items()) CHECK(found[name] == value);
@@ -55,13 +55,12 @@ TEST_CASE("The statistics of a surface agree with each other", "[statistics]") {
                                              "short_cutoff",
                                              "summits",
                                              "reliability"});
-  CHECK(found["correlation"]["autocorrelation"][0].get<double>() ==
+  CHECK(found["correlation"]["autocorrelation"][0] ==
         Approx(rms_height * rms_height).epsilon(1e-12));
   // S(dx) = dx² ⟨(Δh/dx)²⟩, and the first entry of the scale-dependent slope is the slope by
   // differences.
   const double dx = 1e-6 / 64, slope = found["scale_x"]["profile_slope"][0];
-  CHECK(found["correlation_x"]["structure"][1].get<double>() ==
-        Approx(slope * slope * dx * dx).epsilon(1e-9));
+  CHECK(found["correlation_x"]["structure"][1] == Approx(slope * slope * dx * dx).epsilon(1e-9));
   // Σ modes·C·d²q = h_rms².
   double sum = 0;
   for (std::size_t k = 0; k < found["psd"]["modes"].size(); ++k)
@@ -73,15 +72,15 @@ TEST_CASE("The statistics of a surface agree with each other", "[statistics]") {
   double fraction = 0;
   for (const auto& points : found["histogram"]["points"]) fraction += points.get<double>();
   CHECK(fraction == 64 * 64);
-  CHECK(found["reliability"]["wavelength"].get<double>() == Approx(2 * dx));
+  CHECK(found["reliability"]["wavelength"] == Approx(2 * dx));
 }
 
 TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[statistics]") {
   const ProgramTest test;
-  REQUIRE(test.run(rough).status == 0);
-  REQUIRE(test.run("statistics rough.h5 -o scan.csv").status == 0);
-  REQUIRE(test.run("statistics rough.h5 -o scan.json --quiet").status == 0);
-  REQUIRE(test.run("statistics rough.h5 -o scan.h5").status == 0);
+  test.done(rough);
+  test.done("statistics rough.h5 -o scan.csv");
+  test.done("statistics rough.h5 -o scan.json --quiet");
+  test.done("statistics rough.h5 -o scan.h5");
   const auto files = test.files();
   for (const char* name : {"scan.csv", "scan.psd.csv", "scan.correlation_x.csv", "scan.bearing.csv",
                            "scan.histogram.csv", "scan.scale_y.csv", "scan.profile_psd_x.csv"})
@@ -106,11 +105,11 @@ TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[st
 
 TEST_CASE("A convention changes the numbers of the spectrum and says so", "[statistics]") {
   const ProgramTest test;
-  REQUIRE(test.run(rough).status == 0);
+  test.done(rough);
   const auto own = test.run("statistics rough.h5 --all --json").json()["psd"];
   const auto theirs =
       test.run("statistics rough.h5 --convention surface-topography --all --json").json()["psd"];
-  CHECK(theirs["psd"][3].get<double>() ==
+  CHECK(theirs["psd"][3] ==
         Approx(4 * std::pow(std::numbers::pi, 2) * own["psd"][3].get<double>()).epsilon(1e-12));
   CHECK(own["note"] != theirs["note"]);
   const auto gwyddion =
@@ -128,8 +127,7 @@ TEST_CASE("Undefined points take no part, and are filled on request only", "[sta
     matrix += "\n";
   }
   test.write("scan.txt", matrix);
-  const auto without = test.run("statistics scan.txt --all --json --detrend mean");
-  REQUIRE(without.status == 0);
+  const auto without = test.done("statistics scan.txt --all --json --detrend mean");
   CHECK(without.err.find("--fill") != std::string::npos);
   const auto found = without.json();
   CHECK(found["undefined_points"] == 1);
@@ -149,22 +147,17 @@ TEST_CASE("Measured surfaces are read as another program reads them", "[statisti
   int compared = 0;
   for (const auto& [name, expected] : reference.items()) {
     const auto result =
-        test.run("statistics " + (folder / name).string() + " --detrend none --json");
-    INFO(name << ": " << result.err);
-    REQUIRE(result.status == 0);
+        test.done("statistics " + (folder / name).string() + " --detrend none --json");
     const auto found = result.json();
     CHECK(found["nx"] == expected["nx"]);
     CHECK(found["ny"] == expected["ny"]);
     CHECK(found["undefined_points"] == expected["undefined_points"]);
     // Both sides sum some 10⁵ doubles and multiply by the unit in different places.
-    CHECK(found["size_x"].get<double>() ==
-          Approx(expected["size_x_m"].get<double>()).epsilon(1e-12));
-    CHECK(found["size_y"].get<double>() ==
-          Approx(expected["size_y_m"].get<double>()).epsilon(1e-12));
+    CHECK(found["size_x"] == Approx(expected["size_x_m"]).epsilon(1e-12));
+    CHECK(found["size_y"] == Approx(expected["size_y_m"]).epsilon(1e-12));
     const double rms_height = expected["rms_height_m"];
-    CHECK(found["rms_height"].get<double>() == Approx(rms_height).epsilon(1e-10));
-    CHECK(found["mean"].get<double>() ==
-          Approx(expected["mean_m"].get<double>()).margin(1e-10 * rms_height));
+    CHECK(found["rms_height"] == Approx(rms_height).epsilon(1e-10));
+    CHECK(found["mean"] == Approx(expected["mean_m"]).margin(1e-10 * rms_height));
     ++compared;
   }
   CHECK(compared == 10);

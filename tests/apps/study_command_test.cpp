@@ -17,9 +17,7 @@ const std::string study = study_text();
 TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study);
-  const auto result = test.run("study study.toml --json -o result.h5");
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  const auto result = test.done("study study.toml --json -o result.h5");
   const auto answer = result.json();
   CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "regime",
                                               "decay_length", "decay_length_over_rms_height",
@@ -47,8 +45,7 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
 TEST_CASE("A study's summary puts Eq. (16) beside the damping computed", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study);
-  const auto result = test.run("study study.toml -o result.h5 --progress always");
-  REQUIRE(result.status == 0);
+  const auto result = test.done("study study.toml -o result.h5 --progress always");
   CHECK_THAT(result.out, Contains("boundary elements") &&
                              Contains("GW, summits from spectral moments") && Contains("l/h_rms") &&
                              Contains("Eq. (16)") && Contains("computed  error") &&
@@ -89,8 +86,7 @@ TEST_CASE("A damping constant of a study has its error, and none is printed that
           "[study]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [2]"));
-  const auto result = test.run("study study.toml --json --quiet");
-  REQUIRE(result.status == 0);
+  const auto result = test.done("study study.toml --json --quiet");
   const auto damping = result.json()["damping"];
   CHECK(keys(damping["damping_constant"]) == std::set<std::string>{"mean", "low", "high", "error"});
   CHECK(keys(damping["damping_constant_eq16"]) ==
@@ -160,9 +156,7 @@ TEST_CASE("A relative error is met, or the study says what was reached and gives
   coarse.replace(coarse.find("points = 64"), 11, "points = 32");
   test.write("study.toml", coarse);
   const auto met =
-      test.run("study study.toml --relative-error 60% --pressures 10MPa:40MPa:4 --json --quiet");
-  INFO(met.err);
-  REQUIRE(met.status == 0);
+      test.done("study study.toml --relative-error 60% --pressures 10MPa:40MPa:4 --json --quiet");
   const auto constant = met.json()["damping"]["damping_constant"];
   for (std::size_t k = 0; k < 4; ++k)
     CHECK(constant["error"][k].get<double>() <= 0.6 * constant["mean"][k].get<double>());
@@ -194,8 +188,7 @@ TEST_CASE("A relative error is met, or the study says what was reached and gives
 TEST_CASE("A study without a decay length answers with what it has", "[study]") {
   const ProgramTest test;
   test.write("few.toml", close_study_text());
-  const auto text = test.run("study few.toml");
-  REQUIRE(text.status == 0);
+  const auto text = test.done("study few.toml");
   CHECK_THAT(text.out, Contains("n/a") && !Contains("nan"));
   CHECK_THAT(text.err, Contains("no decay length on 2 of 2 surfaces"));
   const auto answer = test.run("study few.toml --json --quiet -o few.h5").json();
@@ -207,10 +200,8 @@ TEST_CASE("A study without a decay length answers with what it has", "[study]") 
 TEST_CASE("A study of a measured surface says that it is continued periodically", "[study]") {
   const ProgramTest test;
   test.write("measured.toml", contact_text());
-  const auto result = test.run("study measured.toml --surface " SALEBRA_DATA
-                               "/surfaces/afm-scan.txt --json -o result.h5");
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  const auto result = test.done("study measured.toml --surface " SALEBRA_DATA
+                                "/surfaces/afm-scan.txt --json -o result.h5");
   CHECK_THAT(result.err, Contains("salebra: warning: ") && Contains("periodically"));
   CHECK(result.json()["decay_length_over_rms_height"]["mean"] > 0.1);
   check_refused(test.run("study measured.toml"), "surface");
@@ -246,9 +237,7 @@ TEST_CASE("A comparison of chosen models draws every point of the ensemble", "[s
   text.replace(text.find("hurst = 0.8\n"), 12, "");
   test.write("study.toml", text + "[ensemble]\nhurst = [0.5, 0.8]\n");
   const std::string command = "compare study.toml --json --no-stick --models gw_moments,persson ";
-  const auto result = test.run(command + "--plot all.svg");
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  const auto result = test.done(command + "--plot all.svg");
   for (const auto& point : result.json()["points"])
     CHECK(keys(point["models"]) == std::set<std::string>{"bem", "gw_moments", "persson"});
   const std::string picture = test.read("all.svg");
@@ -276,9 +265,7 @@ TEST_CASE("Without levels the loss is that of the curve, and no error is stated"
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3]"));
   const std::string study = "study study.toml --no-stick --levels 0 ";
-  const auto run = test.run(study + "--json -o curve.h5");
-  INFO(run.err);
-  REQUIRE(run.status == 0);
+  const auto run = test.done(study + "--json -o curve.h5");
   const auto damping = run.json()["damping"];
   int known = 0;
   for (std::size_t k = 0; k < damping["pressure"].size(); ++k) {
@@ -286,14 +273,12 @@ TEST_CASE("Without levels the loss is that of the curve, and no error is stated"
     if (damping["work_per_cycle"]["mean"][k].is_null()) continue;
     ++known;
     // The law is read from the file; a force is sought in it to 1e-12.
-    const auto alone = test.run(
+    const auto alone = test.done(
         "damping --curve curve.h5 --poisson 0.3 --normal-amplitude 0.1nm --drag-velocity 1mm/s "
         "--frequency 20kHz --json --pressure " +
         damping["pressure"][k].dump());
-    INFO(alone.err);
-    REQUIRE(alone.status == 0);
-    CHECK(alone.json()["work_per_cycle"].get<double>() ==
-          Approx(damping["work_per_cycle"]["mean"][k].get<double>()).epsilon(1e-9));
+    CHECK(alone.json()["work_per_cycle"] ==
+          Approx(damping["work_per_cycle"]["mean"][k]).epsilon(1e-9));
   }
   CHECK(known > 5);
   CHECK(test.run(study + "--dry-run --json").json()["points"][0]["levels"] == 0);
@@ -312,9 +297,7 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   std::string text = study;
   text.replace(text.find("hurst = 0.8\n"), 12, "");
   test.write("study.toml", text + "[ensemble]\nhurst = [0.5, 0.8]\n");
-  const auto result = test.run("compare study.toml --json --no-stick --no-report -o result.h5");
-  INFO(result.err);
-  REQUIRE(result.status == 0);
+  const auto result = test.done("compare study.toml --json --no-stick --no-report -o result.h5");
   const auto answer = result.json();
   REQUIRE(answer["points"].size() == 2);
   const auto& point = answer["points"][1];
@@ -330,8 +313,7 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   CHECK(point["spots"]["corrected_area_slope"]["mean"] <
         point["models"]["bem"]["area_slope"]["mean"]);
   CHECK(point["models"]["gw_moments"]["over_bem"]["work_per_cycle"]["mean"].size() == 10);
-  const auto words = test.run("compare study.toml --no-stick --quiet");
-  REQUIRE(words.status == 0);
+  const auto words = test.done("compare study.toml --no-stick --quiet");
   CHECK_THAT(words.out, Contains("== H = 0.5 ==") && Contains("Bush, Gibson, Thomas") &&
                             Contains("area less its edge") && Contains("theorem") &&
                             Contains("Note: finite size"));
