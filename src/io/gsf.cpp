@@ -8,6 +8,7 @@
 #include "atomic_file.hpp"
 #include "gwyddion_header.hpp"
 #include "loaded_surface.hpp"
+#include "stored_number.hpp"
 #include "surface_writers.hpp"
 
 /// Gwyddion Simple Field: a text header "Key = value" ended by 1 to 4 NUL bytes that pad it to a
@@ -43,7 +44,7 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {
       const auto place = static_cast<std::size_t>(iy * nx + ix);
-      surface.heights(ix, iy) = little_endian<float>(content.data() + data + 4 * place);
+      surface.heights(ix, iy) = stored_number<float>(content.data() + data + 4 * place);
     }
   }
   return surface;

@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/units.hpp>
 
 #include "atomic_file.hpp"
 #include "loaded_surface.hpp"
@@ -136,14 +135,6 @@ std::string unit_in(const std::filesystem::path& file, const Components& field,
   return text == unit->end() || text->second.type != 's' ? "" : std::string(text->second.value);
 }
 
-bool is_length(const std::string& unit) {
-  try {
-    return parse_quantity("1 " + unit, Dimension::length, "unit") > 0;
-  } catch (const InvalidInput&) {
-    return false;
-  }
-}
-
 template <class T>
 T number_in(const std::filesystem::path& file, const Components& field, std::string_view name,
             char type) {
@@ -231,7 +222,7 @@ LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view conte
   if (channels.empty()) refuse(file, "holds no channel; export one from Gwyddion");
   auto chosen = channels.end();
   for (auto it = channels.begin(); it != channels.end() && chosen == channels.end(); ++it)
-    if (is_length(unit_in(file, it->second, "si_unit_z"))) chosen = it;
+    if (metres_in(unit_in(file, it->second, "si_unit_z"))) chosen = it;
   for (auto it = channels.begin(); it != channels.end() && chosen == channels.end(); ++it)
     if (unit_in(file, it->second, "si_unit_z").empty()) chosen = it;
   if (chosen == channels.end())

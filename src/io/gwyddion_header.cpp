@@ -2,10 +2,8 @@
 // Text header that Gwyddion's formats GSF and GXYZF share.
 #include "gwyddion_header.hpp"
 
-#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <salebra/base/grid.hpp>
 
 #include "loaded_surface.hpp"
@@ -42,16 +40,5 @@ Number positive_entry(const std::filesystem::path& file, std::string_view key,
 
 template Index positive_entry(const std::filesystem::path&, std::string_view, std::string_view);
 template double positive_entry(const std::filesystem::path&, std::string_view, std::string_view);
-
-template <class Stored>
-double little_endian(const char* bytes) {
-  static_assert(std::endian::native == std::endian::little);
-  Stored value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<double>(value);
-}
-
-template double little_endian<float>(const char*);
-template double little_endian<double>(const char*);
 
 }  // namespace salebra::detail

@@ -22,8 +22,4 @@ template <class Number>
 Number positive_entry(const std::filesystem::path& file, std::string_view key,
                       std::string_view value);
 
-/// A little-endian value at a place that lies within the content.
-template <class Stored>
-double little_endian(const char* bytes);
-
 }  // namespace salebra::detail

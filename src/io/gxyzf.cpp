@@ -7,6 +7,7 @@
 
 #include "gwyddion_header.hpp"
 #include "loaded_surface.hpp"
+#include "stored_number.hpp"
 #include "xyz.hpp"
 
 /// Gwyddion XYZ Field: a text header padded by NUL bytes to a multiple of eight, then for each
@@ -39,9 +40,10 @@ LoadedSurface read_gxyzf(const std::filesystem::path& file, std::string_view con
     refuse(file, fmt::format("declares {} points, more than it holds; it is truncated", points));
   std::vector<double> xyz(values * static_cast<std::size_t>(points));
   for (std::size_t i = 0; i < xyz.size(); ++i)
-    xyz[i] = little_endian<double>(content.data() + data + item * i);
+    xyz[i] = stored_number<double>(content.data() + data + item * i);
   LoadedSurface surface = grid_of_points(file, xyz);
-  if (!plane_unit.empty()) scale_plane(file, plane_unit, surface);
+  if (!plane_unit.empty())
+    for (auto* size : {&surface.size_x, &surface.size_y}) **size *= metres_per(file, plane_unit);
   surface.unit = height_unit;
   return surface;
 }

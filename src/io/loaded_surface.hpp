@@ -36,7 +36,9 @@ std::string file_content(const std::filesystem::path& file);
 /// Whether the file begins as HDF5 does.
 bool is_hdf5(const std::filesystem::path& file);
 
-/// Metres in one `unit` of length; throws InvalidInput naming the file for anything else.
+/// Metres in one `unit` of length; nothing for anything else.
+std::optional<double> metres_in(const std::string& unit);
+/// The same, where it must be one; throws InvalidInput naming the file.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
 /// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar

@@ -4,15 +4,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "loaded_surface.hpp"
 #include "netcdf_tags.hpp"
+#include "stored_number.hpp"
 
 /// The classic NetCDF formats, CDF-1, 2 and 5 (Unidata, "NetCDF Classic Format Specification"): a
 /// header of big-endian integers and padded names, then the data of each variable from a stated
@@ -22,47 +21,15 @@ namespace {
 
 constexpr std::uint32_t absent = 0, text_kind = 2;
 
-/// Bytes of one value of a type, by its number in the format; 0 for a number that is no type.
-std::size_t size_of(std::uint32_t kind) {
-  constexpr std::array<std::size_t, 12> sizes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
-  return kind < sizes.size() ? sizes[kind] : 0;
+/// A type by its number in the format; nullptr for texts, and for a number that is no type.
+const StoredType* type_of(std::uint32_t kind) {
+  constexpr std::array<std::string_view, 12> names{"",   "i1", "",   "i2", "i4", "f4",
+                                                   "f8", "u1", "u2", "u4", "i8", "u8"};
+  return kind < names.size() ? stored_type(names[kind]) : nullptr;
 }
 
-template <class Stored>
-double big_endian(const char* bytes) {
-  std::array<char, sizeof(Stored)> buffer;
-  std::memcpy(buffer.data(), bytes, sizeof(Stored));
-  if constexpr (std::endian::native == std::endian::little)
-    for (std::size_t i = 0; i < sizeof(Stored) / 2; ++i)
-      std::swap(buffer[i], buffer[sizeof(Stored) - 1 - i]);
-  return static_cast<double>(std::bit_cast<Stored>(buffer));
-}
-
-double value_at(const char* bytes, std::uint32_t kind) {
-  switch (kind) {
-    case 1:
-      return big_endian<std::int8_t>(bytes);
-    case 3:
-      return big_endian<std::int16_t>(bytes);
-    case 4:
-      return big_endian<std::int32_t>(bytes);
-    case 5:
-      return big_endian<float>(bytes);
-    case 6:
-      return big_endian<double>(bytes);
-    case 7:
-      return big_endian<std::uint8_t>(bytes);
-    case 8:
-      return big_endian<std::uint16_t>(bytes);
-    case 9:
-      return big_endian<std::uint32_t>(bytes);
-    case 10:
-      return big_endian<std::int64_t>(bytes);
-    case 11:
-      return big_endian<std::uint64_t>(bytes);
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
-  }
+double big_endian(const char* bytes, const StoredType& type) {
+  return type.read(bytes, std::endian::big);
 }
 
 struct Attribute {
@@ -133,7 +100,8 @@ class Header {
     return taken;
   }
   std::uint32_t word() {
-    return static_cast<std::uint32_t>(big_endian<std::uint32_t>(take(4).data()));
+    return static_cast<std::uint32_t>(
+        stored_number<std::uint32_t>(take(4).data(), std::endian::big));
   }
   std::uint64_t long_word() {
     const std::uint64_t high = word();
@@ -166,15 +134,16 @@ class Header {
     list(attribute_tag, [&] {
       const std::string key = name();
       const std::uint32_t kind = word();
-      const std::size_t size = size_of(kind);
-      if (size == 0) broken();
+      const StoredType* type = type_of(kind);
+      if (!type && kind != text_kind) broken();
+      const std::size_t size = type ? type->bytes() : 1;
       const std::uint64_t values = bounded(count(), size);
       const std::string_view bytes = padded(values * size);
       Attribute attribute;
       if (kind == text_kind)
         attribute.words = bytes.substr(0, bytes.find('\0'));
       else if (values > 0)
-        attribute.number = value_at(bytes.data(), kind);
+        attribute.number = big_endian(bytes.data(), *type);
       result[key] = std::move(attribute);
     });
     return result;
@@ -186,18 +155,25 @@ class Header {
   std::size_t at_ = 0;
 };
 
-/// Where the values of a two-dimensional variable lie, once it is known that the file holds them
-/// all.
-std::string_view values_of(const std::filesystem::path& file, std::string_view content,
-                           const Header& header, const Variable& variable) {
-  const std::size_t size = size_of(variable.kind);
-  std::uint64_t bytes = size;
+/// The values of a two-dimensional variable, all of which the file holds.
+struct Values {
+  std::string_view bytes;
+  const StoredType* type;
+
+  double operator[](Index k) const {
+    return big_endian(bytes.data() + static_cast<std::size_t>(k) * type->bytes(), *type);
+  }
+};
+
+Values values_of(const std::filesystem::path& file, std::string_view content, const Header& header,
+                 const Variable& variable) {
+  const StoredType* type = type_of(variable.kind);
+  std::uint64_t bytes = type ? type->bytes() : 0;
   for (const std::uint64_t axis : variable.axes)
     if (__builtin_mul_overflow(bytes, header.axes[axis].length, &bytes)) bytes = UINT64_MAX;
-  if (size == 0 || bytes == 0 || variable.begin > content.size() ||
-      bytes > content.size() - variable.begin)
+  if (bytes == 0 || variable.begin > content.size() || bytes > content.size() - variable.begin)
     refuse(file, "declares more heights than it holds, or none; it is truncated or damaged");
-  return content.substr(variable.begin, bytes);
+  return {content.substr(variable.begin, bytes), type};
 }
 
 /// SurfaceTopography writes "A" for Ångström.
@@ -217,8 +193,7 @@ LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view co
   const Variable& heights = found->second;
   if (heights.axes.size() != 2)
     refuse(file, "has heights that are not two-dimensional; line scans are no surfaces");
-  const std::string_view bytes = values_of(file, content, header, heights);
-  const std::size_t size = size_of(heights.kind);
+  const Values values = values_of(file, content, header, heights);
   const bool transposed = header.axes[heights.axes[0]].name == "y";
   const auto rows = static_cast<Index>(header.axes[heights.axes[0]].length);
   const auto columns = static_cast<Index>(header.axes[heights.axes[1]].length);
@@ -226,17 +201,14 @@ LoadedSurface read_netcdf(const std::filesystem::path& file, std::string_view co
   LoadedSurface surface;
   surface.unit = unit_of(heights);
   Field stored = heights_of(file, rows, columns);
-  for (Index k = 0; k < stored.size(); ++k)
-    stored.data()[k] = value_at(bytes.data() + static_cast<std::size_t>(k) * size, heights.kind);
+  for (Index k = 0; k < stored.size(); ++k) stored.data()[k] = values[k];
   if (const auto fill = heights.number("_FillValue"))
     stored = (stored == *fill).select(std::numeric_limits<double>::quiet_NaN(), stored);
   if (const auto mask = header.named.find("mask");
       mask != header.named.end() && mask->second.axes == heights.axes) {
-    const std::string_view flags = values_of(file, content, header, mask->second);
-    const std::size_t step = size_of(mask->second.kind);
+    const Values flags = values_of(file, content, header, mask->second);
     for (Index k = 0; k < stored.size(); ++k)
-      if (value_at(flags.data() + static_cast<std::size_t>(k) * step, mask->second.kind) != 0)
-        stored.data()[k] = std::numeric_limits<double>::quiet_NaN();
+      if (flags[k] != 0) stored.data()[k] = std::numeric_limits<double>::quiet_NaN();
   }
   surface.heights = transposed ? Field(stored.transpose()) : std::move(stored);
 

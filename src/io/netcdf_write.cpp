@@ -15,12 +15,21 @@
 namespace salebra::detail {
 namespace {
 
+void append_big_endian(std::string& bytes, std::uint64_t value, int size) {
+  for (int shift = 8 * (size - 1); shift >= 0; shift -= 8)
+    bytes += static_cast<char>(value >> shift & 0xff);
+}
+
+void append(std::string& bytes, double value) {
+  append_big_endian(bytes, std::bit_cast<std::uint64_t>(value), 8);
+}
+
 /// Header of a CDF-2 file: big-endian integers of four bytes, offsets of eight, names and values
 /// padded to four.
 class WrittenHeader {
  public:
-  void word(std::uint32_t value) { big_endian(value, 4); }
-  void offset(std::uint64_t value) { big_endian(value, 8); }
+  void word(std::uint32_t value) { append_big_endian(bytes_, value, 4); }
+  void offset(std::uint64_t value) { append_big_endian(bytes_, value, 8); }
   void name(std::string_view value) {
     word(static_cast<std::uint32_t>(value.size()));
     bytes_ += value;
@@ -35,13 +44,13 @@ class WrittenHeader {
     name(key);
     word(6);
     word(1);
-    big_endian(std::bit_cast<std::uint64_t>(value), 8);
+    append(bytes_, value);
   }
   void note(std::string_view key, std::int32_t value) {
     name(key);
     word(4);
     word(1);
-    big_endian(static_cast<std::uint32_t>(value), 4);
+    word(static_cast<std::uint32_t>(value));
   }
   void list(std::uint32_t tag, std::uint32_t entries) {
     word(tag);
@@ -50,11 +59,6 @@ class WrittenHeader {
   const std::string& bytes() const { return bytes_; }
 
  private:
-  void big_endian(std::uint64_t value, int size) {
-    for (int shift = 8 * (size - 1); shift >= 0; shift -= 8)
-      bytes_ += static_cast<char>(value >> shift & 0xff);
-  }
-
   std::string bytes_ = std::string("CDF\x02", 4);
 };
 
@@ -115,11 +119,6 @@ std::string header_of(const Surface& surface, const std::string& information,
     place(grid.points(), int8);
   }
   return header.bytes();
-}
-
-void append(std::string& bytes, double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  for (int shift = 56; shift >= 0; shift -= 8) bytes += static_cast<char>(bits >> shift & 0xff);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reader of NumPy arrays (.npy), with size and unit from the JSON file next to them.
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
 #include "sidecar.hpp"
+#include "stored_number.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -112,30 +111,6 @@ class NpyHeaderParser {
   std::size_t at_ = 0;
 };
 
-template <class Stored>
-double element(const char* bytes, bool swapped) {
-  std::array<char, sizeof(Stored)> buffer;
-  std::memcpy(buffer.data(), bytes, sizeof(Stored));
-  if (swapped) std::ranges::reverse(buffer);
-  return static_cast<double>(std::bit_cast<Stored>(buffer));
-}
-
-using ElementReader = double (*)(const char*, bool);
-
-ElementReader reader_of(std::string_view type) {
-  if (type == "f8") return element<double>;
-  if (type == "f4") return element<float>;
-  if (type == "i1") return element<std::int8_t>;
-  if (type == "i2") return element<std::int16_t>;
-  if (type == "i4") return element<std::int32_t>;
-  if (type == "i8") return element<std::int64_t>;
-  if (type == "u1") return element<std::uint8_t>;
-  if (type == "u2") return element<std::uint16_t>;
-  if (type == "u4") return element<std::uint32_t>;
-  if (type == "u8") return element<std::uint64_t>;
-  return nullptr;
-}
-
 void read_sidecar(const std::filesystem::path& file, std::string_view content,
                   LoadedSurface& surface) {
   const std::filesystem::path sidecar = sidecar_of(file);
@@ -178,34 +153,35 @@ LoadedSurface read_npy(const std::filesystem::path& file, std::string_view conte
   const NpyHeader header = NpyHeaderParser(file, content.substr(start, header_length)).parse();
 
   const char order = header.type.empty() ? '\0' : header.type.front();
-  const ElementReader read = order == '<' || order == '>' || order == '=' || order == '|'
-                                 ? reader_of(std::string_view(header.type).substr(1))
-                                 : nullptr;
-  if (!read)
+  const StoredType* type = order == '<' || order == '>' || order == '=' || order == '|'
+                               ? stored_type(std::string_view(header.type).substr(1))
+                               : nullptr;
+  if (!type)
     refuse(file, "holds elements of type '" + header.type +
                      "'; save real numbers (float64, float32 or integers)");
   if (header.shape.size() != 2 || header.shape[0] == 0 || header.shape[1] == 0)
     refuse(file,
            "holds an array that is not two-dimensional with nx, ny >= 1; save heights[nx, ny]");
 
-  const std::uint64_t item = static_cast<std::uint64_t>(header.type.back() - '0');
   std::uint64_t points = 0, bytes = 0;
   const std::string_view data = content.substr(start + header_length);
   if (__builtin_mul_overflow(header.shape[0], header.shape[1], &points) ||
-      __builtin_mul_overflow(points, item, &bytes) || bytes > data.size())
+      __builtin_mul_overflow(points, type->bytes(), &bytes) || bytes > data.size())
     refuse(file, "declares " + std::to_string(header.shape[0]) + " x " +
                      std::to_string(header.shape[1]) +
                      " points, more than it holds; it is truncated");
 
   const auto nx = static_cast<Index>(header.shape[0]), ny = static_cast<Index>(header.shape[1]);
-  const bool swapped = (order == '>') == (std::endian::native == std::endian::little) &&
-                       (order == '<' || order == '>');
+  const auto endian = order == '<'   ? std::endian::little
+                      : order == '>' ? std::endian::big
+                                     : std::endian::native;
   LoadedSurface surface;
   surface.heights = heights_of(file, nx, ny);
   for (Index ix = 0; ix < nx; ++ix) {
     for (Index iy = 0; iy < ny; ++iy) {
-      const Index place = header.fortran_order ? iy * nx + ix : ix * ny + iy;
-      surface.heights(ix, iy) = read(data.data() + place * static_cast<Index>(item), swapped);
+      const auto place =
+          static_cast<std::size_t>(header.fortran_order ? iy * nx + ix : ix * ny + iy);
+      surface.heights(ix, iy) = type->read(data.data() + place * type->bytes(), endian);
     }
   }
   read_sidecar(file, content, surface);

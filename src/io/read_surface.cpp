@@ -94,12 +94,17 @@ LoadedSurface read_content(const std::filesystem::path& file, std::string_view c
   throw std::logic_error("text is no row of the table of formats");
 }
 
-double metres_per(const std::filesystem::path& file, const std::string& unit) {
+std::optional<double> metres_in(const std::string& unit) {
   try {
     const double metres = parse_quantity("1 " + unit, Dimension::length, "unit");
     if (metres > 0) return metres;
   } catch (const InvalidInput&) {
   }
+  return {};
+}
+
+double metres_per(const std::filesystem::path& file, const std::string& unit) {
+  if (const auto metres = metres_in(unit)) return *metres;
   refuse(file, "has heights in '" + unit + "', which is no unit of length; convert them to metres");
 }
 

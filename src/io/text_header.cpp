@@ -34,12 +34,7 @@ bool is_letter(char symbol) {
 }
 
 bool is_length(std::string_view unit) {
-  try {
-    return !unit.empty() && (is_letter(unit.front())) &&
-           parse_quantity("1 " + std::string(unit), Dimension::length, "unit") > 0;
-  } catch (const InvalidInput&) {
-    return false;
-  }
+  return !unit.empty() && is_letter(unit.front()) && metres_in(std::string(unit));
 }
 
 /// The length that a header states, where it has a unit: a bare "width = 256" may well count

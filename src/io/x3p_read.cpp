@@ -3,11 +3,11 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <pugixml.hpp>
+#include <utility>
 
-#include "text_numbers.hpp"
+#include "stored_number.hpp"
 #include "x3p.hpp"
 
 namespace salebra::detail {
@@ -79,25 +79,12 @@ class Description {
   pugi::xml_node root_;
 };
 
-template <class Stored>
-double stored_at(const char* bytes) {
-  static_assert(std::endian::native == std::endian::little);
-  Stored value;
-  std::memcpy(&value, bytes, sizeof value);
-  return static_cast<double>(value);
-}
-
-struct HeightType {
-  std::size_t bytes = 0;
-  double (*read)(const char*) = nullptr;
-};
-
-HeightType height_type(const Description& description) {
+const StoredType& height_type(const Description& description) {
+  constexpr std::pair<std::string_view, std::string_view> names[]{
+      {"I", "i2"}, {"L", "i4"}, {"F", "f4"}, {"D", "f8"}};
   const std::string_view name = description.required("Record1/Axes/CZ/DataType");
-  if (name == "I") return {2, stored_at<std::int16_t>};
-  if (name == "L") return {4, stored_at<std::int32_t>};
-  if (name == "F") return {4, stored_at<float>};
-  if (name == "D") return {8, stored_at<double>};
+  for (const auto& [known, type] : names)
+    if (known == name) return *stored_type(type);
   description.wrong("Record1/Axes/CZ/DataType");
 }
 
@@ -131,11 +118,11 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
 
   const Index nx = description.count("Record3/MatrixDimension/SizeX"),
               ny = description.count("Record3/MatrixDimension/SizeY");
-  const HeightType type = height_type(description);
+  const StoredType& type = height_type(description);
   std::uint64_t points = 0, bytes = 0;
   if (__builtin_mul_overflow(static_cast<std::uint64_t>(nx), static_cast<std::uint64_t>(ny),
                              &points) ||
-      __builtin_mul_overflow(points, type.bytes, &bytes))
+      __builtin_mul_overflow(points, type.bytes(), &bytes))
     refuse(file, "declares more points than any memory holds; it is damaged");
   const std::string data_name(description.required("Record3/DataLink/PointDataLink"));
   const auto data = member(data_name, bytes);
@@ -160,7 +147,8 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
     for (Index column = 0; column < nx; ++column) {
       const Index ix = step_x > 0 ? column : nx - 1 - column;
       const auto place = static_cast<std::size_t>(row * nx + column);
-      surface.heights(ix, iy) = type.read(data->data() + type.bytes * place) * step_z + offset_z;
+      surface.heights(ix, iy) =
+          type.read(data->data() + type.bytes() * place, std::endian::little) * step_z + offset_z;
     }
   }
   if (const std::string mask_name(description.words("Record3/DataLink/ValidPointsLink"));

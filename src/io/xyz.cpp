@@ -111,13 +111,6 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
   return surface;
 }
 
-void scale_plane(const std::filesystem::path& file, const std::string& unit,
-                 LoadedSurface& surface) {
-  const double metres = metres_per(file, unit);
-  surface.size_x = surface.size_x.value() * metres;
-  surface.size_y = surface.size_y.value() * metres;
-}
-
 void write_xyz(const std::filesystem::path& file, const Surface& surface, const Provenance&,
                const WriteOptions& options) {
   require_points(file, surface);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "loaded_surface.hpp"
@@ -15,9 +14,5 @@ namespace salebra::detail {
 /// Throws InvalidInput if the points are on no regular grid, fill less than half of it, or one is
 /// given twice. Cost: two sorts of the points.
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz);
-
-/// Takes the sizes of such a grid from a unit of length to metres.
-void scale_plane(const std::filesystem::path& file, const std::string& unit,
-                 LoadedSurface& surface);
 
 }  // namespace salebra::detail
