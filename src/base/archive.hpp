@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -70,15 +71,41 @@ constexpr bool is_variant<std::variant<T...>> = true;
 template <class Archive, class T>
 void archive(Archive& through, T& value);
 
-/// Texts and lists: a count and what follows it. An item has at least a byte: a wrong count is
-/// found before anything is allocated for it.
+/// Whether a value has no bytes: who is told of the progress and which processes are at work belongs
+/// to a call, not to the value.
+template <class T>
+constexpr bool is_left_out =
+    is_function<T> || std::is_same_v<T, Communicator> || std::is_empty_v<T>;
+
+/// Bytes that a value takes at least, of which a damaged count may not promise more than there are.
+template <class T>
+constexpr std::size_t least_bytes() {
+  if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+    return sizeof(T);
+  } else if constexpr (requires(T pair) { pair.first, pair.second; }) {
+    return least_bytes<typename T::first_type>() + least_bytes<typename T::second_type>();
+  } else if constexpr (std::is_same_v<T, std::string> || is_vector<T> || is_variant<T>) {
+    return sizeof(std::size_t);
+  } else if constexpr (Described<T>) {
+    std::size_t sum = 0;
+    for_each_member<T>([&](auto member) {
+      sum += least_bytes<std::remove_cvref_t<decltype(std::declval<T&>().*member)>>();
+    });
+    return sum;
+  } else {
+    return is_left_out<T> ? 0 : 1;
+  }
+}
+
+/// Texts and lists: a count and what follows it. A wrong count is found before anything is
+/// allocated for it.
 template <class Archive, class List>
 void archive_list(Archive& through, List& list) {
   using Item = std::remove_cvref_t<decltype(*list.begin())>;
   std::size_t count = list.size();
   through.raw(&count, sizeof count);
   if constexpr (Archive::reads) {
-    through.require(count <= through.left());
+    through.require(count <= through.left() / std::max<std::size_t>(least_bytes<Item>(), 1));
     list.resize(count);
   }
   if constexpr (std::is_arithmetic_v<Item> && !std::is_same_v<Item, bool>)
@@ -118,7 +145,14 @@ void archive(Archive& through, T& value) {
   using Plain = std::remove_const_t<T>;
   // A writer's values are constants by intent: it takes them as they are.
   auto& own = const_cast<Plain&>(value);
-  if constexpr (std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) {
+  if constexpr (std::is_same_v<Plain, bool>) {
+    unsigned char truth = own;
+    through.raw(&truth, sizeof truth);
+    if constexpr (Archive::reads) {
+      through.require(truth <= 1);
+      own = truth == 1;
+    }
+  } else if constexpr (std::is_arithmetic_v<Plain> || std::is_enum_v<Plain>) {
     through.raw(&own, sizeof own);
   } else if constexpr (std::is_same_v<Plain, std::string> || is_vector<Plain>) {
     archive_list(through, own);
@@ -128,20 +162,20 @@ void archive(Archive& through, T& value) {
     if constexpr (Archive::reads) own = text;
   } else if constexpr (requires { own.emplace(), own.has_value(); }) {
     bool there = own.has_value();
-    through.raw(&there, sizeof there);
+    archive(through, there);
     if constexpr (Archive::reads) {
       own.reset();
       if (there) own.emplace();
     }
     if (own) archive(through, *own);
+  } else if constexpr (requires { own.first, own.second; }) {
+    archive(through, own.first);
+    archive(through, own.second);
   } else if constexpr (is_variant<Plain>) {
     archive_alternative(through, own);
   } else if constexpr (std::is_base_of_v<Eigen::DenseBase<Plain>, Plain>) {
     archive_field(through, own);
-  } else if constexpr (is_function<Plain> || std::is_same_v<Plain, Communicator>) {
-    // Who is told of the progress and which processes are at work belongs to a call, not to the
-    // value.
-  } else {
+  } else if constexpr (!is_left_out<Plain>) {
     static_assert(describes_all<Plain>(), "describe every member, in the order of declaration");
     for_each_member<Plain>([&](auto member) { archive(through, own.*member); });
   }

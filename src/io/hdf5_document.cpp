@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstring>
 
+#include "base/archive.hpp"
 #include "hdf5_runner.hpp"
 #include "loaded_surface.hpp"
 
@@ -58,110 +59,21 @@ Hdf5Reading reading_of(const InputFile& file, std::uint64_t bytes) {
   return reading;
 }
 
-struct Writer {
-  std::string bytes;
-
-  void number(std::uint64_t value) { bytes.append(reinterpret_cast<char*>(&value), sizeof value); }
-  void numbers(const std::vector<double>& values) {
-    number(values.size());
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
-  }
-  void text(std::string_view value) {
-    number(value.size());
-    bytes += value;
-  }
-};
-
-class Reader {
- public:
-  Reader(const std::filesystem::path& file, std::string_view bytes) : file_(file), rest_(bytes) {}
-
-  std::uint64_t number() {
-    std::uint64_t value;
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
-  }
-  /// How many entries of at least so many bytes follow.
-  std::size_t count(std::size_t least_bytes) {
-    const std::uint64_t value = number();
-    if (value > rest_.size() / least_bytes) wrong();
-    return value;
-  }
-  std::vector<double> numbers() {
-    std::vector<double> values(count(sizeof(double)));
-    const std::string_view bytes = take(values.size() * sizeof(double));
-    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
-  }
-  std::string text() { return std::string(take(count(1))); }
-  Object::Kind kind() {
-    const std::uint64_t value = number();
-    if (value > static_cast<std::uint64_t>(Object::Kind::refused)) wrong();
-    return static_cast<Object::Kind>(value);
-  }
-  bool at_end() const { return rest_.empty(); }
-  [[noreturn]] void wrong() const {
-    refuse(file_, "makes the HDF5 library give a wrong answer; it is damaged");
-  }
-
- private:
-  std::string_view take(std::size_t bytes) {
-    if (bytes > rest_.size()) wrong();
-    const std::string_view taken = rest_.substr(0, bytes);
-    rest_.remove_prefix(bytes);
-    return taken;
-  }
-
-  const std::filesystem::path& file_;
-  std::string_view rest_;
-};
-
-AttributeValue decoded_attribute(Reader& reader) {
-  switch (reader.number()) {
-    case 0:
-      return {};
-    case 1: {
-      const std::vector<double> value = reader.numbers();
-      if (value.size() != 1) reader.wrong();
-      return value.front();
-    }
-    case 2:
-      return reader.text();
-    default:
-      reader.wrong();
-  }
+[[noreturn]] void wrong_answer(const std::filesystem::path& file) {
+  refuse(file, "makes the HDF5 library give a wrong answer; it is damaged");
 }
 
-Object decoded_object(Reader& reader) {
-  constexpr std::size_t entry = sizeof(std::uint64_t);
-  Object object;
-  object.kind = reader.kind();
-  object.refusal = reader.text();
-  object.attributes.resize(reader.count(2 * entry));
-  for (auto& [name, value] : object.attributes) {
-    name = reader.text();
-    value = decoded_attribute(reader);
-  }
-  object.members.resize(reader.count(2 * entry));
-  for (auto& [name, kind] : object.members) {
-    name = reader.text();
-    kind = reader.kind();
-  }
-  object.shape.resize(reader.count(entry));
+/// Whether an object can be what it says, however it came here.
+bool is_sound(const Object& object, std::uint64_t most) {
+  const auto known = [](Object::Kind kind) { return kind <= Object::Kind::refused; };
+  if (!known(object.kind)) return false;
+  for (const auto& [name, kind] : object.members)
+    if (!known(kind)) return false;
+  if (!object.refusal.empty()) return !object.numbers;
   std::uint64_t doubles = sizeof(double);
-  for (std::uint64_t& extent : object.shape) {
-    extent = reader.number();
-    if (object.refusal.empty() && __builtin_mul_overflow(doubles, extent, &doubles)) reader.wrong();
-  }
-  for (auto* names : {&object.coordinates, &object.labels}) {
-    names->resize(reader.count(entry));
-    for (std::string& name : *names) name = reader.text();
-  }
-  if (reader.number() != 0) {
-    object.numbers = reader.numbers();
-    if (!object.refusal.empty() || object.numbers->size() != object.count()) reader.wrong();
-  }
-  return object;
+  for (const std::uint64_t extent : object.shape)
+    if (__builtin_mul_overflow(doubles, extent, &doubles)) return false;
+  return doubles <= most && (!object.numbers || object.numbers->size() == object.count());
 }
 
 }  // namespace
@@ -188,47 +100,6 @@ std::uint64_t most_bytes(std::uint64_t file_size) {
   return (std::uint64_t{128} << 20) + 32 * file_size;
 }
 
-std::string encode(const Objects& objects) {
-  Writer writer;
-  for (const auto& [path, object] : objects) {
-    writer.text(path);
-    writer.number(static_cast<std::uint64_t>(object.kind));
-    writer.text(object.refusal);
-    writer.number(object.attributes.size());
-    for (const auto& [name, value] : object.attributes) {
-      writer.text(name);
-      writer.number(value.index());
-      if (const auto* number = std::get_if<double>(&value)) writer.numbers({*number});
-      if (const auto* text = std::get_if<std::string>(&value)) writer.text(*text);
-    }
-    writer.number(object.members.size());
-    for (const auto& [name, kind] : object.members) {
-      writer.text(name);
-      writer.number(static_cast<std::uint64_t>(kind));
-    }
-    writer.number(object.shape.size());
-    for (const std::uint64_t extent : object.shape) writer.number(extent);
-    for (const auto* names : {&object.coordinates, &object.labels}) {
-      writer.number(names->size());
-      for (const std::string& name : *names) writer.text(name);
-    }
-    writer.number(object.numbers ? 1 : 0);
-    if (object.numbers) writer.numbers(*object.numbers);
-  }
-  return std::move(writer.bytes);
-}
-
-Objects decode(const std::filesystem::path& file, std::string_view bytes) {
-  Objects objects;
-  Reader reader(file, bytes);
-  while (!reader.at_end()) {
-    std::string path = reader.text();
-    objects.insert_or_assign(std::move(path), decoded_object(reader));
-  }
-  if (!objects.contains("/")) reader.wrong();
-  return objects;
-}
-
 Document::Document(InputFile file) : file_(std::move(file)) {
   if (!file_.is_hdf5()) refuse(path(), "is no HDF5 file; name one");
   std::string bytes;
@@ -241,10 +112,15 @@ Document::Document(InputFile file) : file_(std::move(file)) {
     return std::as_writable_bytes(std::span(bytes)).last(count);
   };
   run(reading);
-  objects_ = decode(path(), bytes);
-  for (const auto& [name, object] : objects_)
-    if (object.refusal.empty() && object.count() > most_bytes(file_.size()) / sizeof(double))
-      refuse(path(), "makes the HDF5 library give a wrong answer; it is damaged");
+  try {
+    for (auto& [name, object] : from_bytes<Objects>(bytes, path().string())) {
+      if (!is_sound(object, most_bytes(file_.size()))) wrong_answer(path());
+      objects_.insert_or_assign(std::move(name), std::move(object));
+    }
+  } catch (const InvalidInput&) {
+    wrong_answer(path());
+  }
+  if (!objects_.contains("/")) wrong_answer(path());
 }
 
 const Object* Document::find(std::string_view path) const {
@@ -314,14 +190,12 @@ void Document::read(const std::string& path, const Object& object, std::uint64_t
   };
   std::size_t filled = 0;
   reading.place = [&](std::size_t count) {
-    if (count > values.size_bytes() - filled)
-      refuse(file_.path(), "makes the HDF5 library give a wrong answer; it is damaged");
+    if (count > values.size_bytes() - filled) wrong_answer(file_.path());
     filled += count;
     return std::as_writable_bytes(values).subspan(filled - count, count);
   };
   run(reading);
-  if (filled != values.size_bytes())
-    refuse(file_.path(), "makes the HDF5 library give a wrong answer; it is damaged");
+  if (filled != values.size_bytes()) wrong_answer(file_.path());
 }
 
 }  // namespace detail::hdf5

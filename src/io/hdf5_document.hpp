@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <salebra/base/describe.hpp>
 #include <salebra/base/share.hpp>
 #include <span>
 #include <string>
@@ -41,6 +42,12 @@ struct Object {
   std::optional<double> number(std::string_view attribute) const;
   std::optional<std::string> text(std::string_view attribute) const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<Object>) {
+  using S = Object;
+  keep(visit, &S::kind, &S::refusal, &S::attributes, &S::members, &S::shape, &S::coordinates,
+       &S::labels, &S::numbers);
+}
 
 /// The outline of a file with all attributes and small datasets; large datasets are read when they
 /// are requested. Links and references to other files, symbolic links, external storage, virtual
@@ -89,10 +96,8 @@ void read_numbers(const InputFile& file, const std::string& path,
 /// Calls work while no other thread is inside HDF5.
 void alone(const std::function<void()>& work);
 
-/// Objects by path as bytes, and back. Decoding takes nothing for granted; what is not what
-/// encode() writes throws InvalidInput.
-using Objects = std::map<std::string, Object, std::less<>>;
-std::string encode(const Objects& objects);
-Objects decode(const std::filesystem::path& file, std::string_view bytes);
+/// Objects with their paths: what the outline hands over as the bytes of base/archive.hpp, of which
+/// Document takes nothing for granted.
+using Objects = std::vector<std::pair<std::string, Object>>;
 
 }  // namespace salebra::detail::hdf5

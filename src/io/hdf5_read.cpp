@@ -8,6 +8,7 @@
 #include <cstring>
 #include <set>
 
+#include "base/archive.hpp"
 #include "hdf5_descriptor.hpp"
 #include "hdf5_document.hpp"
 #include "loaded_surface.hpp"
@@ -187,7 +188,7 @@ class Outline {
 
   Object::Kind keep(const std::string& path, Object object) {
     const Object::Kind kind = object.kind;
-    objects_.insert_or_assign(path.empty() ? "/" : path, std::move(object));
+    objects_.emplace_back(path.empty() ? "/" : path, std::move(object));
     return kind;
   }
 
@@ -359,7 +360,7 @@ std::vector<hsize_t> shape_of(hid_t dataset) {
 
 void read_outline(const InputFile& file, const HandOver& hand_over) {
   about(file, [&](const auto& require_read) {
-    const std::string bytes = encode(Outline(file).read());
+    const std::string bytes = detail::bytes_of(Outline(file).read());
     require_read();
     hand_over(std::as_bytes(std::span(bytes)));
   });

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Outlines of HDF5 files that cannot be, which a reading process that was taken over might hand
+// over.
+#include "io/hdf5_document.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <salebra/io/result_file.hpp>
+
+#include "base/archive.hpp"
+#include "io/hdf5_runner.hpp"
+#include "scratch.hpp"
+
+using namespace salebra;
+using namespace salebra::detail::hdf5;
+
+namespace {
+
+std::string handed_over;
+
+void hand_over(const Hdf5Reading& reading) {
+  std::memcpy(reading.place(handed_over.size()).data(), handed_over.data(), handed_over.size());
+}
+
+struct Installed {
+  Installed() { set_hdf5_runner(hand_over); }
+  Installed(const Installed&) = delete;
+  Installed& operator=(const Installed&) = delete;
+  ~Installed() { set_hdf5_runner(nullptr); }
+};
+
+}  // namespace
+
+TEST_CASE("An outline that cannot be is refused, whoever hands it over", "[hdf5]") {
+  const Scratch scratch;
+  const auto file = scratch / "few.h5";
+  ResultFile(file, {}).commit();
+  const Installed installed;
+  Objects objects(2);
+  auto& [root, group] = objects[0];
+  auto& [name, numbers] = objects[1];
+  root = "/";
+  group.kind = Object::Kind::group;
+  group.members = {{"a", Object::Kind::numbers}};
+  group.attributes = {{"units", std::string("m")}, {"count", 3.0}, {"odd", Json::Null()}};
+  name = "/a";
+  numbers.kind = Object::Kind::numbers;
+  numbers.shape = {2, 1};
+  numbers.numbers = {1, 2};
+  const auto judge = [&] {
+    handed_over = detail::bytes_of(objects);
+    return Document(detail::InputFile(file));
+  };
+  const Document document = judge();
+  CHECK(document.group("/").text("units") == "m");
+  CHECK(document.group("/").number("count") == 3);
+  CHECK_FALSE(document.group("/").number("odd"));
+  CHECK(document.numeric("a").numbers == numbers.numbers);
+
+  SECTION("no root") { root = "/b"; }
+  SECTION("an object of no kind") { numbers.kind = Object::Kind(4); }
+  SECTION("a member of no kind") { group.members[0].second = Object::Kind(255); }
+  SECTION("fewer numbers than the shape says") { numbers.numbers->pop_back(); }
+  SECTION("numbers of what is refused") { numbers.refusal = "is no list of names"; }
+  SECTION("more points than a number counts") { numbers.shape = {1ull << 32, 1ull << 32}; }
+  SECTION("more points than the file may hold") { numbers.shape = {1ull << 40}; }
+  CHECK_THROWS_WITH(judge(), Catch::Contains("few.h5: makes the HDF5 library give a wrong answer"));
+}
+
+TEST_CASE("Bytes of an outline are judged before anything is made of them", "[hdf5]") {
+  const Scratch scratch;
+  const auto file = scratch / "few.h5";
+  ResultFile(file, {}).commit();
+  const Installed installed;
+  Objects objects(1);
+  objects[0].first = "/";
+  objects[0].second.kind = Object::Kind::group;
+  const std::string whole = detail::bytes_of(objects);
+  const auto refused = [&] {
+    CHECK_THROWS_WITH(Document(detail::InputFile(file)), Catch::Contains("a wrong answer"));
+  };
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    INFO(size);
+    handed_over = whole.substr(0, size);
+    refused();
+  }
+  // No memory is taken for a count that the rest cannot hold.
+  handed_over = whole;
+  handed_over.replace(0, sizeof(std::size_t), detail::bytes_of(std::size_t(1) << 40));
+  refused();
+  CHECK(detail::from_bytes<bool>("\1", "truth"));
+  CHECK_THROWS_WITH(detail::from_bytes<bool>("\2", "truth"), Catch::Contains("damaged"));
+}
