@@ -26,7 +26,6 @@ MODULES = {
     "study": "the whole path for an ensemble",
     "questions": "what several faces ask, as data, and the answers",
     "report": "the results of a study as a page",
-    "mpi": "MPI as a transport between processes, in builds with it",
 }
 NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law")
 # The submodules of the Python package.
@@ -140,7 +139,7 @@ def preamble(header):
 
 def header_pages():
     """docs/cpp/<module>.rst lists the public headers of a module, docs/cpp/<module>/….rst is what one of them declares."""
-    modules = {folder.name for above in ("include", "generators/include") for folder in (root / above / "salebra").iterdir()}
+    modules = {folder.name for above in ("include", "generators/include") for folder in (root / above / "salebra").iterdir() if folder.is_dir()}
     if modules != set(MODULES):
         sys.exit(f"stage.py: MODULES and the folders of headers differ by {modules ^ set(MODULES)}; list all of them in MODULES")
     for module, about in MODULES.items():

@@ -5,13 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <salebra/base/error.hpp>
-#include <salebra/base/units.hpp>
-#include <salebra/contact/law/fit.hpp>
-#include <salebra/contact/sweep.hpp>
-#include <salebra/io/read_surface.hpp>
-#include <salebra/surface/detrend.hpp>
-#include <salebra/surface/moments.hpp>
+#include <salebra/salebra.hpp>
 #include <vector>
 
 using namespace salebra;

@@ -13,7 +13,7 @@
 #include <salebra/contact/sweep.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/study/contact_models.hpp>
+#include <salebra/study/configuration.hpp>
 
 #include "contact_command.hpp"
 #include "curve_figure.hpp"

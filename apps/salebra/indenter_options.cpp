@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <salebra/base/error.hpp>
-#include <salebra/base/shape.hpp>
 #include <utility>
 
 #include "io/number_table.hpp"
+#include "shape.hpp"
 
 namespace salebra::cli {
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Entry point of the program salebra-mpi, whose processes compute one surface together.
-#include <salebra/mpi/mpi.hpp>
+#include <chrono>
 
+#include "mpi/mpi.hpp"
 #include "program.hpp"
 #include "terminal.hpp"
 

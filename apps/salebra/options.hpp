@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/words.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/damping/oscillation.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>

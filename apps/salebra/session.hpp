@@ -8,7 +8,6 @@
 #include <salebra/base/progress.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/provenance.hpp>
-#include <salebra/questions/context.hpp>
 #include <set>
 #include <string>
 #include <string_view>
@@ -19,6 +18,10 @@
 #include "launch.hpp"
 #include "named_files.hpp"
 #include "progress_bar.hpp"
+
+namespace salebra {
+struct Context;
+}
 
 namespace salebra::cli {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/shape.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <vector>
 
 #include "options.hpp"
+#include "shape.hpp"
 
 namespace salebra::cli {
 namespace {

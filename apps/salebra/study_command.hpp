@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 #include <string>
 #include <vector>

@@ -11,10 +11,10 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/spectrum.hpp>
-#include <salebra/mpi/mpi.hpp>
 #include <vector>
 
 #include "contact/half_space/half_space.hpp"
+#include "mpi/mpi.hpp"
 
 using namespace salebra;
 

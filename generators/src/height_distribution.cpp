@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/generators/height_distribution.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <utility>
 
 namespace salebra {

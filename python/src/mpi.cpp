@@ -2,13 +2,14 @@
 // Module salebra._mpi: the processes of an MPI communicator, for salebra._core. A module of its
 // own, so that MPI is loaded with the first surface that is spread, and a package without this file
 // needs no MPI.
+#include "mpi/mpi.hpp"
+
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
 #include <array>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/mpi/mpi.hpp>
 #include <string>
 
 namespace nb = nanobind;

@@ -6,6 +6,8 @@
 #include <nanobind/stl/string.h>
 
 #include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
@@ -25,6 +27,20 @@
 #include "surface/psd_convention.hpp"
 
 namespace salebra::python {
+
+nb::tuple pickled(const std::string& bytes) {
+  return nb::make_tuple(std::string(version()), nb::bytes(bytes.data(), bytes.size()));
+}
+
+std::string_view unpickled(const nb::tuple& state) {
+  if (nb::len(state) != 2 || nb::cast<std::string>(state[0]) != version())
+    throw InvalidInput("pickle", "was written by another version than salebra " +
+                                     std::string(version()) +
+                                     "; write results to files to keep them");
+  const auto bytes = nb::borrow<nb::bytes>(state[1]);
+  return {bytes.c_str(), bytes.size()};
+}
+
 namespace {
 
 // Pictures, by salebra._plots.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/damping/cycle.hpp>
+#include <salebra/damping/cycle_state.hpp>
 
 namespace salebra::detail {
 

@@ -4,13 +4,16 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/io/read_surface.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 /// What the readers of single formats share. Each takes a file apart and returns what it says, no
 /// more.
+namespace salebra {
+struct ReadOptions;
+}
+
 namespace salebra::detail {
 
 struct LoadedSurface {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // MPI as the transport of communicators, and its start and end, of mpi.hpp.
+#include "mpi/mpi.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/mpi/mpi.hpp>
 #include <thread>
 #include <utility>
 #include <vector>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <salebra/damping/cycle.hpp>
+#include <salebra/damping/cycle_state.hpp>
 #include <salebra/io/provenance.hpp>
 #include <span>
 #include <string>

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <salebra/damping/cycle_state.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "io/atomic_file.hpp"

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/study/parts.hpp>
 #include <string>
 
 #include "base/task_pool.hpp"

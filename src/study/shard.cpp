@@ -14,6 +14,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 
 #include "base/memory.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <salebra/generators/spectrum.hpp>
-#include <salebra/study/surface_picture.hpp>
+#include <salebra/study/realisation.hpp>
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/spectrum.hpp>

@@ -5,7 +5,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/damping/cycle.hpp>
+#include <salebra/contact/tangential/sliding_contact.hpp>
+#include <salebra/damping/cycle_state.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/steady_sliding.hpp>

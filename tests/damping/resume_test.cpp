@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
+#include <salebra/damping/cycle_state.hpp>
 #include <salebra/generators/shapes.hpp>
 
 #include "islands.hpp"

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <salebra/base/error.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <stdexcept>
 

@@ -2,11 +2,11 @@
 // The transport of MPI conforms: mpirun -n N test_mpi. `test_mpi large` gathers and sends more
 // bytes than an int counts, in 5 GB of each process; ctest leaves that out.
 #include <iostream>
-#include <salebra/mpi/mpi.hpp>
 #include <string_view>
 #include <thread>
 
 #include "conformance.hpp"
+#include "mpi/mpi.hpp"
 
 using namespace salebra;
 using namespace salebra::testing;

@@ -2,7 +2,7 @@
 # cmake -D ROOT=<tree> -P CheckLayers.cmake: fails where a file includes a header of a higher layer than its own, or, inside
 # contact/, of a room that its own room must not see. A file's layer and room are the folders that it stands in.
 cmake_minimum_required(VERSION 3.25)
-set(layers base generators surface contact damping io results study questions report mpi apps)
+set(layers base generators surface contact damping io results study questions report mpi apps salebra.hpp)
 
 # The rooms of contact/, and which others each of them sees: folders, and single files of that name.
 set(rooms half_space/ law/ normal/ asperity/ mdr/ tangential/ theories. sweep. hermite. quadrature.)
@@ -23,7 +23,7 @@ list(FILTER files EXCLUDE REGEX "^generators/tests/")  # tests may look at anyth
 set(seen 0)
 list(FIND layers mpi mpi)
 
-# layer_of(path out): the first layer named by a folder of the path, and its rank.
+# layer_of(path out): the rank of the first layer that a folder of the path names; the facade salebra.hpp is one by itself, of users alone.
 function(layer_of path out)
   string(REPLACE "/" ";" folders "${path}")
   foreach(folder IN LISTS folders)

@@ -7,6 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
 

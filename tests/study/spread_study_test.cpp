@@ -9,6 +9,7 @@
 #include <new>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 #include <string>
 #include <utility>

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/generators/height_distribution.hpp>
+#include <salebra/generators/non_gaussian.hpp>
 #include <salebra/surface/bearing.hpp>
 
 #include "test_surfaces.hpp"

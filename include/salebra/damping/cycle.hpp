@@ -4,12 +4,10 @@
 #include <functional>
 #include <limits>
 #include <optional>
-#include <salebra/contact/tangential/coupled_contact.hpp>
-#include <salebra/contact/tangential/sliding_contact.hpp>
+#include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/quantities.hpp>
-#include <variant>
 #include <vector>
 
 /// Direct three-dimensional simulation of a contact that moves along a trajectory, period after
@@ -121,44 +119,7 @@ constexpr void describe(auto&& visit, std::type_identity<StuckState>) {
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms so far, in pairs"});
 }
 
-/// What a cycle remembers at one of its steps: from it the simulation continues to the same bits.
-struct CycleState {
-  int period = 0;                ///< periods finished
-  int step = 0;                  ///< 0 … steps, of the last sample
-  ContactSet smallest, largest;  ///< cells in contact at every, at any step of the period so far
-  double tangential = 0;         ///< x of the trajectory, m
-  double energy_at_period_start = 0;       ///< stored, J
-  double work_at_period_start = 0;         ///< ∫F_x dx, J
-  double normal_work_at_period_start = 0;  ///< ∫F dδ, J
-  double gap_work_at_period_start = 0;     ///< J
-  Field loss_at_period_start;              ///< (nx, ny), J in each cell; empty where nothing slips
-  double last_work = 0;                    ///< work_per_cycle of the period before, J
-  std::vector<CycleSample> samples;        ///< of the period
-  std::variant<StuckState, SlidingState, CoupledState> body;
-};
-
-constexpr void describe(auto&& visit, std::type_identity<CycleState>) {
-  using enum Dimension;
-  using S = CycleState;
-  visit(&S::period, Kept{"period", "periods finished"});
-  visit(&S::step, Kept{"step", "of the last sample"});
-  visit(&S::smallest, Kept{"smallest", "1 in contact at every step of the period"});
-  visit(&S::largest, Kept{"largest", "1 in contact at any step of the period"});
-  visit(&S::tangential, Kept{"tangential", "tangential position", length});
-  visit(&S::energy_at_period_start,
-        Kept{"energy_at_period_start", "stored energy at the start of the period", energy});
-  visit(&S::work_at_period_start,
-        Kept{"work_at_period_start", "work of the tangential force before the period", energy});
-  visit(&S::normal_work_at_period_start,
-        Kept{"normal_work_at_period_start", "work of the normal force before the period", energy});
-  visit(&S::gap_work_at_period_start,
-        Kept{"gap_work_at_period_start", "work across gaps before the period", energy});
-  visit(&S::loss_at_period_start,
-        Kept{"loss_at_period_start", "energy dissipated in each cell before the period", energy});
-  visit(&S::last_work, Kept{"last_work", "work_per_cycle of the period before", energy});
-  visit(&S::samples, Table{"samples", "of the period"});
-  visit(&S::body, Kept{"body", "what the contact remembers"});
-}
+struct CycleState;  // cycle_state.hpp
 
 struct CycleOptions {
   /// μ >= 0 of simulate_frictional_cycle and simulate_coupled_cycle; infinite: full stick.

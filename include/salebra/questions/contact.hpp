@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
@@ -12,13 +14,20 @@
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
-#include <salebra/questions/context.hpp>
 #include <string>
 #include <variant>
 #include <vector>
 
 /// Which contact is asked about: a law, or what a law is made of, and where the contact stands.
 namespace salebra {
+
+/// The caller of a question while it is being answered.
+struct Context {
+  Progress on_progress = {};
+  /// Looked at wherever a law is evaluated, so that every search and quadrature over it stops,
+  /// whether or not it reports progress: true throws Interrupted. Empty: never.
+  std::function<bool()> stopped = {};
+};
 
 /// A quantity that says where a contact stands.
 enum class Standing { normal_force, indentation, pressure, mean_gap };

@@ -9,7 +9,6 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/questions/contact.hpp>
-#include <salebra/questions/context.hpp>
 #include <string>
 #include <variant>
 #include <vector>

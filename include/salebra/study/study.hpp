@@ -7,7 +7,6 @@
 #include <salebra/base/communicator.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/study/configuration.hpp>
-#include <salebra/study/parts.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <string_view>
@@ -15,6 +14,9 @@
 #include <vector>
 
 namespace salebra {
+
+class StudyParts;
+struct Shard;
 
 /// What a reader has to know of a result: that it is of the residual surface, or why it may be off
 /// for other reasons than chance.

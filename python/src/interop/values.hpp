@@ -4,7 +4,6 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
-#include <salebra/base/version.hpp>
 #include <string>
 #include <string_view>
 
@@ -15,17 +14,10 @@ namespace salebra::python {
 
 namespace nb = nanobind;
 
-inline nb::bytes pickled(const std::string& bytes) { return nb::bytes(bytes.data(), bytes.size()); }
-
+/// What a pickle holds: this version, and the bytes.
+nb::tuple pickled(const std::string& bytes);
 /// The bytes of a pickle that this version wrote.
-inline std::string_view unpickled(const nb::tuple& state) {
-  if (nb::len(state) != 2 || nb::cast<std::string>(state[0]) != version())
-    throw InvalidInput("pickle", "was written by another version than salebra " +
-                                     std::string(version()) +
-                                     "; write results to files to keep them");
-  const auto bytes = nb::borrow<nb::bytes>(state[1]);
-  return {bytes.c_str(), bytes.size()};
-}
+std::string_view unpickled(const nb::tuple& state);
 
 /// Pickle, copies and == of the values of the class T of the library, which Python knows as Bound:
 /// value(const Bound&) is one, and made(Bound*, T&&) puts one there.
@@ -35,7 +27,7 @@ void value_methods(nb::class_<Bound>& bound, Value value, Make make) {
       "__getstate__",
       [value](const Bound& self) {
         require_whole_if_spread(self, "a pickle");
-        return nb::make_tuple(std::string(version()), pickled(detail::bytes_of(value(self))));
+        return pickled(detail::bytes_of(value(self)));
       },
       nb::sig("def __getstate__(self) -> tuple[str, bytes]"));
   using T = std::remove_cvref_t<decltype(value(std::declval<const Bound&>()))>;
