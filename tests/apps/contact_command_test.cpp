@@ -10,6 +10,8 @@
 
 #include "run_program.hpp"
 
+using Catch::Contains;
+
 using namespace salebra;
 
 namespace {
@@ -26,19 +28,17 @@ TEST_CASE("A contact is described by the agreed keys and is the same for one and
           "[contact]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string press = "contact rough.h5 --pressure 20MPa --contact-modulus 10GPa --json ";
-  const auto one = test.done(press + "--threads 1");
-  const auto answer = one.json();
-  CHECK(keys(answer) == std::set<std::string>{"pressure", "force", "contact_area_fraction",
-                                              "mean_gap", "indentation", "max_pressure",
-                                              "elastic_energy", "iterations", "fft_count",
-                                              "ladder_count", "residual", "converged", "seconds"});
+  const std::string press = "contact rough.h5 --pressure 20MPa --contact-modulus 10GPa ";
+  const auto answer = test.answer(press + "--threads 1");
+  CHECK(keys(answer) ==
+        "pressure force contact_area_fraction mean_gap indentation max_pressure elastic_energy "
+        "iterations fft_count ladder_count residual converged seconds");
   CHECK(answer["converged"] == true);
   CHECK(answer["pressure"] == Approx(2e7).epsilon(1e-9));
   CHECK(answer["force"] == Approx(2e7 * 16e-12).epsilon(1e-9));
-  CHECK(answer["residual"].get<double>() < 1e-10);
+  CHECK(answer["residual"] < 1e-10);
 
-  const auto other = test.run(press + "--threads 2 -o two.h5").json();
+  const auto other = test.answer(press + "--threads 2 -o two.h5");
   test.done(press + "--threads 1 -o one.h5");
   const Field first = ResultReader(test.folder() / "one.h5").field("contact/contact_pressure");
   const Field second = ResultReader(test.folder() / "two.h5").field("contact/contact_pressure");
@@ -54,16 +54,14 @@ TEST_CASE("A contact is described by the agreed keys and is the same for one and
 TEST_CASE("The mean gap that a pressure gives leads back to the pressure", "[contact]") {
   const ProgramTest test;
   make_rough(test);
-  const auto by_pressure =
-      test.run("contact rough.h5 --pressure 20MPa --contact-modulus 10GPa --json").json();
+  const auto by_pressure = test.answer("contact rough.h5 --pressure 20MPa --contact-modulus 10GPa");
   const auto by_gap =
-      test.run(fmt::format("contact rough.h5 --mean-gap {} --contact-modulus 10GPa --json",
-                           by_pressure["mean_gap"].get<double>()))
-          .json();
+      test.answer(fmt::format("contact rough.h5 --mean-gap {} --contact-modulus 10GPa",
+                              by_pressure["mean_gap"].get<double>()));
   // Both to a residual of 1e-10; pressure falls by a factor e over a third of the rms height.
   CHECK(by_gap["pressure"] == Approx(2e7).epsilon(1e-8));
   const auto by_force =
-      test.run("contact rough.h5 --normal-force 0.32mN --contact-modulus 10GPa --json").json();
+      test.answer("contact rough.h5 --normal-force 0.32mN --contact-modulus 10GPa");
   CHECK(by_force["mean_gap"] == Approx(by_pressure["mean_gap"]).epsilon(1e-8));
 }
 
@@ -71,51 +69,37 @@ TEST_CASE("An indentation leads to the pressure that gives it, periodic or free"
   const ProgramTest test;
   make_rough(test);
   const std::string boundary = GENERATE("periodic", "free");
-  const std::string press =
-      "contact rough.h5 --contact-modulus 10GPa --json --boundary " + boundary;
-  const auto loaded = test.run(press + " --pressure 20MPa").json();
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --boundary " + boundary;
+  const auto loaded = test.answer(press + " --pressure 20MPa");
   const auto held =
-      test.run(fmt::format("{} --indentation {}", press, loaded["indentation"].get<double>()))
-          .json();
+      test.answer(fmt::format("{} --indentation {}", press, loaded["indentation"].get<double>()));
   CHECK(held["indentation"] == Approx(loaded["indentation"]).epsilon(1e-12));
   // Both to a residual of 1e-10, which is an energy.
   CHECK(held["pressure"] == Approx(2e7).epsilon(1e-6));
   CHECK(held["contact_area_fraction"] == loaded["contact_area_fraction"]);
-  check_refused(test.run(press + " --pressure 20MPa --indentation 1nm"), "exactly one");
-  check_refused(test.run(press + " --indentation -1nm"), "--indentation");
-  if (boundary == "periodic")
-    check_refused(test.run(press + " --indentation 1um"), "full");
-  else
-    check_refused(test.run(press + " --mean-gap 1nm"), "boundary");
 }
 
-TEST_CASE("A hardness limits the pressure, and one that cannot carry the load is refused",
-          "[contact]") {
+TEST_CASE("A hardness limits the pressure", "[contact]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
-  const auto elastic = test.run(press).json();
-  const auto plastic = test.run(press + "--hardness 150MPa").json();
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa ";
+  const auto elastic = test.answer(press);
+  const auto plastic = test.answer(press + "--hardness 150MPa");
   REQUIRE(elastic["max_pressure"] > 2e8);
   CHECK(plastic["max_pressure"] == 1.5e8);
   CHECK(plastic["pressure"] == Approx(2e7).epsilon(1e-10));
   CHECK(plastic["indentation"] > elastic["indentation"]);
-  check_refused(test.run(press + "--hardness 20MPa"),
-                "--hardness: 20 MPa must exceed the nominal pressure, ");
-  check_refused(test.run(press + "--hardness -1MPa"), "--hardness");
 }
 
 TEST_CASE("A contact starts from an earlier one, in the precision asked for", "[contact]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
-  const auto cold = test.run(press + "-o cold.h5").json();
-  const auto warm = test.run(press + "--initial cold.h5").json();
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa ";
+  const auto cold = test.answer(press + "-o cold.h5");
+  const auto warm = test.answer(press + "--initial cold.h5");
   CHECK(warm["iterations"] < cold["iterations"]);
   CHECK(warm["mean_gap"] == Approx(cold["mean_gap"]).epsilon(1e-6));
-  check_refused(test.run(press + "--initial rough.h5"), "contact_pressure");
-  check_refused(test.run(press + "--initial nothing.h5"), "nothing.h5");
-  const auto full = test.run(press + "--precision full --tolerance 1e-12").json();
+  const auto full = test.answer(press + "--precision full --tolerance 1e-12");
   CHECK(full["residual"] < 1e-12);
   CHECK(full["fft_count"] != cold["fft_count"]);
 }
@@ -132,13 +116,13 @@ TEST_CASE("A checkpoint keeps the pressure of a contact until it has converged",
   };
   const auto plain = numbers(test.run(press));
   CHECK(numbers(test.run(kept)) == plain);
-  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+  CHECK(test.files() == "rough.h5");
 
   // Every hour: of a contact of milliseconds its end alone.
   const auto ended =
       test.run(press + "--checkpoint c.h5 --checkpoint-every 1h --max-iterations 9 -o r.h5");
   CHECK(ended.status == 1);
-  CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  CHECK(test.files() == "c.h5 rough.h5");
   const ResultReader reader(test.folder() / "c.h5");
   CHECK(reader.datasets("contact") == std::vector<std::string>{"contact_pressure", "x", "y"});
   const Field pressure = reader.field("contact/contact_pressure");
@@ -146,21 +130,17 @@ TEST_CASE("A checkpoint keeps the pressure of a contact until it has converged",
   CHECK(pressure.mean() == Approx(2e7).epsilon(1e-6));  // in float
 
   check_refused(test.run(kept), "c.h5: exists; continue from it with --initial c.h5");
-  check_refused(test.run(press + "--checkpoint a.h5 --checkpoint-every=-1s"), "--checkpoint-every");
-  check_refused(test.run(press + "--checkpoint-every 1s"), "given without --checkpoint");
-  check_refused(test.run(press + "--checkpoint a.h5 -o ./a.h5"), "is the --output too");
-  check_refused(test.run(press + "--checkpoint none/a.h5"), "does not exist; create it first");
-  const auto warm = test.run(kept + "--initial c.h5").json();
+  const auto warm = test.answer(kept + "--initial c.h5");
   CHECK(warm["converged"] == true);
   CHECK(warm["iterations"] < plain["iterations"]);
   // To the square root of the tolerance, which is that of an energy.
   CHECK(warm["mean_gap"] == Approx(plain["mean_gap"]).epsilon(1e-5));
-  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+  CHECK(test.files() == "rough.h5");
 
   // One command for the first time and for every other.
   const auto anew = test.run(kept + "--initial c.h5");
   CHECK(numbers(anew) == plain);
-  CHECK_THAT(anew.err, Catch::Contains("c.h5 is not there yet: the contact starts anew"));
+  CHECK_THAT(anew.err, Contains("c.h5 is not there yet: the contact starts anew"));
 }
 
 TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last one stays",
@@ -172,18 +152,18 @@ TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last
   REQUIRE(test.run(press + "--max-iterations 3").status == 1);
   const std::string last = test.read("c.h5");
   const std::string loud =
-      "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa --json "
-      "--initial c.h5 --checkpoint c.h5 --checkpoint-every 0 ";
+      "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa --json --initial c.h5 "
+      "--checkpoint c.h5 --checkpoint-every 0 ";
   // 8 kB, half of what 64² numbers in float take.
   const auto full = test.run(loud + "--max-iterations 4", "ulimit -f 16;");
   CHECK(full.status == 1);
-  CHECK_THAT(full.err, Catch::Contains("salebra: warning: --checkpoint: c.h5: cannot be written"));
-  CHECK_THAT(full.err, Catch::Contains("; the file before stays"));
+  CHECK_THAT(full.err, Contains("salebra: warning: --checkpoint: c.h5: cannot be written"));
+  CHECK_THAT(full.err, Contains("; the file before stays"));
   // Four checkpoints failed, and one line says so.
   CHECK(full.err.find("warning: --checkpoint") == full.err.rfind("warning: --checkpoint"));
-  CHECK_THAT(full.err, Catch::Contains("raise --max-iterations"));
+  CHECK_THAT(full.err, Contains("raise --max-iterations"));
   CHECK(test.read("c.h5") == last);
-  CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
+  CHECK(test.files() == "c.h5 rough.h5");
   const auto through = test.run(loud, "ulimit -f 16;");
   CHECK(through.status == 0);
   CHECK(through.json()["converged"] == true);
@@ -192,8 +172,8 @@ TEST_CASE("A checkpoint that the disk has no room for is warned of, and the last
 TEST_CASE("SIGUSR1 leaves a checkpoint, from which the contact continues", "[contact]") {
   const ProgramTest test;
   test.done(
-      "generate --points 512 --size-x 4um --hurst 0.8 --short-cutoff 0.1um "
-      "--rms-height 10nm --seed 3 -o rough.h5");
+      "generate --points 512 --size-x 4um --hurst 0.8 --short-cutoff 0.1um --rms-height 10nm "
+      "--seed 3 -o rough.h5");
   const std::string press =
       "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa --precision full ";
   // Killed when the first checkpoint appears; one after each iteration leaves time enough.
@@ -201,16 +181,16 @@ TEST_CASE("SIGUSR1 leaves a checkpoint, from which the contact continues", "[con
       test.run(press + "--checkpoint c.h5 --checkpoint-every 0 -o r.h5",
                "(while [ ! -e c.h5 ] && [ -e /proc/$$ ]; do sleep 0.02; done; kill -USR1 $$) &");
   CHECK(stopped.status == 130);
-  CHECK_THAT(stopped.err, Catch::Contains("contact: interrupted; continue with --initial c.h5"));
-  CHECK(test.files() == std::set<std::string>{"c.h5", "rough.h5"});
-  CHECK(test.run(press + "--initial c.h5").status == 0);
+  CHECK_THAT(stopped.err, Contains("contact: interrupted; continue with --initial c.h5"));
+  CHECK(test.files() == "c.h5 rough.h5");
+  test.done(press + "--initial c.h5");
 }
 
 TEST_CASE("The output of a contact has the fields asked for, in double or float", "[contact]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --pressure 20MPa ";
-  const auto whole = test.run(press + "-o all.h5").json();
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --pressure 20MPa ";
+  const auto whole = test.answer(press + "-o all.h5");
   test.done(press + "--fields pressure --field-type float -o pressure.h5");
   test.done(press + "--fields none -o none.h5");
   test.done(press + "--field-type float -o float.h5");
@@ -228,9 +208,8 @@ TEST_CASE("The output of a contact has the fields asked for, in double or float"
         0.6 * double(std::filesystem::file_size(test.folder() / "all.h5")));
 
   for (const std::string file : {"pressure.h5", "float.h5"})
-    CHECK(test.run(press + "--initial " + file).json()["iterations"] < whole["iterations"]);
+    CHECK(test.answer(press + "--initial " + file)["iterations"] < whole["iterations"]);
   check_refused(test.run(press + "--initial none.h5"), "none.h5 has no contact pressure");
-  check_refused(test.run(press + "--fields none"), "--fields: given without --output");
   check_refused(test.run("statistics none.h5"), "none.h5: has no dataset heights");
   check_refused(test.run("report none.h5 -o none.html"), "none.h5: contains no study");
 }
@@ -238,48 +217,32 @@ TEST_CASE("The output of a contact has the fields asked for, in double or float"
 TEST_CASE("The stiffness of full contact is infinite: valid JSON without a number", "[contact]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string press = "contact rough.h5 --contact-modulus 10GPa --json --stiffness ";
-  const auto open = test.run(press + "--pressure 20MPa").json();
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --stiffness ";
+  const auto open = test.answer(press + "--pressure 20MPa");
   CHECK(open["normal_stiffness"] > 0);
   CHECK_FALSE(open.contains("tangential_stiffness"));
-  const auto sheared = test.run(press + "--pressure 20MPa --poisson 0.3").json();
+  const auto sheared = test.answer(press + "--pressure 20MPa --poisson 0.3");
   CHECK(sheared["tangential_stiffness"] ==
         Approx(1.4 / 1.7 * open["normal_stiffness"].get<double>()).epsilon(1e-12));
   // A stick solve finds what it finds for the same contact in a curve.
   const std::string stuck = press + "--poisson 0.3 --stick --pressure 20MPa";
-  CHECK(test.run(stuck).json()["tangential_stiffness"] ==
-        test.run(stuck + ",40MPa").json()["curve"]["tangential_stiffness"][0]);
+  CHECK(test.answer(stuck)["tangential_stiffness"] ==
+        test.answer(stuck + ",40MPa")["curve"]["tangential_stiffness"][0]);
   CHECK(open["normal_stiffness_per_area"] ==
         Approx(open["normal_stiffness"].get<double>() * open["pressure"].get<double>() /
                open["force"].get<double>()));
-  const auto closed = test.run(press + "--pressure 100GPa");
-  CHECK(closed.status == 0);
-  CHECK(closed.json()["contact_area_fraction"] == 1);
-  CHECK(closed.json()["normal_stiffness"].is_null());
-  CHECK(closed.json().contains("normal_stiffness"));
-  CHECK(closed.json()["normal_stiffness_per_area"].is_null());
-  const auto curve = test.run(
-                             "contact rough.h5 --contact-modulus 10GPa --poisson 0.3 --json "
-                             "--stiffness --pressure 20MPa,100GPa")
-                         .json()["curve"];
+  const auto closed = test.answer(press + "--pressure 100GPa");
+  CHECK(closed["contact_area_fraction"] == 1);
+  CHECK(closed["normal_stiffness"].is_null());
+  CHECK(closed.contains("normal_stiffness"));
+  CHECK(closed["normal_stiffness_per_area"].is_null());
+  const auto curve = test.answer(
+      "contact rough.h5 --contact-modulus 10GPa --poisson 0.3 --stiffness --pressure 20MPa,100GPa")
+                         ["curve"];
   CHECK(curve["normal_stiffness"][0] > 0);
   CHECK(curve["normal_stiffness"][1].is_null());
   CHECK(curve["tangential_stiffness"][1].is_null());
   CHECK(curve["converged"][1] == true);
-}
-
-TEST_CASE("Heights that are no numbers and loads that press nothing are refused", "[contact]") {
-  const ProgramTest test;
-  make_rough(test);
-  test.write("holes.txt",
-             "# Width: 1 µm\n# Height: 1 µm\n# Value units: nm\n1 2 3\n4 nan 6\n7 8 1\n");
-  check_refused(
-      test.run("contact holes.txt --contact-modulus 1GPa --pressure 1MPa"),
-      "1 undefined points cannot be used in a contact calculation; fill them or crop them "
-      "first (salebra convert --fill)");
-  for (const std::string pressure : {"0Pa", "-1MPa", "nan"})
-    check_refused(test.run("contact rough.h5 --contact-modulus 1GPa --pressure=" + pressure),
-                  "--pressure");
 }
 
 TEST_CASE("A contact that does not converge is not presented as a result", "[contact]") {
@@ -289,8 +252,8 @@ TEST_CASE("A contact that does not converge is not presented as a result", "[con
       "contact rough.h5 --pressure 20MPa --contact-modulus 10GPa --tolerance 1e-12 "
       "--max-iterations 2 -o c.h5");
   CHECK(result.status == 1);
-  CHECK_THAT(result.err, Catch::Contains("salebra: error: contact: "));
-  CHECK(test.files() == std::set<std::string>{"rough.h5"});
+  CHECK_THAT(result.err, Contains("salebra: error: contact: "));
+  CHECK(test.files() == "rough.h5");
 }
 
 TEST_CASE("fit answers with the fit, the test and the sensitivity of the window and weights asked",
@@ -300,8 +263,7 @@ TEST_CASE("fit answers with the fit, the test and the sensitivity of the window 
   test.done("contact rough.h5 --pressure 2:60MPa:10 --contact-modulus 10GPa -o curve.h5");
   const ForceCurve curve = read_force_curve(test.folder() / "curve.h5");
   const PressureWindow window{3e6, 40e6, 0};
-  const auto found =
-      test.run("fit curve.h5 --pressure-window 3MPa,40MPa --weights force --json").json();
+  const auto found = test.answer("fit curve.h5 --pressure-window 3MPa,40MPa --weights force");
   const ExponentialFit fit = fit_exponential(curve, window, FitWeights::force);
   REQUIRE(fit.window.points < 10);
   CHECK(found["decay_length"] == fit.decay_length);
@@ -322,21 +284,19 @@ TEST_CASE("fit answers with the fit, the test and the sensitivity of the window 
   const WindowSensitivity parts = window_sensitivity(curve, window, FitWeights::force);
   CHECK(found["window_sensitivity"]["decay_length_min"] == parts.decay_length_min);
   CHECK(found["window_sensitivity"]["decay_length_max"] == parts.decay_length_max);
-  check_refused(test.run("fit curve.h5 --pressure-window 40MPa,3MPa"), "--pressure-window");
 }
 
 TEST_CASE("Several pressures lead to a curve, its fit and a damping constant", "[contact][fit]") {
   const ProgramTest test;
   make_rough(test);
-  const auto swept = test.done(
-      "contact rough.h5 --pressure 2:60MPa:8 --stiffness --contact-modulus 10GPa --poisson 0.3 "
-      "--json -o curve.h5");
-  const auto curve = swept.json()["curve"];
-  CHECK(keys(swept.json()) == std::set<std::string>{"curve"});
-  CHECK(keys(curve) == std::set<std::string>{
-                           "pressure", "force", "mean_gap", "indentation", "contact_area_fraction",
-                           "normal_stiffness", "tangential_stiffness", "converged",
-                           "normal_stiffness_per_area", "tangential_stiffness_per_area"});
+  const auto swept = test.answer(
+      "contact rough.h5 --pressure 2:60MPa:8 --stiffness --contact-modulus 10GPa --poisson 0.3 -o "
+      "curve.h5");
+  const auto curve = swept["curve"];
+  CHECK(keys(swept) == "curve");
+  CHECK(keys(curve) ==
+        "pressure force mean_gap indentation contact_area_fraction normal_stiffness "
+        "tangential_stiffness converged normal_stiffness_per_area tangential_stiffness_per_area");
   // Area: force over pressure.
   CHECK(curve["normal_stiffness_per_area"][3] ==
         Approx(curve["normal_stiffness"][3].get<double>() * curve["pressure"][3].get<double>() /
@@ -347,26 +307,20 @@ TEST_CASE("Several pressures lead to a curve, its fit and a damping constant", "
   CHECK(curve["tangential_stiffness"][3] ==
         Approx(1.4 / 1.7 * curve["normal_stiffness"][3].get<double>()).epsilon(1e-12));
 
-  const auto fit = test.run("fit curve.h5 --pressure-window 2MPa,60MPa --json").json();
+  const auto fit = test.answer("fit curve.h5 --pressure-window 2MPa,60MPa");
   // A computed curve has misfit in place of scatter: neither interval nor probability.
-  CHECK(keys(fit) == std::set<std::string>{"decay_length", "reference_pressure", "r_squared",
-                                           "window", "decay_length_over_rms_height", "local",
-                                           "test", "window_sensitivity", "weights",
-                                           "decay_length_by_weights"});
-  CHECK(keys(fit["window"]) == std::set<std::string>{"pressure_min", "pressure_max", "points"});
+  CHECK(keys(fit) ==
+        "decay_length reference_pressure r_squared window decay_length_over_rms_height local test "
+        "window_sensitivity weights decay_length_by_weights");
+  CHECK(keys(fit["window"]) == "pressure_min pressure_max points");
   CHECK(fit["window"]["points"] == 8);
-  CHECK(keys(fit["test"]) ==
-        std::set<std::string>{"fair", "decay_length_closest", "decay_length_farthest"});
+  CHECK(keys(fit["test"]) == "fair decay_length_closest decay_length_farthest");
 
-  check_refused(test.run("fit curve.h5 --pressure-window 1MPa,3MPa"), "at least 3");
-  check_refused(test.run("fit rough.h5"), "rough.h5");
-
-  const auto damping = test.done(
+  const auto damping = test.answer(
       "damping --curve curve.h5 --pressure 20MPa --poisson 0.3 --normal-amplitude 0.1nm "
-      "--drag-velocity 1mm/s "
-      "--frequency 20kHz --json");
-  CHECK(damping.json()["damping_constant"] > 0);
-  CHECK(damping.json()["force"] == Approx(20e6 * 16e-12).epsilon(1e-9));
+      "--drag-velocity 1mm/s --frequency 20kHz");
+  CHECK(damping["damping_constant"] > 0);
+  CHECK(damping["force"] == Approx(20e6 * 16e-12).epsilon(1e-9));
 }
 
 TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", "[contact]") {
@@ -384,11 +338,9 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
                                          "tangential_stiffness_per_area",
                                          "converged"};
   for (const std::string model : {"gw_moments", "gw_deterministic"}) {
-    const auto result =
-        test.done("contact rough.h5 --model " + model +
-                  " --pressure 2:60MPa:5 --contact-modulus 10GPa --poisson 0.3 --json");
-    const auto answer = result.json();
-    CHECK(keys(answer) == std::set<std::string>{"parameters", "curve"});
+    const auto answer = test.answer("contact rough.h5 --model " + model +
+                                    " --pressure 2:60MPa:5 --contact-modulus 10GPa --poisson 0.3");
+    CHECK(keys(answer) == "parameters curve");
     CHECK(keys(answer["curve"]) == curve_keys);
     CHECK(answer["parameters"]["summit_density"] > 0);
     CHECK(answer["curve"]["pressure"][0] == Approx(2e6).epsilon(1e-9));
@@ -398,18 +350,15 @@ TEST_CASE("Greenwood-Williamson curves come from a surface or from parameters", 
                                          {"--mean-gap", "mean_gap"},
                                          {"--indentation", "indentation"}}) {
       INFO(option);
-      const auto same = test.done(fmt::format(
-          "contact rough.h5 --model {} {}={} --contact-modulus 10GPa --poisson 0.3 --json", model,
-          option, curve[column][2].get<double>()));
-      CHECK(same.json()["curve"]["pressure"][0] == Approx(curve["pressure"][2]).epsilon(1e-8));
+      const auto same = test.answer(
+          fmt::format("contact rough.h5 --model {} {}={} --contact-modulus 10GPa --poisson 0.3",
+                      model, option, curve[column][2].get<double>()));
+      CHECK(same["curve"]["pressure"][0] == Approx(curve["pressure"][2]).epsilon(1e-8));
     }
   }
-  const auto answer =
-      test.run(
-              "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
-              "--distribution exponential "
-              "--mean-gap 10nm,30nm --contact-modulus 10GPa --json")
-          .json();
+  const auto answer = test.answer(
+      "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
+      "--distribution exponential --mean-gap 10nm,30nm --contact-modulus 10GPa");
   // F ∝ exp(−s/σ), from the lowest force to the highest.
   CHECK(answer["curve"]["pressure"][1].get<double>() /
             answer["curve"]["pressure"][0].get<double>() ==
@@ -424,6 +373,6 @@ TEST_CASE("A contact that reaches the edge of an isolated surface is warned of",
       "contact s.h5 --boundary free --contact-modulus 1GPa --poisson 0.3 --indentation ";
   const auto light = test.run(contact + "5nm"), heavy = test.run(contact + "300nm");
   INFO(light.err << heavy.err);
-  CHECK_THAT(light.err, !Catch::Contains("reaches the edge"));
-  CHECK_THAT(heavy.err, Catch::Contains("the contact reaches the edge of the surface"));
+  CHECK_THAT(light.err, !Contains("reaches the edge"));
+  CHECK_THAT(heavy.err, Contains("the contact reaches the edge of the surface"));
 }

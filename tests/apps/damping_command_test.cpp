@@ -7,6 +7,8 @@
 
 #include "run_program.hpp"
 
+using Catch::Contains;
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -16,68 +18,49 @@ const std::string drag = "--normal-amplitude 5nm --drag-velocity 2mm/s --frequen
 
 TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[damping]") {
   const ProgramTest test;
-  const auto result =
-      test.run("damping --law exponential --normal-force 1 --decay-length 1e-7 --poisson 0.3 " +
-               drag + "--amplitude small --json");
-  INFO(result.err);
-  REQUIRE(result.status == 0);
-  const auto answer = result.json();
+  const auto answer =
+      test.answer("damping --law exponential --normal-force 1 --decay-length 1e-7 --poisson 0.3 " +
+                  drag + "--amplitude small");
   CHECK(keys(answer) ==
-        std::set<std::string>{"premises", "largest_motion", "regime", "work_per_cycle", "power",
-                              "damping_constant", "normal_stiffness", "force_curvature", "force",
-                              "mean_force", "indentation", "small_amplitude_work", "ratio"});
+        "premises largest_motion regime work_per_cycle power damping_constant normal_stiffness "
+        "force_curvature force mean_force indentation small_amplitude_work ratio");
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);
   // Both sides are the same few products in another order.
-  CHECK(answer["work_per_cycle"].get<double>() == Approx(work).epsilon(1e-12));
-  CHECK(answer["power"].get<double>() == Approx(work * omega / (2 * pi)).epsilon(1e-12));
-  CHECK(answer["damping_constant"].get<double>() ==
-        Approx(work * omega / (2 * pi) / 4e-6).epsilon(1e-12));
-  CHECK(answer["force_curvature"].get<double>() == Approx(1e14).epsilon(1e-12));
-  CHECK(answer["force"].get<double>() == Approx(1).epsilon(1e-12));
+  CHECK(answer["work_per_cycle"] == Approx(work).epsilon(1e-12));
+  CHECK(answer["power"] == Approx(work * omega / (2 * pi)).epsilon(1e-12));
+  CHECK(answer["damping_constant"] == Approx(work * omega / (2 * pi) / 4e-6).epsilon(1e-12));
+  CHECK(answer["force_curvature"] == Approx(1e14).epsilon(1e-12));
+  CHECK(answer["force"] == Approx(1).epsilon(1e-12));
 }
 
 TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]") {
   const ProgramTest test;
   const std::string law = "damping --law exponential --decay-length 100nm --poisson 0.3 ";
-  const auto forces =
-      test.run(law + "--normal-force 0.1:10:3 --amplitude small --json " + drag).json();
+  const auto forces = test.answer(law + "--normal-force 0.1:10:3 --amplitude small " + drag);
   REQUIRE(forces["damping_constant"].size() == 3);
   // Eq. (16) is proportional to the force.
   CHECK(forces["damping_constant"][2].get<double>() / forces["damping_constant"][0].get<double>() ==
         Approx(100).epsilon(1e-12));
-  const auto amplitudes = test.run(law +
-                                   "--normal-force 1 --normal-amplitude 1nm,2nm --drag-velocity "
-                                   "1mm/s --frequency 1kHz --amplitude small --json")
-                              .json();
+  const auto amplitudes = test.answer(law +
+                                      "--normal-force 1 --normal-amplitude 1nm,2nm --drag-velocity "
+                                      "1mm/s --frequency 1kHz --amplitude small");
   CHECK(amplitudes["normal_amplitude"] == nlohmann::json({1e-9, 2e-9}));
   CHECK(amplitudes["work_per_cycle"][1].get<double>() /
             amplitudes["work_per_cycle"][0].get<double>() ==
         Approx(2).epsilon(1e-12));
-  check_refused(
-      test.run(
-          law +
-          "--normal-force 1,2 --normal-amplitude 1nm,2nm --drag-velocity 1mm/s --frequency 1kHz"),
-      "range");
-  // Lists of the same length would look like pairs.
-  check_refused(test.run(law + "--normal-force 1 --mode equal-frequency --normal-amplitude 1nm,2nm "
-                               "--tangential-amplitude 1nm,2nm --phase 90deg"),
-                "--tangential-amplitude: 2 values are a second range");
 }
 
 TEST_CASE("A damping curve is kept with units where a file is asked for", "[damping]") {
   const ProgramTest test;
-  const auto answer = test.run(
-                              "damping --law exponential --decay-length 100nm --poisson 0.3 "
-                              "--normal-force 1,2,4 --json -o d.h5 " +
-                              drag)
-                          .json();
+  const auto answer = test.answer(
+      "damping --law exponential --decay-length 100nm --poisson 0.3 --normal-force 1,2,4 -o d.h5 " +
+      drag);
   const salebra::ResultReader file(test.folder() / "d.h5");
   CHECK(file.numbers("damping/damping_constant") ==
         answer["damping_constant"].get<std::vector<double>>());
   CHECK(file.text_attribute("damping/damping_constant", "units") == "N s/m");
-  check_refused(test.run("verify -o d2.h5"), "--output");
-  CHECK(test.files() == std::set<std::string>{"d.h5"});
+  CHECK(test.files() == "d.h5");
 }
 
 TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]") {
@@ -87,34 +70,29 @@ TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]
   // F'' = 2E*/g' with g' = (π/2) tanθ.
   const double curvature = 2e9 / (pi / 2 * std::tan(0.1));
   const double ratio = 2 * 0.7 / 1.7;
-  const auto shear = test.run(law +
-                              "--mode equal-frequency --normal-amplitude 50nm "
-                              "--tangential-amplitude 30nm --phase 60deg --json")
-                         .json();
-  CHECK(shear["force_curvature"].get<double>() == Approx(curvature).epsilon(1e-12));
+  const auto shear = test.answer(
+      law +
+      "--mode equal-frequency --normal-amplitude 50nm --tangential-amplitude 30nm --phase 60deg");
+  CHECK(shear["force_curvature"] == Approx(curvature).epsilon(1e-12));
   // The theorem's quadrature has a relative tolerance of 1e-10.
-  CHECK(shear["work_per_cycle"].get<double>() ==
+  CHECK(shear["work_per_cycle"] ==
         Approx(8. / 3. * ratio * curvature * 9e-16 * 5e-8 * 0.75).epsilon(1e-9));
   CHECK(shear["power"].is_null());
-  const auto parabola = test.run(
-      "damping --law paraboloid --radius 1mm --normal-force 1mN --young 2GPa --poisson 0.5 " +
-      drag + "--json");
-  CHECK(parabola.status == 0);
+  test.done("damping --law paraboloid --radius 1mm --normal-force 1mN --young 2GPa --poisson 0.5 " +
+            drag);
 }
 
 TEST_CASE("damping says by how much the small-amplitude form is off", "[damping]") {
   const ProgramTest test;
   // k = u_z/l = 0.5: J(0.5)/J(0) by docs/theory.md, section 7, Eq. (16) is 20 % too high.
-  const auto run = test.run(
+  const auto answer = test.answer(
       "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-      "--normal-amplitude 50nm --drag-velocity 1mm/s --frequency 20kHz --json");
-  const auto answer = run.json();
+      "--normal-amplitude 50nm --drag-velocity 1mm/s --frequency 20kHz");
   const double ratio = answer["ratio"].get<double>();
   CHECK(1 / ratio == Approx(1.2).epsilon(0.02));
   CHECK(answer["work_per_cycle"].get<double>() / answer["small_amplitude_work"].get<double>() ==
         Approx(ratio).epsilon(1e-14));
-  CHECK(answer["premises"]["amplitude"]["limit_20_percent"].get<double>() ==
-        Approx(5e-8).epsilon(0.02));
+  CHECK(answer["premises"]["amplitude"]["limit_20_percent"] == Approx(5e-8).epsilon(0.02));
 }
 
 TEST_CASE("Frequencies in a rational ratio lose their energy over the common period", "[damping]") {
@@ -124,28 +102,27 @@ TEST_CASE("Frequencies in a rational ratio lose their energy over the common per
       "--mode two-frequencies --normal-amplitude 50nm --tangential-amplitude 30nm --phase 40deg "
       "--json ";
   const double curvature = 2e9 / (pi / 2 * std::tan(0.1)), ratio = 2 * 0.7 / 1.7;
-  const auto answer = test.run(cone + "--frequency 3kHz --tangential-frequency 2kHz").json();
+  const auto answer = test.answer(cone + "--frequency 3kHz --tangential-frequency 2kHz");
   CHECK(answer["normal_cycles"] == 3);
   CHECK(answer["tangential_cycles"] == 2);
   // p > 2: S = p/2; I(r) = 1 − (1 + cos 2πr)/(2(1 − 4r²)).
   const double r = 2.0 / 3, release = 1 - (1 + std::cos(2 * pi * r)) / (2 * (1 - 4 * r * r));
   const double work = 2 * ratio * curvature * 9e-16 * 5e-8 * 1.5 * release;
-  CHECK(answer["work_per_cycle"].get<double>() == Approx(work).epsilon(1e-9));
-  CHECK(answer["power"].get<double>() == Approx(work * 1000).epsilon(1e-9));
+  CHECK(answer["work_per_cycle"] == Approx(work).epsilon(1e-9));
+  CHECK(answer["power"] == Approx(work * 1000).epsilon(1e-9));
 
   // No common period: the mean power of a neighbour, and the work of a period is not known.
   const auto irrational = test.run(cone + "--frequency 3kHz --tangential-frequency 1999.9998765Hz");
   CHECK(irrational.json()["work_per_cycle"].is_null());
   CHECK(irrational.json()["normal_cycles"] == 0);
-  CHECK(irrational.json()["power"].get<double>() == Approx(work * 1000).epsilon(1e-5));
-  CHECK_THAT(irrational.err, Catch::Contains("no common period"));
+  CHECK(irrational.json()["power"] == Approx(work * 1000).epsilon(1e-5));
+  CHECK_THAT(irrational.err, Contains("no common period"));
 
   // A slow tangential oscillation under a fast normal one is the damper of case (b).
-  const auto slow = test.run(cone + "--frequency 20kHz --tangential-frequency 100Hz").json();
-  CHECK(slow["power"].get<double>() ==
-        Approx(slow["slow_limit_power"].get<double>()).epsilon(1e-3));
+  const auto slow = test.answer(cone + "--frequency 20kHz --tangential-frequency 100Hz");
+  CHECK(slow["power"] == Approx(slow["slow_limit_power"]).epsilon(1e-3));
   const double velocity = 3e-8 * 2 * pi * 100, omega = 2 * pi * 2e4;
-  CHECK(slow["slow_limit_power"].get<double>() ==
+  CHECK(slow["slow_limit_power"] ==
         Approx((pi * pi - 4) * ratio * curvature * 5e-8 / (pi * omega) * velocity * velocity / 2)
             .epsilon(1e-9));
 }
@@ -154,27 +131,25 @@ TEST_CASE("The mean force or the force itself may be what is given", "[damping]"
   const ProgramTest test;
   const std::string law =
       "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
-      "--drag-velocity 1mm/s --frequency 20kHz --json ";
-  const auto held = test.run(law + "--hold force --normal-amplitude 100nm").json();
-  CHECK(held["mean_force"].get<double>() == Approx(2).epsilon(1e-9));
+      "--drag-velocity 1mm/s --frequency 20kHz ";
+  const auto held = test.answer(law + "--hold force --normal-amplitude 100nm");
+  CHECK(held["mean_force"] == Approx(2).epsilon(1e-9));
   // A dead weight on the exponential law: F at the mean indentation is lower by I_0(1).
-  CHECK(held["force"].get<double>() == Approx(2 / std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
-  const auto free = test.run(law + "--normal-amplitude 100nm").json();
-  CHECK(free["force"].get<double>() == Approx(2).epsilon(1e-12));
-  CHECK(free["mean_force"].get<double>() == Approx(2 * std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
+  CHECK(held["force"] == Approx(2 / std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
+  const auto free = test.answer(law + "--normal-amplitude 100nm");
+  CHECK(free["force"] == Approx(2).epsilon(1e-12));
+  CHECK(free["mean_force"] == Approx(2 * std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
 
   // Force control: Eq. (15) with F''u_z → F_a/l at every F_a <= F.
-  const auto controlled = test.run(law + "--force-amplitude 0.5,2").json();
+  const auto controlled = test.answer(law + "--force-amplitude 0.5,2");
   const double ratio = 2 * 0.7 / 1.7, omega = 2 * pi * 2e4;
   for (const std::size_t i : {0, 1}) {
     const double amplitude = i == 0 ? 0.5 : 2;
-    CHECK(controlled["work_per_cycle"][i].get<double>() ==
+    CHECK(controlled["work_per_cycle"][i] ==
           Approx(2 * (pi * pi - 4) * ratio * amplitude / 1e-7 * 1e-6 / (omega * omega))
               .epsilon(1e-8));
   }
   CHECK(controlled["force_amplitude"] == nlohmann::json({0.5, 2.0}));
-  check_refused(test.run(law + "--force-amplitude 3"), "--force-amplitude");
-  check_refused(test.run(law + "--force-amplitude 1 --normal-amplitude 1nm"), "--force-amplitude");
 }
 
 TEST_CASE("Any law follows a motion from a file", "[damping]") {
@@ -187,28 +162,23 @@ TEST_CASE("Any law follows a motion from a file", "[damping]") {
   }
   test.write("path.txt", path);
   const std::string law =
-      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 --json ";
-  const auto followed = test.run(law + "--trajectory path.txt -o path.h5 --plot path.svg").json();
-  const auto exact = test.run(law +
-                              "--mode equal-frequency --normal-amplitude 50nm "
-                              "--tangential-amplitude 30nm --phase 60deg")
-                         .json();
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
+  const auto followed = test.answer(law + "--trajectory path.txt -o path.h5 --plot path.svg");
+  const auto exact = test.answer(
+      law +
+      "--mode equal-frequency --normal-amplitude 50nm --tangential-amplitude 30nm --phase 60deg");
   // 2000 straight steps, written to 1e-6 nm.
-  CHECK(followed["work_per_cycle"].get<double>() ==
-        Approx(exact["work_per_cycle"].get<double>()).epsilon(1e-5));
-  CHECK(followed["power"].get<double>() ==
-        Approx(exact["work_per_cycle"].get<double>() / 2).epsilon(1e-5));
-  CHECK(test.files() == std::set<std::string>{"path.txt", "path.h5", "path.svg"});
-  check_refused(test.run(law + "--trajectory path.txt --normal-amplitude 1nm"), "--trajectory");
+  CHECK(followed["work_per_cycle"] == Approx(exact["work_per_cycle"]).epsilon(1e-5));
+  CHECK(followed["power"] == Approx(exact["work_per_cycle"].get<double>() / 2).epsilon(1e-5));
+  CHECK(test.files() == "path.txt path.h5 path.svg");
   // Friction: less is lost by relaxation, and some by slip.
   const auto rough =
-      test.run(law +
-               "--friction-coefficient 1 --mode equal-frequency --normal-amplitude 50nm "
-               "--tangential-amplitude 30nm --phase 60deg")
-          .json();
+      test.answer(law +
+                  "--friction-coefficient 1 --mode equal-frequency --normal-amplitude 50nm "
+                  "--tangential-amplitude 30nm --phase 60deg");
   CHECK(rough["work_per_cycle"] == exact["work_per_cycle"]);
   CHECK(rough["with_slip"]["work_per_cycle"].get<double>() < exact["work_per_cycle"].get<double>());
-  CHECK(rough["with_slip"]["slip_work"].get<double>() > 0);
+  CHECK(rough["with_slip"]["slip_work"] > 0);
 }
 
 TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
@@ -216,23 +186,22 @@ TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
   const std::string law =
       "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
       "--drag-velocity 1mm/s --frequency 20kHz --json ";
-  REQUIRE(test.run(law + "--normal-amplitude 1:50nm:6 --plot curve.svg").status == 0);
+  test.done(law + "--normal-amplitude 1:50nm:6 --plot curve.svg");
   const std::string curve = test.read("curve.svg");
-  CHECK_THAT(curve, Catch::Contains("amplitude of the normal oscillation (nm)"));
-  CHECK_THAT(curve, Catch::Contains("small-amplitude form"));
-  CHECK(test.run(law + "--normal-amplitude 50nm --plot cycle.png").status == 0);
+  CHECK_THAT(curve, Contains("amplitude of the normal oscillation (nm)"));
+  CHECK_THAT(curve, Contains("small-amplitude form"));
+  test.done(law + "--normal-amplitude 50nm --plot cycle.png");
   CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
   check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--overwrite");
-  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.jpg"), ".png, .svg or .pdf");
   // Without gnuplot there is one line, status 1, and no answer is lost for a picture that was not
   // asked for.
   const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
   CHECK(without.status == 1);
-  CHECK_THAT(without.err, Catch::Contains("salebra: error: new.png: gnuplot is not installed"));
+  CHECK_THAT(without.err, Contains("salebra: error: new.png: gnuplot is not installed"));
   CHECK(std::count(without.err.begin(), without.err.end(), '\n') == 1);
   CHECK(without.out.empty());
-  CHECK(test.run(law + "--normal-amplitude 50nm", "PATH=/nowhere;").status == 0);
-  CHECK(test.files() == std::set<std::string>{"curve.svg", "cycle.png"});
+  test.done(law + "--normal-amplitude 50nm", "PATH=/nowhere;");
+  CHECK(test.files() == "curve.svg cycle.png");
 }
 
 TEST_CASE("A picture is drawn where it was asked for, and its name never runs as a command",
@@ -242,32 +211,12 @@ TEST_CASE("A picture is drawn where it was asked for, and its name never runs as
   const std::string folder = "|touch PWNED;'\"`touch PWNED`";
   std::filesystem::create_directory(test.folder() / folder);
   const std::string quoted = "\"|touch PWNED;'\\\"\\`touch PWNED\\`/x.png\"";
-  const auto drawn = test.run(
-      "damping --law exponential --normal-force 2 --decay-length 100nm "
-      "--poisson 0.3 --drag-velocity 1mm/s --frequency 20kHz "
-      "--normal-amplitude 50nm --plot " +
+  test.done(
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz --normal-amplitude 50nm --plot " +
       quoted);
-  INFO(drawn.err);
-  CHECK(drawn.status == 0);
   CHECK(test.read(folder + "/x.png").substr(1, 3) == "PNG");
   CHECK(test.files() == std::set<std::string>{folder});
-}
-
-TEST_CASE("Damping without what it needs is refused by name", "[damping]") {
-  const ProgramTest test;
-  const std::string law = "damping --law exponential --decay-length 100nm ";
-  check_refused(test.run(law + "--normal-force 1 " + drag), "--tangential-modulus");
-  check_refused(test.run(law + "--poisson 0.3 " + drag),
-                "--normal-force: not given; give one of them");
-  check_refused(test.run(law + "--poisson 0.3 --normal-force -1 " + drag), "--normal-force");
-  check_refused(test.run(law + "--poisson 0.3 --normal-force 1 --mode equal-frequency " + drag),
-                "--tangential-amplitude");
-  check_refused(
-      test.run(law + "--poisson 0.3 --normal-force 1 --normal-amplitude 1nm --drag-velocity 1mm/s"),
-      "--frequency");
-  check_refused(test.run("damping --poisson 0.3 --normal-force 1 " + drag), "--law");
-  check_refused(test.run(law + "--poisson 0.7 --normal-force 1 " + drag), "poisson");
-  check_refused(test.run(law + "--poisson 0.3 --normal-force 1kg " + drag), "--normal-force");
 }
 
 TEST_CASE("A drag far too short for sliding to begin has its steady state all the same",
@@ -276,100 +225,80 @@ TEST_CASE("A drag far too short for sliding to begin has its steady state all th
   // their limit at μ = 100.
   const ProgramTest test;
   const std::string law =
-      "--law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
-      "--normal-amplitude 20nm --frequency 20kHz --json ";
-  const auto followed =
-      test.run("damping " + law + "--drag-velocity 10um/s --friction-coefficient 100 --steps 2000")
-          .json();
+      "--law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 --normal-amplitude "
+      "20nm --frequency 20kHz ";
+  const auto followed = test.answer(
+      "damping " + law + "--drag-velocity 10um/s --friction-coefficient 100 --steps 2000");
   const auto slid =
-      test.run("sliding " + law + "--velocities 10um/s --friction-coefficient 100").json();
+      test.answer("sliding " + law + "--velocities 10um/s --friction-coefficient 100");
   // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
-  CHECK(followed["with_slip"]["work_per_cycle"].get<double>() ==
+  CHECK(followed["with_slip"]["work_per_cycle"] ==
         Approx(slid["relaxation_work"][0].get<double>() + slid["slip_work"][0].get<double>())
             .epsilon(1e-4));
 }
 
-TEST_CASE("What contradicts a curve is said in the quantity that was typed", "[damping]") {
+TEST_CASE("A Poisson's ratio that contradicts a curve, or has no effect, is told", "[damping]") {
   const ProgramTest test;
-  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
-                   "0.25mm --rms-height 1um -o rough.h5")
-              .status == 0);
+  test.done(
+      "generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff 0.25mm "
+      "--rms-height 1um -o rough.h5");
   const std::string sweep =
       "contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --stiffness --pressure 10kPa:10MPa:8 ";
-  REQUIRE(test.run(sweep + "-o curve.h5").status == 0);
-  REQUIRE(test.run(sweep + "--stick -o stick.h5").status == 0);
-  const std::string damping = "damping --poisson 0.3 " + drag + "--curve curve.h5 ";
-  check_refused(test.run(damping + "--pressure 200"),
-                "--pressure: 200 Pa lies outside the curve's");
-  check_refused(test.run(damping + "--mean-gap 1m"), "--mean-gap: 1 m lies outside the curve's");
-  check_refused(test.run(damping + "--normal-force 1kN"), "--normal-force: 1 kN lies outside");
-  check_refused(test.run(damping + "--indentation 1m"), "--indentation: 1 m lies outside");
-  // Parameters of another law have no effect, and are refused.
-  check_refused(test.run(damping + "--pressure 1MPa --decay-length 3nm"),
-                "--decay-length: given, but --curve has none");
-  check_refused(test.run("damping --law cone --angle 3deg --radius 1mm --normal-force 1 --poisson "
-                         "0.3 --contact-modulus 1GPa " +
-                         drag),
-                "--radius: given, but --law cone has none");
+  test.done(sweep + "-o curve.h5");
+  test.done(sweep + "--stick -o stick.h5");
   // Poisson's ratio against the stiffnesses of the file; a stick solve's differ from G*/E* by some
   // per cent on their own.
   const std::string at =
       "--pressure 1MPa --normal-amplitude 1nm --drag-velocity 1um/s --frequency 20kHz --curve ";
   CHECK(test.run("damping --poisson 0.3 " + at + "curve.h5").err.empty());
   CHECK(test.run("damping --poisson 0.3 " + at + "stick.h5").err.empty());
-  for (const char* file : {"curve.h5", "stick.h5"}) {
-    const auto told = test.run("damping --poisson 0 " + at + file);
-    CHECK(told.status == 0);
-    CHECK_THAT(told.err, Catch::Contains("warning: G*/E* = 1 of --poisson"));
-  }
-  CHECK_THAT(
-      test.run("damping --poisson 0 --pressure 1MPa --normal-amplitude 1nm --frequency 20kHz "
-               "--falling-slope 1 --curve curve.h5")
-          .err,
-      Catch::Contains("warning: G*/E* = 1"));
+  for (const char* file : {"curve.h5", "stick.h5"})
+    CHECK_THAT(test.done("damping --poisson 0 " + at + file).err,
+               Contains("warning: G*/E* = 1 of --poisson"));
+  CHECK_THAT(test.run("damping --poisson 0 --pressure 1MPa --normal-amplitude 1nm --frequency "
+                      "20kHz --falling-slope 1 --curve curve.h5")
+                 .err,
+             Contains("warning: G*/E* = 1"));
   for (const std::string pressure : {"1:2MPa:4", "1MPa"})
     CHECK_THAT(
         test.run("contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --pressure " + pressure)
             .err,
-        Catch::Contains("--poisson: has no effect without --stiffness"));
+        Contains("--poisson: has no effect without --stiffness"));
 }
 
 TEST_CASE("A slow motion that passes a contact spot in one normal cycle is told", "[damping]") {
   const ProgramTest test;
   const std::string sphere =
-      "--indentation 10nm --contact-modulus 1GPa --poisson 0.3 --normal-amplitude 1nm --frequency "
-      "20kHz ";
+      "damping --law paraboloid --radius 1mm --indentation 10nm --contact-modulus 1GPa --poisson "
+      "0.3 --normal-amplitude 1nm --frequency 20kHz ";
   // a = sqrt(R d) = 3.162 um; 2 pi v/w = 50 um at 1 m/s, 5 um at 0.1 m/s.
-  for (const std::string command :
-       {"damping --law paraboloid --radius 1mm ", "damping --law paraboloid --radius 1mm "}) {
-    CHECK_THAT(test.run(command + sphere + "--drag-velocity 1m/s").err,
-               Catch::Contains("2 pi v/w = 50 µm") && Catch::Contains("6.325 µm across"));
-    CHECK(test.run(command + sphere + "--drag-velocity 0.1m/s").err.empty());
-  }
+  CHECK_THAT(test.run(sphere + "--drag-velocity 1m/s").err,
+             Contains("2 pi v/w = 50 µm") && Contains("6.325 µm across"));
+  CHECK(test.run(sphere + "--drag-velocity 0.1m/s").err.empty());
   // A curve has 2a = 4E*A/(pi K), where E* is given.
-  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
-                   "0.25mm --rms-height 1um -o rough.h5")
-              .status == 0);
-  REQUIRE(test.run("contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --stiffness --pressure "
-                   "100kPa:1MPa:6 -o curve.h5")
-              .status == 0);
+  test.done(
+      "generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff 0.25mm "
+      "--rms-height 1um -o rough.h5");
+  test.done(
+      "contact rough.h5 --contact-modulus 1GPa --poisson 0.3 --stiffness --pressure 100kPa:1MPa:6 "
+      "-o curve.h5");
   const std::string curve =
       "damping --curve curve.h5 --pressure 300kPa --poisson 0.3 --contact-modulus 1GPa "
       "--normal-amplitude 1nm --frequency 1kHz ";
-  CHECK_THAT(test.run(curve + "--drag-velocity 1m/s").err, Catch::Contains("2 pi v/w = 1 mm"));
+  CHECK_THAT(test.run(curve + "--drag-velocity 1m/s").err, Contains("2 pi v/w = 1 mm"));
   CHECK(test.run(curve + "--drag-velocity 1mm/s").err.empty());
 }
 
 TEST_CASE("Damping of a surface is that of a study, with its error", "[damping]") {
   const ProgramTest test;
-  REQUIRE(test.run("generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff "
-                   "0.25mm --rms-height 1um -o rough.h5")
-              .status == 0);
+  test.done(
+      "generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff 0.25mm "
+      "--rms-height 1um -o rough.h5");
   const std::string motion =
       " --contact-modulus 1GPa --poisson 0.3 --normal-amplitude 10nm --drag-velocity 1um/s "
-      "--frequency 20kHz --json --quiet ";
+      "--frequency 20kHz --quiet ";
   const auto one =
-      test.run("damping --surface rough.h5 --pressure 1MPa" + motion + "-o damping.h5").json();
+      test.answer("damping --surface rough.h5 --pressure 1MPa" + motion + "-o damping.h5");
   // Both sides have the same loads, from which K_t/K has its slope.
   test.write("study.toml", R"([surface]
 file = "rough.h5"
@@ -384,36 +313,25 @@ normal_amplitude = "10nm"
 drag_velocity = "1um/s"
 frequency = "20kHz"
 )");
-  const auto study = test.run("study study.toml --no-report --json --quiet").json();
+  const auto study = test.answer("study study.toml --no-report --quiet");
   const auto& constant = study["damping"]["damping_constant"];
   // The two start their contacts from different neighbours. K_t has the square of its solve's
   // tolerance of 1e-3 as error, and its slope is a difference over 30 % of the load.
-  CHECK(one["damping_constant"].get<double>() ==
-        Approx(constant["mean"][1].get<double>()).epsilon(1e-6));
-  CHECK(one["damping_constant_error"].get<double>() ==
-        Approx(constant["error"][1].get<double>()).epsilon(1e-5));
+  CHECK(one["damping_constant"] == Approx(constant["mean"][1]).epsilon(1e-6));
+  CHECK(one["damping_constant_error"] == Approx(constant["error"][1]).epsilon(1e-5));
   CHECK(one["error_estimate"].get<double>() / one["work_per_cycle"].get<double>() ==
         Approx(one["damping_constant_error"].get<double>() / one["damping_constant"].get<double>())
             .epsilon(1e-12));
   // The nominal area is 1 mm².
   for (const std::string name : {"work_per_cycle", "normal_stiffness"})
-    CHECK(one[name + "_per_area"].get<double>() == Approx(one[name].get<double>() / 1e-6));
+    CHECK(one[name + "_per_area"] == Approx(one[name].get<double>() / 1e-6));
   // K is several times the force over the rms height, as F/l, and less than that of a flat body.
   CHECK(one["normal_stiffness_per_area"] > 1e6 / 1e-6);
   CHECK(one["normal_stiffness_per_area"] < 1e9 / 1e-6);
-  const auto two = test.run("damping --surface rough.h5 --pressure 1MPa,3MPa" + motion).json();
-  CHECK(two["work_per_cycle_per_area"][1].get<double>() ==
-        Approx(two["work_per_cycle"][1].get<double>() / 1e-6));
-  CHECK(two["damping_constant"][0].get<double>() ==
-        Approx(one["damping_constant"].get<double>()).epsilon(0.01));
-  check_refused(test.run("damping --surface rough.h5 --normal-force 1" + motion), "pressure");
-  check_refused(test.run("damping --surface rough.h5 --law cone --pressure 1MPa" + motion),
-                "--surface");
-  check_refused(test.run("damping --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa "
-                         "--poisson 0.3 --normal-amplitude 1:10nm:3 --drag-velocity 1um/s "
-                         "--frequency 20kHz"),
-                "--surface");
-  CHECK(test.run("joint --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
-                 "--friction-coefficient 0.3 --tangential-forces 10mN")
-            .status == 0);
+  const auto two = test.answer("damping --surface rough.h5 --pressure 1MPa,3MPa" + motion);
+  CHECK(two["work_per_cycle_per_area"][1] == Approx(two["work_per_cycle"][1].get<double>() / 1e-6));
+  CHECK(two["damping_constant"][0] == Approx(one["damping_constant"]).epsilon(0.01));
+  test.done(
+      "joint --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
+      "--friction-coefficient 0.3 --tangential-forces 10mN");
 }

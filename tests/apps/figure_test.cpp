@@ -200,7 +200,7 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
   // Words: percentages, with half the width of the interval beside them.
   test.write("study.toml", study_text("seeds = [3, 4]"));
   const auto words = test.run("compare study.toml --no-stick --models persson");
-  const json two = test.run("compare study.toml --no-stick --models persson --json").json();
+  const json two = test.answer("compare study.toml --no-stick --models persson --json");
   REQUIRE(words.status == 0);
   const auto table = words.out.find("Boundary elements at some loads");
   REQUIRE(table != std::string::npos);
@@ -236,9 +236,8 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
 TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3, 4]"));
-  const auto run = test.run("study study.toml --no-stick --no-report --json -o result.h5");
-  REQUIRE(run.status == 0);
-  const json answer = run.json(), &damping = answer["damping"];
+  const auto run = test.answer("study study.toml --no-stick --no-report -o result.h5");
+  const json answer = run, &damping = answer["damping"];
   const salebra::ResultReader file(test.folder() / "result.h5");
   CHECK(numbers(damping["pressure"]) == file.numbers("damping/pressure"));
   CHECK(numbers(damping["force"]) == file.numbers("damping/force"));
@@ -262,9 +261,9 @@ TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {
 TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answers",
           "[contact][plot]") {
   const ProgramTest test;
-  REQUIRE(test.run("generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
-                   "250nm --rms-height 10nm -o s.h5")
-              .status == 0);
+  test.done(
+      "generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 250nm "
+      "--rms-height 10nm -o s.h5");
   const std::string material = " --contact-modulus 1GPa --poisson 0.3 --json";
   const Drawing press(test, "contact s.h5 --pressure 10MPa" + material);
   double largest = 0;
@@ -326,14 +325,14 @@ TEST_CASE("A picture of a damper shows its map over frequency, and how it decays
   }
   // Released at rest from x0, below and beyond critical damping, γ = 2√(km) with k of the contact.
   const std::string oscillator = law + "--normal-amplitude 20nm --frequency 20kHz --mass ";
-  const json one = test.run(oscillator + "1g").json();
+  const json one = test.answer(oscillator + "1g");
   const double constant = one["damping_constant"],
                stiffness = 1e-3 * std::pow(one["decay"]["natural_frequency"].get<double>(), 2);
   for (const double ratio : {0.1, 2.0}) {
     INFO(ratio);
     const double mass = std::pow(constant / (2 * ratio), 2) / stiffness;
     const Drawing decay(test, oscillator + std::to_string(1e9 * mass) + "ug");
-    CHECK(decay.answer()["decay"]["damping_ratio"].get<double>() == Approx(ratio).epsilon(1e-3));
+    CHECK(decay.answer()["decay"]["damping_ratio"] == Approx(ratio).epsilon(1e-3));
     const Values x = decay.column(1, 0, 1);
     CHECK(x[0] == Approx(1).epsilon(1e-9));
     // ẋ = 0: the first of 4000 steps loses a quarter of what the first two lose, but for the third
@@ -348,8 +347,7 @@ TEST_CASE("A picture of a cycle counts the energy lost over one period", "[dampi
       test,
       "damping --law cone --angle 0.1 --indentation 1um --contact-modulus 1GPa --poisson 0.3 "
       "--friction-coefficient 0.5 --mode equal-frequency --normal-amplitude 500nm "
-      "--tangential-amplitude "
-      "200nm --phase 60deg --frequency 300Hz --json");
+      "--tangential-amplitude 200nm --phase 60deg --frequency 300Hz --json");
   const Values time = drawing.column(3, 0, 0), lost = drawing.column(3, 0, 1);
   CHECK(time.front() == Approx(0).margin(1e-12));
   CHECK(time.back() == Approx(1).epsilon(1e-7));

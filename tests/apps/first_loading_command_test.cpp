@@ -6,6 +6,7 @@
 #include "run_program.hpp"
 #include "study/study_text.hpp"
 
+using Catch::Contains;
 using nlohmann::json;
 
 namespace {
@@ -28,51 +29,33 @@ TEST_CASE("The residual surface of a contact carries the load by elasticity alon
           "[first_loading]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string press = " --pressure 20MPa --json" + material;
-  const json plastic =
-      test.run("contact rough.h5 --hardness 150MPa --residual flat.h5" + press).json();
+  const std::string press = " --pressure 20MPa" + material;
+  const json plastic = test.answer("contact rough.h5 --hardness 150MPa --residual flat.h5" + press);
   CHECK(number(plastic, "first_loading", "yielded_area_fraction") > 0.01);
   CHECK(number(plastic, "first_loading", "max_plastic_depth") > 0);
   CHECK(number(plastic, "first_loading", "first_loading_pressure") == Approx(2e7));
-  const json elastic = test.run("contact flat.h5" + press).json();
+  const json elastic = test.answer("contact flat.h5" + press);
   // The solver's tolerance of 1e-10 holds for gaps, its root for pressures.
   CHECK(elastic["mean_gap"] == Approx(plastic["mean_gap"]).epsilon(1e-6));
   CHECK(elastic["max_pressure"] == Approx(1.5e8).epsilon(1e-3));
   CHECK(elastic["contact_area_fraction"] == Approx(plastic["contact_area_fraction"]).epsilon(1e-2));
 }
 
-TEST_CASE("A residual surface without a hardness or a format is refused",
-          "[first_loading][input]") {
-  const ProgramTest test;
-  make_rough(test);
-  const std::string press = "contact rough.h5 --pressure 20MPa --contact-modulus 10GPa ";
-  check_refused(test.run(press + "--residual flat.h5"), "--residual: flat.h5 is what");
-  check_refused(test.run(press + "--hardness 1GPa --residual flat.dat"),
-                "flat.dat: has the extension");
-  check_refused(test.run(press + "--hardness 1GPa --residual rough.h5"), "rough.h5");
-  check_refused(test.run(press + "--hardness 1GPa --residual same.h5 -o same.h5"), "--residual");
-  check_refused(test.run(press + "--hardness 20MPa --residual flat.h5"), "--hardness: 20 MPa");
-  CHECK(test.files() == std::set<std::string>{"rough.h5"});
-}
-
 TEST_CASE("A force curve with a hardness is the elastic one of the residual surface",
           "[first_loading]") {
   const ProgramTest test;
   make_rough(test);
-  const std::string loads = " --pressure 0.5MPa,5MPa,20MPa --stiffness --json" + material;
+  const std::string loads = " --pressure 0.5MPa,5MPa,20MPa --stiffness" + material;
   test.done("contact rough.h5 --hardness 150MPa --residual flat.h5 --pressure 20MPa" + material);
-  const json unloading = test.run("contact rough.h5 --hardness 150MPa" + loads).json();
-  CHECK(unloading["curve"] == test.run("contact flat.h5 --detrend none" + loads).json()["curve"]);
+  const json unloading = test.answer("contact rough.h5 --hardness 150MPa" + loads);
+  CHECK(unloading["curve"] == test.answer("contact flat.h5 --detrend none" + loads)["curve"]);
   CHECK(number(unloading, "first_loading", "yielded_area_fraction") > 0.01);
   // A hardness that no pressure reaches changes no bit.
-  const json elastic = test.run("contact rough.h5" + loads).json();
-  const json hard = test.run("contact rough.h5 --hardness 1TPa" + loads).json();
+  const json elastic = test.answer("contact rough.h5" + loads);
+  const json hard = test.answer("contact rough.h5 --hardness 1TPa" + loads);
   CHECK(hard["curve"] == elastic["curve"]);
   CHECK(number(hard, "first_loading", "yielded_area_fraction") == 0);
   CHECK(unloading["curve"] != elastic["curve"]);
-  check_refused(test.run("contact rough.h5 --hardness 10MPa" + loads + "-o c.h5"),
-                "--hardness: 10 MPa must exceed the nominal pressure, 20 MPa");
-  CHECK(!test.files().contains("c.h5"));
 }
 
 TEST_CASE("Every command that presses a surface takes the hardness", "[first_loading]") {
@@ -83,25 +66,21 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
        {"damping --surface rough.h5 --drag-velocity 1um/s ", "damping --surface rough.h5 ",
         "sliding --surface rough.h5 --friction-coefficient 0.3 --velocities 1um/s ",
         "joint --surface rough.h5 --friction-coefficient 0.3 --tangential-amplitudes 0.1nm ",
-        "oscillate --surface rough.h5 --mode drag --drag-velocity 1um/s --method levels "
-        "--levels 8 "}) {
+        "oscillate --surface rough.h5 --mode drag --drag-velocity 1um/s --method levels --levels "
+        "8 "}) {
     INFO(command);
     const auto ask = [&](const std::string& hardness) {
-      return test.run(command + motion + "--pressure 20MPa --json " + hardness + material);
+      return test.answer(command + motion + "--pressure 20MPa " + hardness + material);
     };
-    const auto elastic = ask(""), hard = ask("--hardness 1TPa"), soft = ask("--hardness 150MPa");
-    REQUIRE(elastic.status == 0);
-    REQUIRE(hard.status == 0);
-    REQUIRE(soft.status == 0);
-    json same = hard.json(), plain = elastic.json(), flowed = soft.json();
+    json same = ask("--hardness 1TPa"), plain = ask(""), flowed = ask("--hardness 150MPa");
     CHECK(number(same, "first_loading", "yielded_area_fraction") == 0);
     CHECK(number(flowed, "first_loading", "yielded_area_fraction") > 0.01);
     // The oscillation belongs to the first loading.
     CHECK(number(flowed, "first_loading", "first_loading_pressure") > 2.001e7);
     const json& premise = flowed["premises"]["plasticity"];
     CHECK(premise["verdict"] == "holds");
-    CHECK(premise["value"].get<double>() < 1);
-    CHECK(premise["value"].get<double>() > 0.9);
+    CHECK(premise["value"] < 1);
+    CHECK(premise["value"] > 0.9);
     CHECK(plain["premises"]["plasticity"]["verdict"] == "unknown");
     for (json* answer : {&same, &plain, &flowed}) {
       answer->erase("first_loading");
@@ -109,23 +88,19 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
     }
     CHECK(same == plain);
     CHECK(flowed != plain);
-    check_refused(ask("--hardness 20MPa"), "--hardness: 20 MPa must exceed the nominal pressure");
   }
 }
 
 TEST_CASE("A shape flows too, but on the cells that it has", "[first_loading]") {
   const ProgramTest test;
   const std::string shape =
-      "oscillate --shape paraboloid --points 32 --method levels --levels 8 --json" + material;
-  const json elastic = test.run(shape).json();
-  const json flowed = test.run(shape + "--hardness 200MPa").json();
+      "oscillate --shape paraboloid --points 32 --method levels --levels 8" + material;
+  const json elastic = test.answer(shape);
+  const json flowed = test.answer(shape + "--hardness 200MPa");
   CHECK(number(flowed, "first_loading", "yielded_area_fraction") > 0);
   // Both have the load of the first loading to the indentation of the shape.
   CHECK(flowed["force"].get<double>() < elastic["force"].get<double>());
   CHECK(flowed["indentation"].get<double>() < elastic["indentation"].get<double>());
-  check_refused(test.run(shape.substr(0, shape.find("--levels")) + "--json" + material +
-                         "--hardness 200MPa --relative-error 5%"),
-                "--hardness: 200 MPa is reached");
 }
 
 TEST_CASE("A study with a hardness is that of the surface that its largest load leaves",
@@ -133,29 +108,27 @@ TEST_CASE("A study with a hardness is that of the surface that its largest load 
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3]"));
   const std::string study = "study study.toml --no-stick --no-report ";
-  const json elastic = test.run(study + "--json").json();
-  const json hard = test.run(study + "--hardness 1TPa --json").json();
+  const json elastic = test.answer(study);
+  const json hard = test.answer(study + "--hardness 1TPa");
   CHECK(hard["damping"] == elastic["damping"]);
   CHECK(hard["decay_length"] == elastic["decay_length"]);
   CHECK(number(hard["first_loading"], "yielded_area_fraction", "mean") == 0);
   const double largest = elastic["damping"]["pressure"].back();
   const std::string hardness = "--hardness " + std::to_string(2 * largest) + " ";
-  const json soft = test.run(study + hardness + "--json").json();
+  const json soft = test.answer(study + hardness);
   CHECK(number(soft["first_loading"], "first_loading_pressure", "mean") > largest);
   CHECK(number(soft["first_loading"], "yielded_area_fraction", "mean") > 0.1);
   CHECK(soft["damping"]["damping_constant"] != elastic["damping"]["damping_constant"]);
   const json& premise = soft["premises"]["plasticity"];
   for (const json& verdict : premise["verdict"]) CHECK(verdict == "holds");
-  CHECK(premise["value"].back().get<double>() > 0.9);
+  CHECK(premise["value"].back() > 0.9);
   const auto text = test.run(study + hardness).out;
-  CHECK_THAT(text, Catch::Contains(", as the first loading left it\n") &&
-                       Catch::Contains("all numbers are of the surface that unloading left"));
-  CHECK_THAT(test.run(study + "--hardness 1TPa").out, !Catch::Contains("first load"));
+  CHECK_THAT(text, Contains(", as the first loading left it\n") &&
+                       Contains("all numbers are of the surface that unloading left"));
+  CHECK_THAT(test.run(study + "--hardness 1TPa").out, !Contains("first load"));
   CHECK(keys(soft["flags"]).contains("first_loading"));
-  const json compared =
-      test.run("compare study.toml --no-stick --no-report --models gw_deterministic " + hardness +
-               "--json")
-          .json();
+  const json compared = test.answer(
+      "compare study.toml --no-stick --no-report --models gw_deterministic " + hardness);
   CHECK(compared["first_loading"] == soft["first_loading"]);
   // Parts of another hardness are none of this study's.
   check_refused(test.run(study + "--hardness " + std::to_string(0.9 * largest)), "hardness: ");

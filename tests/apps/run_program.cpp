@@ -25,6 +25,15 @@ std::string slurp(const fs::path& file) {
 
 }  // namespace
 
+bool Names::operator==(const std::string& listed) const { return *this == words(listed); }
+
+Names words(const std::string& listed) {
+  std::istringstream text(listed);
+  Names names;
+  for (std::string name; text >> name;) names.insert(name);
+  return names;
+}
+
 ProgramTest::ProgramTest() {
   std::string name = (fs::temp_directory_path() / "salebra-test-XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
@@ -61,14 +70,18 @@ ProgramTest::Result ProgramTest::done(const std::string& arguments,
   return result;
 }
 
+nlohmann::json ProgramTest::answer(const std::string& arguments) const {
+  return done(arguments + " --json").json();
+}
+
 void ProgramTest::write(const std::string& file, const std::string& text) const {
   std::ofstream(folder_ / file, std::ios::binary) << text;
 }
 
 std::string ProgramTest::read(const std::string& file) const { return slurp(folder_ / file); }
 
-std::set<std::string> ProgramTest::files() const {
-  std::set<std::string> names;
+Names ProgramTest::files() const {
+  Names names;
   for (const auto& entry : fs::directory_iterator(folder_))
     names.insert(entry.path().filename().string());
   return names;
@@ -82,8 +95,8 @@ void check_refused(const ProgramTest::Result& result, const std::string& part) {
   CHECK(std::ranges::count(result.err, '\n') == 1);
 }
 
-std::set<std::string> keys(const nlohmann::json& object) {
-  std::set<std::string> names;
+Names keys(const nlohmann::json& object) {
+  Names names;
   for (const auto& [name, value] : object.items()) names.insert(name);
   return names;
 }

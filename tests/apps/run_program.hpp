@@ -6,6 +6,12 @@
 #include <set>
 #include <string>
 
+/// A set of names; it equals a text of them with blanks between, in any order.
+struct Names : std::set<std::string> {
+  bool operator==(const std::string& listed) const;
+};
+Names words(const std::string& listed);
+
 /// Runs of the real program in a folder of its own, which is removed with the object.
 class ProgramTest {
  public:
@@ -29,11 +35,14 @@ class ProgramTest {
   /// A run that must succeed.
   Result done(const std::string& arguments, const std::string& before = "") const;
 
+  /// The answer of a run with --json that must succeed.
+  nlohmann::json answer(const std::string& arguments) const;
+
   const std::filesystem::path& folder() const { return folder_; }
   void write(const std::string& file, const std::string& text) const;
   std::string read(const std::string& file) const;
   /// Names of what lies in the folder.
-  std::set<std::string> files() const;
+  Names files() const;
 
  private:
   std::filesystem::path folder_;
@@ -43,4 +52,4 @@ class ProgramTest {
 /// stdout is empty.
 void check_refused(const ProgramTest::Result& result, const std::string& part);
 
-std::set<std::string> keys(const nlohmann::json& object);
+Names keys(const nlohmann::json& object);

@@ -74,32 +74,12 @@ TEST_CASE("A study file made by init is run by study as it is, and names every k
       CHECK(std::regex_search(text, std::regex("\n(# )?" + key + " = |also: [^\n]*" + key)));
     }
   }
-  for (const char* key : {"points",
-                          "size_x",
-                          "size_y",
-                          "hurst",
-                          "rolloff",
-                          "long_cutoff",
-                          "short_cutoff",
-                          "rms_height",
-                          "rms_slope",
-                          "method",
-                          "seeds",
-                          "seed_count",
-                          "first_seed",
-                          "young",
-                          "contact_modulus",
-                          "tangential_modulus",
-                          "pressures",
-                          "relative_pressures",
-                          "tolerance",
-                          "tangential_stiffness",
-                          "mode",
-                          "tangential_amplitude",
-                          "phase",
-                          "angular_frequency",
-                          "hold"})
-    CHECK(std::regex_search(text, std::regex("\n(# )?" + std::string(key) + " = ")));
+  for (const std::string& key :
+       words("points size_x size_y hurst rolloff long_cutoff short_cutoff rms_height rms_slope "
+             "method seeds seed_count first_seed young contact_modulus tangential_modulus "
+             "pressures relative_pressures tolerance tangential_stiffness mode "
+             "tangential_amplitude phase angular_frequency hold"))
+    CHECK(std::regex_search(text, std::regex("\n(# )?" + key + " = ")));
   // The file of init at 128² points: seconds, by the same text.
   std::string quick = std::regex_replace(text, std::regex("points = 512 "), "points = 128 ");
   quick = std::regex_replace(quick, std::regex("156.25nm"), "625nm");
@@ -110,15 +90,14 @@ TEST_CASE("A study file made by init is run by study as it is, and names every k
   CHECK(run.status == 0);
   CHECK(run.json()["realisations"] == 4);
   check_refused(test.run("init my.toml"), "my.toml");
-  CHECK(test.run("init my.toml --overwrite").status == 0);
+  test.done("init my.toml --overwrite");
 }
 
 TEST_CASE("init for a measured surface names it from where the study file lies", "[init]") {
   const ProgramTest test;
   test.done(
-      "generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff "
-      "125nm --rms-height "
-      "9nm --seed 2 -o scan.npy --quiet");
+      "generate --points 32 --size-x 1um --hurst 0.8 --rolloff 0.5um --short-cutoff 125nm "
+      "--rms-height 9nm --seed 2 -o scan.npy --quiet");
   test.done("init -o scan.toml --surface scan.npy");
   const std::string text = test.read("scan.toml");
   CHECK_THAT(text, Contains("\nfile = \"scan.npy\""));
@@ -128,7 +107,6 @@ TEST_CASE("init for a measured surface names it from where the study file lies",
   INFO(run.err);
   CHECK(run.status == 0);
   CHECK(run.json()["points"][0]["nx"] == 32);
-  check_refused(test.run("init other.toml --surface absent.txt"), "absent.txt");
   CHECK(test.files().count("other.toml") == 0);
 }
 
@@ -178,11 +156,7 @@ TEST_CASE("A dry run of one surface states memory and time for any number of pro
       "--rms-height 1um --ranks 16 --nodes 16");
   CHECK(generated["contacts"] == 0);
   CHECK(generated["memory_bytes"] > 8 * 65536.0 * 65536.0);
-  check_refused(test.run("generate --points 64 --size-x 1mm --shape sphere --radius 1m --dry-run"),
-                "--dry-run");
-  check_refused(test.run("contact --pressure 1MPa --dry-run --ranks 2 --nodes 3" + pressed),
-                "nodes");
-  CHECK(test.files() == std::set<std::string>{"large.toml", "small.toml"});
+  CHECK(test.files() == "large.toml small.toml");
 }
 
 TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") {
@@ -198,17 +172,17 @@ TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") 
   CHECK(answer["points"][0]["pressure"].size() == 5);
   CHECK(answer["seconds"] > 0);
   CHECK(answer["memory_bytes"] > 64 * 64 * 80);
-  CHECK(test.files() == std::set<std::string>{"small.toml"});
+  CHECK(test.files() == "small.toml");
 
   // Four times the cells: a little more than four times the time, for each route; two lists
   // multiply the points.
   const auto seconds = [&](const std::string& options) {
-    return test.run("study small.toml --dry-run --json --threads 1 " + options).json();
+    return test.answer("study small.toml --dry-run --json --threads 1 " + options);
   };
   CHECK(seconds("")["points"].size() == 1);
   test.write("grid.toml", "[ensemble]\nhurst = [0.5, 0.8]\npoints = [64, 128]\n" +
                               std::regex_replace(small_study, std::regex("hurst = 0.8\n"), ""));
-  const auto grid = test.run("study grid.toml --dry-run --json --threads 1").json();
+  const auto grid = test.answer("study grid.toml --dry-run --json --threads 1");
   REQUIRE(grid["points"].size() == 4);
   CHECK(grid["surfaces"] == 12);
   const double ratio = double(grid["points"][1]["seconds_of_one_thread"]) /
@@ -219,7 +193,7 @@ TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") 
   // A hundred times the surfaces, a hundred times the time; each run measures its own speed, on a
   // machine that may be busy.
   test.write("many.toml", study_text("seed_count = 300", 5));
-  const auto many = test.run("study many.toml --dry-run --json --threads 1").json();
+  const auto many = test.answer("study many.toml --dry-run --json --threads 1");
   CHECK(many["surfaces"] == 300);
   CHECK(many["seconds"].get<double>() > 15 * answer["seconds"].get<double>());
 
@@ -227,23 +201,6 @@ TEST_CASE("A dry run tells what would run and does nothing of it", "[dry-run]") 
   CHECK(compared.status == 0);
   CHECK_THAT(compared.out, Contains("Persson") && Contains("15 solves"));
   CHECK_THAT(test.run("study small.toml --dry-run --no-stick").out, Contains("(G*/E*)K"));
-}
-
-TEST_CASE("What is misspelt is told with what was probably meant", "[suggestion]") {
-  const ProgramTest test;
-  check_refused(test.run("statistcs a.txt"), "did you mean statistics?");
-  check_refused(test.run("generate --short-cutof 1"), "did you mean --short-cutoff?");
-  check_refused(test.run("generate --short-cutof=1"), "did you mean --short-cutoff?");
-  check_refused(test.run("statistics a.txt b.txt"), "b.txt");
-  test.write("typo.toml", std::regex_replace(small_study, std::regex("hurst"), "hirst"));
-  check_refused(test.run("study typo.toml"), "did you mean hurst?");
-  test.write("typo.toml", std::regex_replace(small_study, std::regex("poisson"), "poison"));
-  check_refused(test.run("study typo.toml"), "did you mean poisson?");
-  check_refused(test.run("help stdy"), "did you mean study?");
-  // Nothing is near: nothing is suggested.
-  const auto far = test.run("polish");
-  check_refused(far, "polish");
-  CHECK_THAT(far.err, !Contains("did you mean"));
 }
 
 TEST_CASE("The program's help lists the commands by what they are for", "[help]") {
@@ -277,7 +234,6 @@ TEST_CASE("bash completes commands, options and their choices", "[completion]") 
   CHECK(complete("salebra study comp", 2) == "complete.sh\n");
   CHECK_THAT(test.run("completion zsh").out,
              Contains("#compdef salebra") && Contains("'*--short-cutoff[") && !Contains("{}"));
-  check_refused(test.run("completion fish"), "fish");
 }
 
 TEST_CASE("Colours are for terminals, and for those who want them", "[colour]") {
