@@ -23,7 +23,7 @@ rms_slope = surface.moments.rms_slope
 pressure = relative_pressure * contact_modulus * rms_slope
 
 # 3. Press. A solver that gave up says so in its result; its numbers are then no answer.
-state = salebra.press_to_pressure(surface, contact_modulus, pressure)
+state = salebra.press(surface, contact_modulus, pressure=pressure)
 if not state.converged:
     sys.exit(f"not converged: residual {state.residual:.1e} after {state.iterations} iterations")
 persson = salebra.persson_area_fraction(pressure, contact_modulus, rms_slope)
@@ -38,6 +38,6 @@ print(f"solver                {state.iterations} iterations, residual {state.res
 print(f"largest pressure      {format_quantity(state.contact_pressure.max(), 'pressure')}")
 
 # 5. The mean gap that the pressure gave, given back, must return that pressure.
-back = salebra.press_to_mean_gap(surface, contact_modulus, state.mean_gap)
+back = salebra.press(surface, contact_modulus, mean_gap=state.mean_gap)
 print(f"pressure from that mean gap / pressure = {back.mean_pressure / pressure:.7f}")
 sys.exit(0 if back.converged else 1)

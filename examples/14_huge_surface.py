@@ -26,7 +26,7 @@ print(f"{n} x {n} points: {forecast.memory / 2**20:.0f} MiB to make them, about 
 # %%
 surface = salebra.filtered_noise(grid, spectrum, 1)
 material = salebra.Material("1GPa", poisson=0.3)
-contact = salebra.press_to_pressure(surface, material, 0.02 * material.contact_modulus * surface.moments.rms_slope)
+contact = salebra.press(surface, material, pressure=0.02 * material.contact_modulus * surface.moments.rms_slope)
 if not contact.converged:
     sys.exit(1)
 spots = salebra.contact_spots(contact)

@@ -27,14 +27,10 @@
 namespace salebra::cli {
 namespace {
 
-NormalContactState solve(const ContactArguments& arguments, const Surface& surface,
-                         double contact_modulus, const NormalContactOptions& options) {
-  if (!arguments.mean_gap.empty())
-    return press_to_mean_gap(surface, contact_modulus, arguments.mean_gap.front(), options);
-  if (!arguments.indentation.empty())
-    return press_to_indentation(surface, contact_modulus, arguments.indentation.front(), options);
-  return press_to_pressure(surface, contact_modulus,
-                           arguments.pressures_on(surface.grid.area()).front(), options);
+Target target_of(const ContactArguments& arguments, const Surface& surface) {
+  if (!arguments.mean_gap.empty()) return {.mean_gap = arguments.mean_gap.front()};
+  if (!arguments.indentation.empty()) return {.indentation = arguments.indentation.front()};
+  return {.pressure = arguments.pressures_on(surface.grid.area()).front()};
 }
 
 /// Whether the contact of any process reaches the edge.
@@ -114,7 +110,8 @@ void press_once(const ContactArguments& arguments, Session& session) {
   }
   arguments.checkpoint.add_to(options, session, surface.grid);
   const auto start = std::chrono::steady_clock::now();
-  const NormalContactState state = solve(arguments, surface, contact_modulus, options);
+  const NormalContactState state =
+      press(surface, contact_modulus, target_of(arguments, surface), options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const bool kept =
       !state.converged && arguments.checkpoint.write(session, surface.grid, state.contact_pressure);

@@ -62,11 +62,11 @@ OscillatingBody file_of(const OscillateArguments& arguments, Session& session) {
   return body;
 }
 
-OscillationPosition position_of(const PositionOptions& options, const Grid2D& grid) {
+Target position_of(const PositionOptions& options, const Grid2D& grid) {
   require_that(options.count() <= 1, "--indentation",
                "given together with another position; give one");
-  return {.mean_gap = options.mean_gap,
-          .pressure = options.nominal_pressure(grid),
+  return {.pressure = options.nominal_pressure(grid),
+          .mean_gap = options.mean_gap,
           .indentation = options.indentation};
 }
 
@@ -126,7 +126,7 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   OscillatingBody& body = contact.body;
   body.boundary = value_of<Boundary>(arguments.boundary).value_or(body.boundary);
   const double modulus = contact.material.contact_modulus;
-  const OscillationPosition position = position_of(arguments.position, body.surface.grid);
+  const Target position = position_of(arguments.position, body.surface.grid);
   if (position.pressure) session.doubt(doubt_of_pressure(*position.pressure, modulus));
   contact.indentation = mean_indentation(body, modulus, position);
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
@@ -173,7 +173,7 @@ CycleRecorder recorder_of(const OscillateArguments& arguments, const Oscillation
           {surface,
            [&surface, modulus = contact.material.contact_modulus,
             normal = NormalContactOptions{.boundary = contact.body.boundary}](double indentation) {
-             return press_to_indentation(surface, modulus, indentation, normal);
+             return press(surface, modulus, {.indentation = indentation}, normal);
            }},
           arguments.friction.cycles()};
 }

@@ -4,7 +4,7 @@
 // usage: contact_profile [N [THREADS [LOAD...]]]          default: 2048 1 0.005 0.02 0.1
 //
 // LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest
-// wave 8 cells, rms slope 0.1. The solver's levels are run one by one as press_to_pressure() runs
+// wave 8 cells, rms slope 0.1. The solver's levels are run one by one as press() runs
 // them. A transform takes each row from the tiles and hands it back to them: this counts as part of
 // it. What a solve takes beyond its transforms and the ladder is its other pointwise passes.
 

@@ -32,7 +32,7 @@ salebra.set_threads(threads)
 
 def by_python() -> tuple[float, float]:
     wall, cpu = time.perf_counter(), time.process_time()
-    state = salebra.press_to_pressure(surface, 1.0, pressure, tolerance=tolerance)
+    state = salebra.press(surface, 1.0, pressure=pressure, tolerance=tolerance)
     spent = time.perf_counter() - wall, time.process_time() - cpu
     assert state.converged
     return spent
@@ -52,7 +52,7 @@ with tempfile.TemporaryDirectory() as folder:
         python.append(by_python())
         cpp.append(by_cpp(f"{folder}/heights.raw", f"{folder}/out.raw"))
     same = np.array_equal(
-        salebra.press_to_pressure(surface, 1.0, pressure, tolerance=tolerance).contact_pressure,
+        salebra.press(surface, 1.0, pressure=pressure, tolerance=tolerance).contact_pressure,
         np.fromfile(f"{folder}/out.raw").reshape(n, n),
     )
 

@@ -48,7 +48,7 @@ def refusal(field: str, value: str, demand: str) -> _core.InvalidInput:
 
 # Arguments whose unit is that of a quantity with another name.
 _LIKE = {
-    "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure", "nominal_pressure": "pressure",
+    "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure",
     "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
     "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
     "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius",

@@ -76,64 +76,6 @@ tangential_modulus : float, optional
         "What is most likely a slip in the unit of one of them, or None.");
 }
 
-// Everything that the three ways of pressing have in common.
-template <class Press>
-BoundContact* press(const BoundSurface& surface, double contact_modulus, double tolerance,
-                    int max_iterations, const Choice<Boundary>& boundary,
-                    const Choice<Precision>& precision, double hardness,
-                    const std::optional<FieldArgument>& initial_pressure,
-                    const ProgressArgument& progress, const Press& solve) {
-  cite({"polonsky_keer1999", "stanley_kato1997"});
-  const std::unique_ptr<BorrowedField> initial =
-      initial_pressure ? std::make_unique<BorrowedField>(*initial_pressure) : nullptr;
-  NormalContactOptions options{.tolerance = tolerance,
-                               .max_iterations = max_iterations,
-                               .boundary = boundary.value("boundary"),
-                               .precision = precision.value("precision"),
-                               .hardness = hardness,
-                               .initial_pressure = initial ? &initial->field() : nullptr};
-  return interruptible(
-      progress,
-      [&](Progress told) {
-        options.on_progress = std::move(told);
-        return new BoundContact{solve(surface.surface, options), surface.surface.grid,
-                                contact_modulus, options.boundary};
-      },
-      surface.surface.ranks);
-}
-
-constexpr const char* options_of_contact = R"(
-tolerance : float
-    Stop at e_c = Σp(g − g_min)/(Σp·h_rms) < tolerance, checked in double precision; 1e-14 … 1e-1.
-max_iterations : int
-    On the finest level.
-boundary : {"periodic", "free"}
-    "periodic": the cell repeats for ever; "free": one loaded patch on an infinite half-space.
-precision : {"mixed", "full"}
-    "mixed": transforms in float, residuals and acceptance in double.
-hardness : float
-    Largest pressure that the bodies carry, Pa: cells saturate there.
-initial_pressure : array_like, optional
-    Of the shape of the heights. Start of the iteration, Pa; not copied if C-contiguous float64.
-progress : bool or callable
-    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
-
-Returns
--------
-NormalContactState
-    Unless `converged`, its numbers describe the last iterate and must not be used as the answer.
-
-Raises
-------
-InvalidInput
-    Before any work. Non-convergence is returned, not raised.
-
-References
-----------
-Polonsky and Keer (1999), doi:10.1016/S0043-1648(99)00113-1; Stanley and Kato (1997),
-doi:10.1115/1.2833523.
-)";
-
 void bind_state(nb::module_& m) {
   auto state = described_class<BoundContact>(
       m, "NormalContactState", R"(Result of a normal contact; its fields are views, not copies.
@@ -169,76 +111,91 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
 }
 
 void bind_presses(nb::module_& m) {
-  const auto define = [&](const char* name, const char* target, const std::string& head,
-                          auto function) {
-    static std::vector<std::unique_ptr<std::string>> kept;
-    kept.push_back(std::make_unique<std::string>(head + options_of_contact));
-    m.def(
-        name,
-        [function](const BoundSurface& surface, const MaterialArgument& material, double value,
-                   double tolerance, int max_iterations, const Choice<Boundary>& boundary,
-                   const Choice<Precision>& precision, double hardness,
-                   const std::optional<FieldArgument>& initial_pressure,
-                   const ProgressArgument& progress) {
-          const double contact_modulus = material.material().contact_modulus;
-          return press(surface, contact_modulus, tolerance, max_iterations, boundary, precision,
-                       hardness, initial_pressure, progress,
-                       [&](const Surface& heights, const NormalContactOptions& options) {
-                         return function(heights, contact_modulus, value, options);
-                       });
-        },
-        nb::arg("surface"), nb::arg("material"), nb::arg(target), nb::kw_only(),
-        nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
-        nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
-        nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
-        nb::arg("progress") = false, kept.back()->c_str());
-  };
-  define(
-      "press_to_pressure", "nominal_pressure",
-      R"(Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal pressure.
+  m.def(
+      "press",
+      [](const BoundSurface& surface, const MaterialArgument& material,
+         std::optional<double> pressure, std::optional<double> mean_gap,
+         std::optional<double> indentation, std::optional<double> force, double tolerance,
+         int max_iterations, const Choice<Boundary>& boundary, const Choice<Precision>& precision,
+         double hardness, const std::optional<FieldArgument>& initial_pressure,
+         const ProgressArgument& progress) {
+        cite({"polonsky_keer1999", "stanley_kato1997"});
+        const double contact_modulus = material.material().contact_modulus;
+        const std::unique_ptr<BorrowedField> initial =
+            initial_pressure ? std::make_unique<BorrowedField>(*initial_pressure) : nullptr;
+        NormalContactOptions options{.tolerance = tolerance,
+                                     .max_iterations = max_iterations,
+                                     .boundary = boundary.value("boundary"),
+                                     .precision = precision.value("precision"),
+                                     .hardness = hardness,
+                                     .initial_pressure = initial ? &initial->field() : nullptr};
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.on_progress = std::move(told);
+              return new BoundContact{press(surface.surface, contact_modulus,
+                                            {pressure, mean_gap, indentation, force}, options),
+                                      surface.surface.grid, contact_modulus, options.boundary};
+            },
+            surface.surface.ranks);
+      },
+      nb::arg("surface"), nb::arg("material"), nb::kw_only(), nb::arg("pressure") = nb::none(),
+      nb::arg("mean_gap") = nb::none(), nb::arg("indentation") = nb::none(),
+      nb::arg("force") = nb::none(), nb::arg("tolerance") = 1e-10, nb::arg("max_iterations") = 1000,
+      nb::arg("boundary") = "periodic", nb::arg("precision") = "mixed",
+      nb::arg("hardness") = infinite, nb::arg("initial_pressure") = nb::none(),
+      nb::arg("progress") = false,
+      R"(Frictionless contact of a rigid rough surface with an elastic half-space, for a nominal pressure, or by its force, mean gap or indentation.
 
 .. math:: \min_p\ \tfrac12\,p\cdot Gp - p\cdot h, \quad 0\le p\le \text{hardness},\ \langle p\rangle = \text{nominal pressure};
           \qquad \hat u(q) = \frac{2\hat p(q)}{E^*|q|}
 
 by nested conjugate gradients on the contact set. One transform pair an iteration, 15 to 100 iterations; 57 to 67 bytes a cell.
+Exactly one of pressure, mean_gap, indentation and force is given.
 
 Parameters
 ----------
 surface : Surface
 material : Material or float
     Or E* > 0 alone, Pa.
-nominal_pressure : float
-    > 0, Pa, below the hardness.)",
-      [](const Surface& s, double e, double v, const NormalContactOptions& o) {
-        return press_to_pressure(s, e, v, o);
-      });
-  define(
-      "press_to_mean_gap", "mean_gap",
-      R"(The contact of :func:`press_to_pressure` for a given mean gap: its inverse. Periodic and elastic contacts only.
+pressure : float, optional
+    Nominal, > 0, Pa, below the hardness.
+mean_gap : float, optional
+    ū in (0, max h − mean h), m. Periodic and elastic contacts only.
+indentation : float, optional
+    Rigid approach from first touch, > 0, m; below max h − mean h for periodic contacts.
+force : float, optional
+    > 0, N: pressure times the nominal area.
+tolerance : float
+    Stop at e_c = Σp(g − g_min)/(Σp·h_rms) < tolerance, checked in double precision; 1e-14 … 1e-1.
+max_iterations : int
+    On the finest level.
+boundary : {"periodic", "free"}
+    "periodic": the cell repeats for ever; "free": one loaded patch on an infinite half-space.
+precision : {"mixed", "full"}
+    "mixed": transforms in float, residuals and acceptance in double.
+hardness : float
+    Largest pressure that the bodies carry, Pa: cells saturate there.
+initial_pressure : array_like, optional
+    Of the shape of the heights. Start of the iteration, Pa; not copied if C-contiguous float64.
+progress : bool or callable
+    True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop.
 
-Parameters
-----------
-surface : Surface
-material : Material or float
-    Or E* > 0 alone, Pa.
-mean_gap : float
-    ū in (0, max h − mean h), m.)",
-      [](const Surface& s, double e, double v, const NormalContactOptions& o) {
-        return press_to_mean_gap(s, e, v, o);
-      });
-  define("press_to_indentation", "indentation",
-         R"(The contact of :func:`press_to_pressure` for a rigid approach from first touch.
+Returns
+-------
+NormalContactState
+    Unless `converged`, its numbers describe the last iterate and must not be used as the answer.
 
-Parameters
+Raises
+------
+InvalidInput
+    Before any work. Non-convergence is returned, not raised.
+
+References
 ----------
-surface : Surface
-material : Material or float
-    Or E* > 0 alone, Pa.
-indentation : float
-    > 0, m; below max h − mean h for periodic contacts.)",
-         [](const Surface& s, double e, double v, const NormalContactOptions& o) {
-           return press_to_indentation(s, e, v, o);
-         });
+Polonsky and Keer (1999), doi:10.1016/S0043-1648(99)00113-1; Stanley and Kato (1997),
+doi:10.1115/1.2833523.
+)");
 
   m.def(
       "normal_stiffness",
@@ -268,7 +225,7 @@ void bind_first_loading(nb::module_& m) {
       .def_prop_ro("yielded", &FirstLoading::yielded, "Whether any of the surface flowed.");
   m.def(
       "after_first_loading",
-      [](const BoundSurface& surface, const MaterialArgument& material, double nominal_pressure,
+      [](const BoundSurface& surface, const MaterialArgument& material, double pressure,
          double hardness, double normal_amplitude, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary,
          const ProgressArgument& progress) -> nb::typed<nb::tuple, BoundSurface, FirstLoading> {
@@ -279,7 +236,7 @@ void bind_first_loading(nb::module_& m) {
                                      .hardness = hardness};
         ResidualSurface residual = interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return after_first_loading(surface.surface, contact_modulus, nominal_pressure, options,
+          return after_first_loading(surface.surface, contact_modulus, pressure, options,
                                      normal_amplitude);
         });
         if (residual.interrupted) throw Interrupted("after_first_loading: interrupted");
@@ -289,7 +246,7 @@ void bind_first_loading(nb::module_& m) {
             nb::cast(new_surface(std::move(residual.surface)), nb::rv_policy::take_ownership),
             residual.first_loading));
       },
-      nb::arg("surface"), nb::arg("material"), nb::arg("nominal_pressure"), nb::kw_only(),
+      nb::arg("surface"), nb::arg("material"), nb::arg("pressure"), nb::kw_only(),
       nb::arg("hardness"), nb::arg("normal_amplitude") = 0.0, nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
       nb::arg("progress") = false,
@@ -303,14 +260,14 @@ Parameters
 surface : Surface
 material : Material or float
     Or E* > 0 alone, Pa.
-nominal_pressure : float
+pressure : float
     Largest, > 0, Pa, below the hardness.
 hardness : float
     > 0, Pa.
 normal_amplitude : float
     u_z >= 0, m: the first loading ends at the largest pressure of an oscillation about the nominal one.
 tolerance, max_iterations, boundary, progress
-    As for :func:`press_to_pressure`.
+    As for :func:`press`.
 
 Returns
 -------

@@ -134,7 +134,7 @@ concurrent_loads : int
     Loads solved at the same time, each with 50 to 60 bytes a cell of its own; 0: as many as there are threads. A surface that is spread
     over processes has one load after the other.
 tolerance, max_iterations, boundary, precision, hardness
-    As for :func:`press_to_pressure`. With a hardness this is the curve of first loading; that of unloading is the curve of the
+    As for :func:`press`. With a hardness this is the curve of first loading; that of unloading is the curve of the
     surface that :func:`after_first_loading` returns.
 progress : bool or callable
     True: a bar of tqdm; a function of a :class:`ProgressReport` that returns False to stop: the loads finished by then are returned.

@@ -280,7 +280,7 @@ void bind_non_gaussian(nb::module_& m) {
       "The member of Johnson's system with this skewness and kurtosis (3 for a Gaussian), "
       "doi:10.1093/biomet/36.1-2.149.");
   m.def(
-      "sampled_heights", [](Values heights) { return sampled_heights(std::move(heights.values)); },
+      "sampled_heights", [](Values given) { return sampled_heights(std::move(given.values)); },
       nb::arg("heights"),
       "The distribution of given heights, such as those of a measured surface.");
 

@@ -303,10 +303,10 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   // c is the difference of two indentations, of which it may be a hundredth.
   contact.tolerance = 1e-10;
   const auto at_force = [&](double force) {
-    return solved(press_to_pressure(fine, material.contact_modulus, force / area, contact));
+    return solved(press(fine, material.contact_modulus, {.pressure = force / area}, contact));
   };
   const auto at_indentation = [&](double level) {
-    return solved(press_to_indentation(fine, material.contact_modulus, level, contact));
+    return solved(press(fine, material.contact_modulus, {.indentation = level}, contact));
   };
   const double level = losses.front().indentation;
   const NormalContactState high = at_force(law.force(level));

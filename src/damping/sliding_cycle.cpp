@@ -273,7 +273,8 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
     if (indentation <= 0)
       return PressureAt{.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
-    NormalContactState state = press_to_indentation(surface, contact_modulus, indentation, options);
+    NormalContactState state =
+        press(surface, contact_modulus, {.indentation = indentation}, options);
     return PressureAt{std::move(state.contact_pressure), state.force, state.converged};
   };
 }

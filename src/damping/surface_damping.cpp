@@ -123,7 +123,8 @@ class Levels {
 
   /// The indentation under a pressure.
   double indentation_at(double pressure) {
-    NormalContactState state = press_to_pressure(surface_, contact_modulus_, pressure, options_);
+    NormalContactState state =
+        salebra::press(surface_, contact_modulus_, {.pressure = pressure}, options_);
     take(state);
     return last_at_;
   }
@@ -194,7 +195,7 @@ class Levels {
     const std::optional<Field> start = extrapolated(indentation);
     if (start) options.initial_pressure = &*start;
     NormalContactState state =
-        press_to_indentation(surface_, contact_modulus_, indentation, options);
+        salebra::press(surface_, contact_modulus_, {.indentation = indentation}, options);
     // The key is what was asked for, to the last bit.
     state.indentation = indentation;
     take(state);

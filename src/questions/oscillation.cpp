@@ -57,15 +57,9 @@ ContactLevels levels_of(const OscillatingBody& body, const Material& material) {
                                  {.boundary = body.boundary});
 }
 
-/// By the position that was given, or at the indentation.
-NormalContactState contact_at(const OscillationPosition& position, const OscillatingBody& body,
-                              double contact_modulus, double indentation,
-                              const NormalContactOptions& options) {
-  const Surface& surface = body.surface;
-  const NormalContactState state =
-      position.mean_gap   ? press_to_mean_gap(surface, contact_modulus, *position.mean_gap, options)
-      : position.pressure ? press_to_pressure(surface, contact_modulus, *position.pressure, options)
-                          : press_to_indentation(surface, contact_modulus, indentation, options);
+NormalContactState contact_at(const Target& position, const OscillatingBody& body,
+                              double contact_modulus, const NormalContactOptions& options) {
+  NormalContactState state = press(body.surface, contact_modulus, position, options);
   if (!state.converged)
     throw NotConverged("oscillate: the contact at the mean position did not converge");
   return state;
@@ -166,22 +160,25 @@ double OscillationOutcome::balance(const CycleResult& one) const {
 }
 
 double mean_indentation(const OscillatingBody& body, double contact_modulus,
-                        const OscillationPosition& position) {
+                        const Target& position) {
   if (position.indentation) return *position.indentation;
-  if (!position.mean_gap && !position.pressure) return body.indentation;
-  return contact_at(position, body, contact_modulus, 0, {.boundary = body.boundary}).indentation;
+  if (!position.mean_gap && !position.pressure && !position.force) return body.indentation;
+  return contact_at(position, body, contact_modulus, {.boundary = body.boundary}).indentation;
 }
 
-void load_plastically(OscillationCase& contact, const OscillationPosition& position,
-                      double hardness, const Progress& on_progress) {
+void load_plastically(OscillationCase& contact, const Target& position, double hardness,
+                      const Progress& on_progress) {
   const double modulus = contact.material.contact_modulus;
   const NormalContactOptions elastic{.boundary = contact.body.boundary, .on_progress = on_progress};
   NormalContactOptions plastic = elastic;
   plastic.hardness = hardness;
-  const double pressure =
-      position.pressure
-          ? *position.pressure
-          : contact_at(position, contact.body, modulus, contact.indentation, plastic).mean_pressure;
+  const double pressure = position.pressure
+                              ? *position.pressure
+                              : contact_at(position.mean_gap || position.force
+                                               ? position
+                                               : Target{.indentation = contact.indentation},
+                                           contact.body, modulus, plastic)
+                                    .mean_pressure;
   OscillatingBody residual = contact.body;
   contact.first_loading = load_first(
       residual.surface, hardness, modulus, pressure, elastic,
@@ -189,7 +186,7 @@ void load_plastically(OscillationCase& contact, const OscillationPosition& posit
   if (!contact.first_loading->yielded()) return;
   contact.body = std::move(residual);
   contact.indentation =
-      contact_at({.pressure = pressure}, contact.body, modulus, 0, elastic).indentation;
+      contact_at({.pressure = pressure}, contact.body, modulus, elastic).indentation;
 }
 
 OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationRoutes& routes) {

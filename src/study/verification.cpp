@@ -56,8 +56,8 @@ void check_hertz_by_boundary_elements(Checks& checks) {
     }
   }
   const double force = 4.0 / 3.0 * modulus * std::pow(contact_radius, 3) / radius;
-  const auto state = press_to_pressure(sphere, modulus, force / sphere.grid.area(),
-                                       {.tolerance = 1e-8, .boundary = Boundary::free});
+  const auto state = press(sphere, modulus, {.pressure = force / sphere.grid.area()},
+                           {.tolerance = 1e-8, .boundary = Boundary::free});
   // 26 cells to the radius: the indentation is of second order in the cell, the peak follows the
   // centre's place in its cell.
   checks.push_back({"Hertz indentation by boundary elements",
@@ -78,7 +78,7 @@ void check_westergaard(Checks& checks) {
   wave.heights.resize(n, n);
   for (Index i = 0; i < n; ++i)
     wave.heights.row(i) = amplitude * std::cos(2 * pi * double(i) / double(n));
-  const auto state = press_to_pressure(wave, modulus, 1.01 * full, {.tolerance = 1e-12});
+  const auto state = press(wave, modulus, {.pressure = 1.01 * full}, {.tolerance = 1e-12});
   // One Fourier mode, so no error of the grid: what the solver leaves.
   checks.push_back({"Westergaard full contact: area fraction", state.contact_area_fraction, 1, 0});
   checks.push_back({"Westergaard full contact: peak pressure",

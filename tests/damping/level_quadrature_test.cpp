@@ -323,7 +323,7 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
   const Surface surface = random_phase(cells, SelfAffineSpectrum(parameters), seed);
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const NormalContactState mean =
-      press_to_pressure(surface, contact_modulus, 0.05 * 0.1 * contact_modulus);
+      press(surface, contact_modulus, {.pressure = 0.05 * 0.1 * contact_modulus});
   const double rms_height = std::sqrt(surface.heights.square().mean());
   const ContactLevels levels =
       boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});
@@ -361,7 +361,7 @@ TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on 
   const Surface surface = random_phase(cells, SelfAffineSpectrum(parameters), 2);
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const NormalContactState mean =
-      press_to_pressure(surface, contact_modulus, 0.02 * 0.1 * contact_modulus);
+      press(surface, contact_modulus, {.pressure = 0.02 * 0.1 * contact_modulus});
   const double amplitude = 0.05 * std::sqrt(surface.heights.square().mean());
   const ContactLevels levels =
       boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});

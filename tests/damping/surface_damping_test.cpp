@@ -127,10 +127,10 @@ double joint_work_by_contacts(const Surface& surface, const Material& stuck, dou
   NormalContactOptions options;
   options.tolerance = 1e-10;
   const NormalContactState high =
-      press_to_pressure(surface, stuck.contact_modulus, pressure, options);
+      press(surface, stuck.contact_modulus, {.pressure = pressure}, options);
   const double least = high.force - tangential_force / friction_coefficient;
-  const double depth = high.indentation - press_to_pressure(surface, stuck.contact_modulus,
-                                                            least / surface.grid.area(), options)
+  const double depth = high.indentation - press(surface, stuck.contact_modulus,
+                                                {.pressure = least / surface.grid.area()}, options)
                                               .indentation;
   Field start = high.contact_pressure;
   options.initial_pressure = &start;
@@ -138,7 +138,7 @@ double joint_work_by_contacts(const Surface& surface, const Material& stuck, dou
   for (int k = 1; k <= intervals; ++k) {
     const double to = depth * std::pow(std::sin(pi * k / (2 * intervals)), 2);
     const NormalContactState state =
-        press_to_indentation(surface, stuck.contact_modulus, high.indentation - to, options);
+        press(surface, stuck.contact_modulus, {.indentation = high.indentation - to}, options);
     start = state.contact_pressure;
     sum += (above - state.force) * (depth - from - to);
     above = state.force;

@@ -21,7 +21,7 @@ inline double work_by_contacts(const Surface& surface, const Material& material,
   NormalContactOptions options;
   options.tolerance = 1e-9;
   NormalContactState state =
-      press_to_pressure(surface, material.contact_modulus, pressure, options);
+      press(surface, material.contact_modulus, {.pressure = pressure}, options);
   const double center = state.indentation;
   Field start = state.contact_pressure;
   options.initial_pressure = &start;
@@ -33,7 +33,7 @@ inline double work_by_contacts(const Surface& surface, const Material& material,
     force.push_back(0);
     last = 0;
     if (!(place.back() > 0)) continue;
-    state = press_to_indentation(surface, material.contact_modulus, place.back(), options);
+    state = press(surface, material.contact_modulus, {.indentation = place.back()}, options);
     start = state.contact_pressure;
     force.back() = state.force;
     if (stick ? k % (intervals / 2) != 0 : k != intervals) continue;

@@ -81,23 +81,22 @@ def test_generators() -> None:
 
 def test_gather() -> None:
     whole, mine = salebra.filtered_noise(GRID, SPECTRUM, 1), spread()
-    state = salebra.press_to_pressure(mine, MATERIAL, "1 MPa")
+    state = salebra.press(mine, MATERIAL, pressure="1 MPa")
     for root in (0, ALL.size - 1):
         surface, contact = mine.gather(root), state.gather(root)
         assert (surface is None) == (contact is None) == (ALL.rank != root)
         if surface is not None and contact is not None:
             assert surface == whole and surface.rows == range(GRID.nx)
-            assert contact == salebra.press_to_pressure(whole, MATERIAL, "1 MPa")
+            assert contact == salebra.press(whole, MATERIAL, pressure="1 MPa")
     assert whole.gather() is whole
     assert "root" in raised(salebra.InvalidInput, lambda: mine.gather(ALL.size))
 
 
 def test_contacts() -> None:
     whole, mine = salebra.filtered_noise(GRID, SPECTRUM, 1), spread()
-    for press, value in (
-        (salebra.press_to_pressure, 1e6), (salebra.press_to_mean_gap, 1.5e-6), (salebra.press_to_indentation, 1e-6),
-    ):  # fmt: skip
-        one, part = press(whole, MATERIAL, value), press(mine, MATERIAL, value)
+    force = 1e6 * GRID.lx * GRID.ly
+    for target in ({"pressure": 1e6}, {"force": force}, {"mean_gap": 1.5e-6}, {"indentation": 1e-6}):
+        one, part = salebra.press(whole, MATERIAL, **target), salebra.press(mine, MATERIAL, **target)
         assert part.converged and part.rows == mine.rows
         for name in ("force", "mean_gap", "indentation", "contact_area_fraction", "elastic_energy", "iterations", "fft_count"):
             assert getattr(part, name) == getattr(one, name), name
@@ -108,7 +107,7 @@ def test_contacts() -> None:
     assert salebra.normal_stiffness(part) == salebra.normal_stiffness(one)
     contact = part.contact_pressure > 0
     assert salebra.stick_stiffness(contact, GRID, MATERIAL, comm=ALL) == salebra.stick_stiffness(one.contact_pressure > 0, GRID, MATERIAL)
-    again = salebra.press_to_indentation(mine, MATERIAL, 1e-6, initial_pressure=part.contact_pressure)
+    again = salebra.press(mine, MATERIAL, indentation=1e-6, initial_pressure=part.contact_pressure)
     assert again.iterations < part.iterations
     pressures = [3e5, 1e6]
     curve = salebra.sweep_pressures(mine, MATERIAL, pressures, stick=True)
@@ -140,7 +139,7 @@ def test_files() -> None:
 
 def test_refusals() -> None:
     mine = spread()
-    state = salebra.press_to_pressure(mine, MATERIAL, 1e6)
+    state = salebra.press(mine, MATERIAL, pressure=1e6)
     summits, spectrum = salebra.find_summits(mine), salebra.power_spectrum(mine)
     calls: list[Callable[[], Any]] = [
         lambda: salebra.BearingCurve(mine),
@@ -180,7 +179,7 @@ def test_refusals() -> None:
     assert ALL.rank == 0 or "<table>" in mine._repr_html_()  # no call of all processes
     raised(salebra.InvalidInput, lambda: salebra.stick_stiffness(state.contact_pressure > 0, GRID, MATERIAL))
     mine.heights[0, 0] = np.nan if ALL.rank == ALL.size - 1 else 0
-    assert "undefined points" in raised(salebra.InvalidInput, lambda: salebra.press_to_pressure(mine, MATERIAL, 1e6))
+    assert "undefined points" in raised(salebra.InvalidInput, lambda: salebra.press(mine, MATERIAL, pressure=1e6))
 
 
 def test_communicators() -> None:
@@ -224,7 +223,7 @@ def test_stops() -> None:
     calls: list[Callable[[Any], Any]] = [
         lambda told: salebra.filtered_noise(GRID, SPECTRUM, 1, comm=ALL, progress=told),
         lambda told: salebra.exact_rms(GRID, SPECTRUM, 1, comm=ALL, progress=told),
-        lambda told: salebra.press_to_pressure(mine, MATERIAL, 1e6, progress=told),
+        lambda told: salebra.press(mine, MATERIAL, pressure=1e6, progress=told),
         lambda told: salebra.sweep_pressures(mine, MATERIAL, [1e5, 1e6], progress=told),
     ]
     for number, call in enumerate(calls):
@@ -237,9 +236,9 @@ def test_stops() -> None:
         raised(KeyError if last else salebra.Interrupted, lambda: call(fail))
         raised(KeyboardInterrupt if last else salebra.Interrupted, lambda: call(interrupt))
     # At the end of the work, where nobody asks any more: a function that is told once.
-    state = salebra.press_to_pressure(mine, MATERIAL, 1e6)
+    state = salebra.press(mine, MATERIAL, pressure=1e6)
     raised(KeyError if last else salebra.Interrupted, lambda: salebra.normal_stiffness(state, progress=fail))
-    assert salebra.press_to_pressure(mine, MATERIAL, 1e6) == state
+    assert salebra.press(mine, MATERIAL, pressure=1e6) == state
 
 
 def test_other_threads_run() -> None:

@@ -16,7 +16,7 @@ def test_hertz_pressure_and_force_of_a_paraboloid() -> None:
     grid = salebra.Grid2D(128, 128, 2e-3, 2e-3)
     radius, modulus, indentation = 10e-3, 1e9, 20e-6
     surface = salebra.paraboloid_surface(grid, radius, salebra.off_grid_center(grid))
-    state = salebra.press_to_indentation(surface, modulus, indentation, boundary="free")
+    state = salebra.press(surface, modulus, indentation=indentation, boundary="free")
     assert state.converged
     # Hertz: F = 4/3 E* sqrt(R) d^(3/2), p0 = 2/pi E* sqrt(d/R). 28 cells in the radius: below 1 %.
     assert state.force == pytest.approx(4 / 3 * modulus * math.sqrt(radius * indentation**3), rel=5e-3)
@@ -28,14 +28,14 @@ def test_westergaards_full_contact_closes_the_gap() -> None:
     amplitude, modulus = 1e-6, 1e9
     surface = salebra.sinusoid_surface(grid, amplitude, 1, 0)
     full = math.pi * modulus * amplitude / grid.lx
-    state = salebra.press_to_pressure(surface, modulus, 1.01 * full)
+    state = salebra.press(surface, modulus, pressure=1.01 * full)
     # One Fourier mode: no discretisation error.
     assert state.contact_area_fraction == 1.0
     assert state.contact_pressure.max() == pytest.approx(2.01 * full, rel=1e-9)
 
 
 def test_fields_of_a_state_are_views_that_keep_it(surface: salebra.Surface) -> None:
-    state = salebra.press_to_pressure(surface, 1e9, 1e5)
+    state = salebra.press(surface, 1e9, pressure=1e5)
     pressure = state.contact_pressure
     assert np.shares_memory(pressure, state.contact_pressure)
     assert pressure.mean() == pytest.approx(1e5, rel=1e-9)
@@ -44,14 +44,14 @@ def test_fields_of_a_state_are_views_that_keep_it(surface: salebra.Surface) -> N
 
 
 def test_a_mean_gap_gives_back_its_pressure(surface: salebra.Surface) -> None:
-    state = salebra.press_to_pressure(surface, 1e9, 2e5)
-    back = salebra.press_to_mean_gap(surface, 1e9, state.mean_gap)
+    state = salebra.press(surface, 1e9, pressure=2e5)
+    back = salebra.press(surface, 1e9, mean_gap=state.mean_gap)
     assert back.mean_pressure == pytest.approx(2e5, rel=1e-6)
 
 
 def test_a_start_from_the_answer_takes_few_iterations(surface: salebra.Surface) -> None:
-    cold = salebra.press_to_pressure(surface, 1e9, 2e5)
-    warm = salebra.press_to_pressure(surface, 1e9, 2e5, initial_pressure=cold.contact_pressure)
+    cold = salebra.press(surface, 1e9, pressure=2e5)
+    warm = salebra.press(surface, 1e9, pressure=2e5, initial_pressure=cold.contact_pressure)
     assert warm.converged
     assert warm.iterations < cold.iterations
     # The array that was lent is as it was.
@@ -59,14 +59,14 @@ def test_a_start_from_the_answer_takes_few_iterations(surface: salebra.Surface) 
 
 
 def test_stiffness_is_the_derivative_of_the_force(surface: salebra.Surface) -> None:
-    low, middle, high = (salebra.press_to_pressure(surface, 1e9, 2e5 * factor) for factor in (0.98, 1.0, 1.02))
+    low, middle, high = (salebra.press(surface, 1e9, pressure=2e5 * factor) for factor in (0.98, 1.0, 1.02))
     difference = (high.force - low.force) / (high.indentation - low.indentation)
     # The contact grows between: second order in 2 %, and cells that enter at once.
     assert salebra.normal_stiffness(middle) == pytest.approx(difference, rel=0.02)
 
 
 def test_non_convergence_is_returned_not_raised(surface: salebra.Surface) -> None:
-    state = salebra.press_to_pressure(surface, 1e9, 2e5, max_iterations=1, tolerance=1e-13)
+    state = salebra.press(surface, 1e9, pressure=2e5, max_iterations=1, tolerance=1e-13)
     assert not state.converged
     assert state.residual > 1e-13
 
@@ -76,7 +76,7 @@ def test_a_sweep_has_the_samples_of_single_solves(surface: salebra.Surface, mate
     curve = salebra.sweep_pressures(surface, material, pressures)
     assert curve.converged.all()
     assert np.allclose(curve.pressure, pressures, rtol=1e-12)
-    single = salebra.press_to_pressure(surface, 1e9, pressures[3])
+    single = salebra.press(surface, 1e9, pressure=pressures[3])
     assert curve.mean_gap[3] == pytest.approx(single.mean_gap, rel=1e-9)
     assert np.allclose(curve.tangential_stiffness, material.modulus_ratio * curve.normal_stiffness, rtol=1e-14)
     assert not curve.mean_gap.flags.owndata
@@ -94,7 +94,7 @@ def test_stick_stiffness_of_a_round_contact_is_the_ratio_of_moduli(material: sal
 
 
 def test_contact_spots_add_up_to_the_contact(surface: salebra.Surface) -> None:
-    state = salebra.press_to_pressure(surface, 1e9, 5e5)
+    state = salebra.press(surface, 1e9, pressure=5e5)
     spots = salebra.contact_spots(state)
     assert spots.force.sum() == pytest.approx(state.force, rel=1e-12)
     assert spots.area.sum() == pytest.approx(state.contact_area_fraction * surface.area, rel=1e-12)
@@ -150,19 +150,19 @@ def test_the_fit_finds_the_decay_length_of_an_exponential() -> None:
 
 
 def test_a_plastic_limit_caps_the_pressure() -> None:
-    state = salebra.press_to_pressure(generated(), 1e9, 2e5, hardness=1e7)
+    state = salebra.press(generated(), 1e9, pressure=2e5, hardness=1e7)
     assert state.converged
     assert state.contact_pressure.max() <= 1e7
 
 
 def test_what_flowed_carries_the_first_load_by_elasticity_alone() -> None:
     surface = generated()
-    plastic = salebra.press_to_pressure(surface, 1e9, 2e5, hardness=1e7)
+    plastic = salebra.press(surface, 1e9, pressure=2e5, hardness=1e7)
     residual, loading = salebra.after_first_loading(surface, 1e9, 2e5, hardness=1e7)
     assert loading.yielded
     assert loading.first_loading_pressure == pytest.approx(2e5)
     assert loading.max_plastic_depth == pytest.approx((surface.heights - residual.heights).max())
-    elastic = salebra.press_to_pressure(residual, 1e9, 2e5)
+    elastic = salebra.press(residual, 1e9, pressure=2e5)
     # The tolerance of 1e-10 holds for gaps, its root for pressures.
     assert elastic.mean_gap == pytest.approx(plastic.mean_gap, rel=1e-6)
     assert elastic.contact_pressure.max() == pytest.approx(1e7, rel=1e-3)
@@ -174,6 +174,6 @@ def test_what_flowed_carries_the_first_load_by_elasticity_alone() -> None:
 
 
 def test_a_modulus_without_its_unit_is_doubted(surface: salebra.Surface) -> None:
-    for call in (lambda: salebra.press_to_pressure(surface, 115, 1e6), lambda: salebra.sweep_pressures(surface, salebra.Material(115), [1e6])):
+    for call in (lambda: salebra.press(surface, 115, pressure=1e6), lambda: salebra.sweep_pressures(surface, salebra.Material(115), [1e6])):
         with pytest.warns(UserWarning, match=r"a nominal pressure of 1 MPa is 8696 times E\* = 115 Pa: .*; check the units"):
             call()

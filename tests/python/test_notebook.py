@@ -32,7 +32,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     surface = generated(32)
     pressures = np.geomspace(1e5, 5e6, 8)
     curve = salebra.sweep_pressures(surface, MATERIAL, pressures)
-    state = salebra.press_to_pressure(surface, MATERIAL, 1e6)
+    state = salebra.press(surface, MATERIAL, pressure=1e6)
     spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2.5e-4, short_cutoff=1.25e-4, rms_height=1e-6)
     summits = salebra.find_summits(surface)
     ensemble = salebra.SummitEnsemble(summit_density=1e9, radius=1e-5, summit_rms=1e-7)
@@ -217,24 +217,24 @@ def test_every_function_has_a_signature_with_its_keywords() -> None:
         assert all(not parameter.kind.name.startswith("VAR") for parameter in signature.parameters.values()), name
         counted += 1
     assert counted > 120
-    signature = inspect.signature(salebra.press_to_pressure)
-    assert list(signature.parameters)[:3] == ["surface", "material", "nominal_pressure"]
+    signature = inspect.signature(salebra.press)
+    assert list(signature.parameters)[:3] == ["surface", "material", "pressure"]
     assert signature.parameters["boundary"].default == "periodic"
     assert list(inspect.signature(salebra.Surface.detrended).parameters) == ["self", "method"]
     assert "size_x" in inspect.signature(salebra.Surface).parameters
 
 
 @pytest.mark.parametrize(("call", "said"), [
-    (lambda s: salebra.press_to_pressure(s.heights, 1e9, 1e5),
-     "press_to_pressure: surface: wanted a Surface, got an array of shape (64, 64) and type float64; make one with salebra.Surface("),
-    (lambda s: salebra.press_to_pressure(s, 1e9, nominal_presure=1e5), "no argument nominal_presure; did you mean nominal_pressure?"),
-    (lambda s: salebra.press_to_pressure(s, 1e9), "nominal_pressure is missing; give a number"),
-    (lambda s: salebra.press_to_pressure(s, 1e9, 1e5, 1e-8), "at most 3 go by place (surface, material, nominal_pressure); give what follows by name: tolerance"),
-    (lambda s: salebra.press_to_pressure(s, 1e9, [1e5]), "nominal_pressure: wanted a number, got a list"),
-    (lambda s: salebra.press_to_pressure(s, 1e9, 1e5, surface=s), "surface was given twice"),
-    (lambda s: salebra.press_to_pressure(s, None, 1e5), "material: wanted a Material or a number, got None"),
-    (lambda s: salebra.press_to_pressure(s, 1e9, 1e5, max_iterations=1.5), "max_iterations: wanted a whole number, got 1.5"),
-    (lambda s: salebra.press_to_pressure(s, 1e9, 1e5, initial_pressure=np.zeros(4)), "initial_pressure: wanted two dimensions (nx, ny), got shape (4,)"),
+    (lambda s: salebra.press(s.heights, 1e9, pressure=1e5),
+     "press: surface: wanted a Surface, got an array of shape (64, 64) and type float64; make one with salebra.Surface("),
+    (lambda s: salebra.press(s, 1e9, presure=1e5), "no argument presure; did you mean pressure?"),
+    (lambda s: salebra.press(s, pressure=1e5), "material is missing; give a Material or a number"),
+    (lambda s: salebra.press(s, 1e9, 1e5), "at most 2 go by place (surface, material); give what follows by name: pressure"),
+    (lambda s: salebra.press(s, 1e9, pressure=[1e5]), "pressure: wanted a number, got a list"),
+    (lambda s: salebra.press(s, 1e9, pressure=1e5, surface=s), "surface was given twice"),
+    (lambda s: salebra.press(s, None, pressure=1e5), "material: wanted a Material or a number, got None"),
+    (lambda s: salebra.press(s, 1e9, pressure=1e5, max_iterations=1.5), "max_iterations: wanted a whole number, got 1.5"),
+    (lambda s: salebra.press(s, 1e9, pressure=1e5, initial_pressure=np.zeros(4)), "initial_pressure: wanted two dimensions (nx, ny), got shape (4,)"),
     (lambda s: salebra.Surface(np.zeros(8), 1.0, 1.0), "Surface: heights: wanted two dimensions (nx, ny), got shape (8,)"),
     (lambda s: salebra.Surface(np.zeros((8, 8)), 1.0), "Surface: size_y is missing; give a number"),
     (lambda s: salebra.Surface([["a"]], 1.0, 1.0), "Surface: heights: wanted an array of numbers"),
@@ -259,16 +259,16 @@ def test_an_error_in_a_function_of_the_user_stays_what_it_is() -> None:
 
 
 def test_texts_with_units_are_numbers(surface: salebra.Surface) -> None:
-    state = salebra.press_to_pressure(surface, "1GPa", "0.1 MPa")  # type: ignore[arg-type]
-    assert state == salebra.press_to_pressure(surface, 1e9, 1e5)
+    state = salebra.press(surface, "1GPa", pressure="0.1 MPa")  # type: ignore[arg-type]
+    assert state == salebra.press(surface, 1e9, pressure=1e5)
     assert salebra.Material("115GPa", poisson=0.3).contact_modulus == 115e9  # type: ignore[arg-type]
     assert salebra.Grid2D(8, 8, "1mm", "2 mm").ly == 2e-3  # type: ignore[arg-type]
     curve = salebra.sweep_pressures(surface, 1e9, ["100kPa", "1MPa"])
     assert np.allclose(curve.pressure, [1e5, 1e6], rtol=1e-12)
     assert salebra.Drag(normal_amplitude="1nm", drag_velocity="1mm/s", angular_frequency=1e5).normal_amplitude == 1e-9  # type: ignore[arg-type]
-    with pytest.raises(salebra.InvalidInput, match="nominal_pressure: '5mm'") as raised:
-        salebra.press_to_pressure(surface, 1e9, "5mm")  # type: ignore[arg-type]
-    assert (raised.value.field, raised.value.value) == ("nominal_pressure", "'5mm'")
+    with pytest.raises(salebra.InvalidInput, match="pressure: '5mm'") as raised:
+        salebra.press(surface, 1e9, pressure="5mm")  # type: ignore[arg-type]
+    assert (raised.value.field, raised.value.value) == ("pressure", "'5mm'")
 
 
 def test_a_refusal_has_its_parts(surface: salebra.Surface, tmp_path: Path) -> None:
@@ -285,12 +285,12 @@ def test_a_refusal_has_its_parts(surface: salebra.Surface, tmp_path: Path) -> No
 
 
 def test_one_name_for_the_material_and_the_old_one_answered(surface: salebra.Surface) -> None:
-    state = salebra.press_to_pressure(surface, salebra.Material(1e9), 1e5)
-    assert state == salebra.press_to_pressure(surface, 1e9, 1e5)
-    for function in (salebra.press_to_pressure, salebra.sweep_pressures, salebra.boundary_element_levels, salebra.press_to_mean_gap):
+    state = salebra.press(surface, salebra.Material(1e9), pressure=1e5)
+    assert state == salebra.press(surface, 1e9, pressure=1e5)
+    for function in (salebra.press, salebra.sweep_pressures, salebra.boundary_element_levels):
         assert list(inspect.signature(function).parameters)[:2] == ["surface", "material"]
     with pytest.raises(salebra.InvalidInput, match="contact_modulus: -1"):
-        salebra.press_to_pressure(surface, -1.0, 1e5)
+        salebra.press(surface, -1.0, pressure=1e5)
 
 
 def test_masked_points_are_undefined_points() -> None:
@@ -318,15 +318,15 @@ def test_a_file_that_is_not_there_is_a_filenotfounderror(tmp_path: Path) -> None
 
 
 def test_what_did_not_converge_warns(surface: salebra.Surface) -> None:
-    with pytest.warns(salebra.ConvergenceWarning, match="press_to_pressure: did not converge, residual") as told:
-        salebra.press_to_pressure(surface, 1e9, 2e5, max_iterations=1, tolerance=1e-13)
+    with pytest.warns(salebra.ConvergenceWarning, match="press: did not converge, residual") as told:
+        salebra.press(surface, 1e9, pressure=2e5, max_iterations=1, tolerance=1e-13)
     assert told[0].filename == __file__
     with pytest.warns(salebra.ConvergenceWarning, match="sweep_pressures: 2 of 2 samples did not converge"):
         salebra.sweep_pressures(surface, 1e9, [1e5, 2e5], max_iterations=1, tolerance=1e-13)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        salebra.press_to_pressure(surface, 1e9, 2e5)
-        salebra.press_to_pressure(generated(256), 1e9, 1e6, tolerance=1e-13, progress=lambda report: False)  # stopped on request
+        salebra.press(surface, 1e9, pressure=2e5)
+        salebra.press(generated(256), 1e9, pressure=1e6, tolerance=1e-13, progress=lambda report: False)  # stopped on request
 
 
 def test_asarray_of_a_surface_is_its_heights(surface: salebra.Surface) -> None:
@@ -348,7 +348,7 @@ def test_curves_are_rows_and_tables(surface: salebra.Surface) -> None:
     assert frame.attrs["units"]["mean_gap"] == "m" and frame.attrs["units"]["contact_area_fraction"] == "1"
     # A column without a single number is left out.
     assert "separation" not in frame
-    spots = salebra.contact_spots(salebra.press_to_pressure(surface, 1e9, 1e6))
+    spots = salebra.contact_spots(salebra.press(surface, 1e9, pressure=1e6))
     assert list(spots.to_dataframe().columns) == ["area", "force"] and len(list(spots)) == len(spots)
 
 
@@ -386,10 +386,10 @@ def test_a_curve_is_drawn_with_its_fit(objects: dict[str, Any]) -> None:
 
 def test_bars_end_at_a_hundred_per_cent(capsys: pytest.CaptureFixture[str], surface: salebra.Surface) -> None:
     pytest.importorskip("tqdm")
-    salebra.press_to_pressure(surface, 1e9, 1e6, progress=True)
+    salebra.press(surface, 1e9, pressure=1e6, progress=True)
     assert capsys.readouterr().err.rstrip().split("\r")[-1].strip().startswith(("contact 100%", "100%"))
     with pytest.raises(salebra.InvalidInput):
-        salebra.press_to_pressure(surface, 1e9, -1.0, progress=True)
+        salebra.press(surface, 1e9, pressure=-1.0, progress=True)
     assert "100%" not in capsys.readouterr().err
 
 

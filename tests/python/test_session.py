@@ -27,8 +27,11 @@ def test_errors_are_those_that_python_users_catch() -> None:
     assert issubclass(salebra.InvalidInput, ValueError) and issubclass(salebra.InvalidInput, salebra.Error)
     assert issubclass(salebra.IoError, OSError) and issubclass(salebra.IoError, salebra.Error)
     assert issubclass(salebra.NotConverged, RuntimeError) and issubclass(salebra.NotConverged, salebra.Error)
-    with pytest.raises(ValueError, match="nominal_pressure: -1 must be"):
-        salebra.press_to_pressure(generated(), 1e9, -1.0)
+    with pytest.raises(ValueError, match="pressure: -1 must be"):
+        salebra.press(generated(), 1e9, pressure=-1.0)
+    for target in ({}, {"pressure": 1e5, "force": 1.0}):
+        with pytest.raises(ValueError, match="exactly one of `pressure`, `mean_gap`, `indentation` and `force`"):
+            salebra.press(generated(), 1e9, **target)
     with pytest.raises(ValueError, match=r"\\x1b\[31mred"):
         salebra.read_surface("\x1b[31mred")
     with pytest.raises(ValueError, match="no-such-file"):
@@ -64,7 +67,7 @@ grid = salebra.Grid2D(256, 256, 1e-3, 1e-3)  # enough points for two threads
 spectrum = salebra.SelfAffineSpectrum(rolloff=2.5e-4, short_cutoff=1e-4, rms_height=1e-6)
 
 def area(seed):
-    return salebra.press_to_pressure(salebra.random_phase(grid, spectrum, seed), 1e9, 1e6).contact_area_fraction
+    return salebra.press(salebra.random_phase(grid, spectrum, seed), 1e9, pressure=1e6).contact_area_fraction
 
 def refusal(threads):
     try:
@@ -103,7 +106,7 @@ def test_other_threads_run_during_a_solve() -> None:
         time.sleep(0.05)
         before = counted
         start = time.perf_counter()
-        salebra.press_to_pressure(surface, 1e9, 1e6)
+        salebra.press(surface, 1e9, pressure=1e6)
         seconds = time.perf_counter() - start
         during = counted - before
     finally:
@@ -221,7 +224,7 @@ def test_progress_tells_and_may_stop() -> None:
         reports.append(report)
         return False
 
-    state = salebra.press_to_pressure(surface, 1e9, 1e6, tolerance=1e-13, progress=stop)
+    state = salebra.press(surface, 1e9, pressure=1e6, tolerance=1e-13, progress=stop)
     assert reports and reports[0].stage
     assert state.interrupted and not state.converged
 
@@ -231,12 +234,12 @@ def test_an_error_in_a_progress_function_is_raised() -> None:
         raise LookupError("from the user")
 
     with pytest.raises(LookupError, match="from the user"):
-        salebra.press_to_pressure(generated(512), 1e9, 1e6, progress=fail)
+        salebra.press(generated(512), 1e9, pressure=1e6, progress=fail)
 
 
 def test_tqdm_shows_the_progress(capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("tqdm")
-    state = salebra.press_to_pressure(generated(512), 1e9, 1e6, progress=True)
+    state = salebra.press(generated(512), 1e9, pressure=1e6, progress=True)
     assert state.converged
     assert "%" in capsys.readouterr().err
 
@@ -257,7 +260,7 @@ def test_a_build_without_mpi_says_what_spreads_a_surface(monkeypatch: pytest.Mon
         salebra.filtered_noise(grid, spectrum, 1, comm=4)  # type: ignore[arg-type, unused-ignore]
     whole = salebra.filtered_noise(grid, spectrum, 1, comm=None)
     assert whole.rows == range(64) and whole.gather() is whole
-    state = salebra.press_to_pressure(whole, 1e9, 1e6)
+    state = salebra.press(whole, 1e9, pressure=1e6)
     assert state.rows == range(64) and state.gather() is state
 
 
@@ -305,7 +308,7 @@ def test_results_become_datasets_with_units(surface: salebra.Surface, material: 
     assert data.mean_gap.attrs["units"] == "m"
     assert data.pressure.attrs["units"] == "Pa"
     assert np.array_equal(data.mean_gap, curve.mean_gap)
-    state = salebra.press_to_pressure(surface, 1e9, 1e5)
+    state = salebra.press(surface, 1e9, pressure=1e5)
     fields = state.to_xarray()
     assert fields.contact_pressure.dims == ("x", "y")
     assert float(fields.x[1]) == surface.grid.dx
@@ -330,7 +333,7 @@ def test_pictures_have_labels_with_units(surface: salebra.Surface, material: sal
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), material)
     motion = salebra.EqualFrequency(normal_amplitude=1e-7, tangential_amplitude=1e-7, phase=1.5)
     stresses = salebra.stress_map(law, 1e-6, motion, phases=16, radii=32)
-    drawn = [surface, salebra.press_to_pressure(surface, 1e9, 1e5), stresses, salebra.profile_psd(surface)]
+    drawn = [surface, salebra.press(surface, 1e9, pressure=1e5), stresses, salebra.profile_psd(surface)]
     for result in drawn:
         assert result.plot().get_xlabel()
 
@@ -342,7 +345,7 @@ def test_a_signal_handler_of_the_user_runs_during_a_solve() -> None:
     start = time.perf_counter()
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.02)
-        salebra.press_to_pressure(surface, 1e9, 1e6, tolerance=1e-13)
+        salebra.press(surface, 1e9, pressure=1e6, tolerance=1e-13)
     finally:
         end = time.perf_counter()
         signal.setitimer(signal.ITIMER_REAL, 0)

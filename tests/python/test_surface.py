@@ -200,7 +200,7 @@ def test_a_labelled_array_has_its_axes_sizes_and_units() -> None:
 def test_heights_whose_unit_was_forgotten_are_doubted_once(surface: salebra.Surface, tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match=r"Surface: rms slope \S+ is above 1: heights in nm\? rms slope would be 0\.0") as told:
         wrong = salebra.Surface(surface.heights * 1e9, surface.size_x, surface.size_y)
-        salebra.press_to_pressure(wrong, 1e9, 1e6)
+        salebra.press(wrong, 1e9, pressure=1e6)
     assert len(told) == 1
     assert told[0].filename == __file__
     np.savetxt(tmp_path / "scan.txt", surface.heights.T * 1e6)

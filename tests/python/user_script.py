@@ -54,7 +54,7 @@ def mean_gap(grid: salebra.Grid2D, spectrum: salebra.Spectrum, comm: MPI.Intraco
     rows: range = surface.rows
     whole: salebra.Surface | None = surface.gather(root=0)
     print(len(rows), whole is not None and whole.nx)
-    return salebra.press_to_pressure(surface, 1e9, 1e6).mean_gap
+    return salebra.press(surface, 1e9, pressure=1e6).mean_gap
 
 
 def told(report: salebra.ProgressReport) -> bool:
@@ -72,7 +72,7 @@ def main() -> None:
     print(mean_gap(grid, spectrum, None))
     lengths = decay_lengths(again, material, pressures)
 
-    state = salebra.press_to_pressure(again, material.contact_modulus, float(pressures[3]), progress=told)
+    state = salebra.press(again, material.contact_modulus, pressure=float(pressures[3]), progress=told)
     field: npt.NDArray[np.float64] = state.contact_pressure
     spots = salebra.contact_spots(state)
     stick = salebra.stick_stiffness(field > 0, state.grid, material)

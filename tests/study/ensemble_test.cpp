@@ -612,7 +612,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   // largest is the largest.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =
-      press_to_pressure(surface, 1e10, result.pressures[6], {.tolerance = 1e-8});
+      press(surface, 1e10, {.pressure = result.pressures[6]}, {.tolerance = 1e-8});
   std::vector<double> sizes(13, 0.0);
   double largest = 0;
   for (const ContactSpot& spot : contact_spots(state.contact_pressure, surface.grid).spots) {

@@ -37,20 +37,16 @@ struct OscillationCase {
   std::optional<FirstLoading> first_loading = {};  ///< of which the body is the residual surface
 };
 
-/// Where a contact stands in the mean: one of these, or none for the body's own indentation.
-struct OscillationPosition {
-  std::optional<double> mean_gap = {}, pressure = {}, indentation = {};  ///< m, Pa, m
-};
-
-/// The indentation, m. Throws NotConverged.
+/// The indentation of a contact, m: of a target of which nothing is given the body's own. Throws
+/// NotConverged.
 double mean_indentation(const OscillatingBody& body, double contact_modulus,
-                        const OscillationPosition& position);
+                        const Target& position);
 
 /// First loading to the mean position, with pressures up to the hardness, Pa. Where something
 /// flows, the contact stands on the residual surface, at the same load.
 /// throws  NotConverged, Interrupted, and as load_first()
-void load_plastically(OscillationCase& contact, const OscillationPosition& position,
-                      double hardness, const Progress& on_progress);
+void load_plastically(OscillationCase& contact, const Target& position, double hardness,
+                      const Progress& on_progress);
 
 struct OscillationRoutes {
   LevelQuadratureOptions levels;

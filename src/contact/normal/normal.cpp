@@ -341,9 +341,9 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
 }
 
 // Heights count from the highest point, so that the level of the plane is the indentation.
-NormalContactState press(const Surface& surface, double contact_modulus, const Depths& depths,
-                         ContactTarget::Kind kind, double value,
-                         const NormalContactOptions& options) {
+NormalContactState contact_of(const Surface& surface, double contact_modulus, const Depths& depths,
+                              ContactTarget::Kind kind, double value,
+                              const NormalContactOptions& options) {
   const Scaled scaled(surface.grid, contact_modulus);
   const bool load_given = kind == ContactTarget::Kind::mean_pressure;
   const ContactTarget target{kind, load_given ? value / scaled.pressure_unit : value,
@@ -362,54 +362,69 @@ NormalContactState press(const Surface& surface, double contact_modulus, const D
   return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
 }
 
+/// The nominal pressure of a target that is a load.
+double checked_pressure(const Target& target, double area, double contact_modulus,
+                        double hardness) {
+  const char* name = target.force ? "force" : "pressure";
+  const double value = target.force ? *target.force : *target.pressure;
+  require_positive(value, name);
+  const double pressure = target.force ? value / area : value;
+  require(pressure <= 1e12 * contact_modulus, name, value,
+          fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
+                      contact_modulus));
+  require(
+      pressure < hardness, "hardness", format_quantity(hardness, Dimension::pressure),
+      fmt::format("must exceed the nominal pressure, {}: no contact carries more than its hardness",
+                  format_quantity(pressure, Dimension::pressure)));
+  return pressure;
+}
+
+/// The indentation of a target that is a mean gap, or the indentation itself.
+double checked_level(const Target& target, double highest, Boundary boundary) {
+  if (target.mean_gap) {
+    require(*target.mean_gap < highest, "mean_gap", *target.mean_gap,
+            fmt::format("must be below {} m, where the highest point first touches", highest));
+    // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
+    return highest - *target.mean_gap;
+  }
+  require(boundary == Boundary::free || *target.indentation < highest, "indentation",
+          *target.indentation,
+          fmt::format("must be below {} m, where a periodic contact is full", highest));
+  return *target.indentation;
+}
+
 }  // namespace
 
 ContactSet contact_set(const NormalContactState& state) { return state.contact_pressure > 0; }
 
-NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
-                                     double nominal_pressure, const NormalContactOptions& options) {
+NormalContactState press(const Surface& surface, double contact_modulus, const Target& target,
+                         const NormalContactOptions& options) {
   check(surface, contact_modulus, options);
-  require_positive(nominal_pressure, "nominal_pressure");
-  require(nominal_pressure <= 1e12 * contact_modulus, "nominal_pressure", nominal_pressure,
-          fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
-                      contact_modulus));
-  require(
-      nominal_pressure < options.hardness, "hardness",
-      format_quantity(options.hardness, Dimension::pressure),
-      fmt::format("must exceed the nominal pressure, {}: no contact carries more than its hardness",
-                  format_quantity(nominal_pressure, Dimension::pressure)));
+  const auto& [pressure, mean_gap, indentation, force] = target;
+  require_that(
+      pressure.has_value() + mean_gap.has_value() + indentation.has_value() + force.has_value() ==
+          1,
+      "target", "exactly one of `pressure`, `mean_gap`, `indentation` and `force` must be given");
+  if (pressure || force) {
+    const double nominal =
+        checked_pressure(target, surface.grid.area(), contact_modulus, options.hardness);
+    const Depths depths(surface);
+    if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
+      return full_contact_of_plane(surface, nominal);
+    return contact_of(surface, contact_modulus, depths, ContactTarget::Kind::mean_pressure, nominal,
+                      options);
+  }
+  if (mean_gap) {
+    require(options.boundary == Boundary::periodic, "boundary", "free",
+            "has no mean gap; give a force or an indentation");
+    require(
+        std::isinf(options.hardness), "hardness", options.hardness,
+        "makes the mean gap depend on more than the approach; give a pressure or an indentation");
+  }
+  require_positive(mean_gap ? *mean_gap : *indentation, mean_gap ? "mean_gap" : "indentation");
   const Depths depths(surface);
-  if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
-    return full_contact_of_plane(surface, nominal_pressure);
-  return press(surface, contact_modulus, depths, ContactTarget::Kind::mean_pressure,
-               nominal_pressure, options);
-}
-
-NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
-                                     double mean_gap, const NormalContactOptions& options) {
-  check(surface, contact_modulus, options);
-  require(options.boundary == Boundary::periodic, "boundary", "free",
-          "has no mean gap; give a force or an indentation");
-  require(std::isinf(options.hardness), "hardness", options.hardness,
-          "makes the mean gap depend on more than the approach; give a pressure or an indentation");
-  require_positive(mean_gap, "mean_gap");
-  const Depths depths(surface);
-  require(mean_gap < depths.mean, "mean_gap", mean_gap,
-          fmt::format("must be below {} m, where the highest point first touches", depths.mean));
-  // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
-  return press(surface, contact_modulus, depths, ContactTarget::Kind::level, depths.mean - mean_gap,
-               options);
-}
-
-NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
-                                        double indentation, const NormalContactOptions& options) {
-  check(surface, contact_modulus, options);
-  require_positive(indentation, "indentation");
-  const Depths depths(surface);
-  require(options.boundary == Boundary::free || indentation < depths.mean, "indentation",
-          indentation,
-          fmt::format("must be below {} m, where a periodic contact is full", depths.mean));
-  return press(surface, contact_modulus, depths, ContactTarget::Kind::level, indentation, options);
+  return contact_of(surface, contact_modulus, depths, ContactTarget::Kind::level,
+                    checked_level(target, depths.mean, options.boundary), options);
 }
 
 }  // namespace salebra

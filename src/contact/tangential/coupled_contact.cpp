@@ -57,7 +57,7 @@ struct CoupledContact::Parts {
       return apart;
     }
     NormalContactState state =
-        press_to_indentation(lowered, contact_modulus, from_first_touch, contact);
+        salebra::press(lowered, contact_modulus, {.indentation = from_first_touch}, contact);
     state.gap = out.select(state.gap - depth, state.gap);
     return state;
   }

@@ -31,7 +31,7 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
       CHECK(independent_residual(state.contact_pressure, contact.surface, 1, boundary) <
             1.1 * tolerance);
     };
-    const auto state = press_to_pressure(contact.surface, 1, contact.pressure, options);
+    const auto state = press(contact.surface, 1, {.pressure = contact.pressure}, options);
     sound(state);
     CHECK(state.contact_pressure.mean() == Approx(contact.pressure).epsilon(1e-10));
     const double first_touch = contact.surface.heights.maxCoeff() - contact.surface.heights.mean();
@@ -41,15 +41,15 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
         (state.mean_gap < 1e-6 * first_touch || state.mean_gap > (1 - 1e-9) * first_touch))
       continue;
     const auto back = periodic
-                          ? press_to_mean_gap(contact.surface, 1, state.mean_gap, options)
-                          : press_to_indentation(contact.surface, 1, state.indentation, options);
+                          ? press(contact.surface, 1, {.mean_gap = state.mean_gap}, options)
+                          : press(contact.surface, 1, {.indentation = state.indentation}, options);
     sound(back);
     // e_c is an energy; pressures differ by its root.
     CHECK(back.mean_pressure == Approx(contact.pressure).epsilon(10 * std::sqrt(tolerance)));
   }
 }
 
-// A solver of one grid with lengths in cells, as press_to_pressure runs it on the finest level.
+// A solver of one grid with lengths in cells, as press runs it on the finest level.
 struct SingleGrid {
   Surface surface = rough_surface({64, 64, 64, 64}, {.rms_slope = 0.1});
   double rms = rms_height(surface);
@@ -90,13 +90,13 @@ TEST_CASE("A contact is found by its mean gap where coarse grids have another me
       if (i % 2 == 1 || j % 2 == 1) surface.heights(i, j) -= lowered * rms;
   NormalContactOptions options;
   options.precision = GENERATE(Precision::mixed, Precision::full);
-  const auto state = press_to_pressure(surface, 1, pressure, options);
+  const auto state = press(surface, 1, {.pressure = pressure}, options);
   REQUIRE(state.converged);
   REQUIRE(state.contact_area_fraction > least);
   REQUIRE(state.contact_area_fraction < most);
   // 3/4 of the cells are lowered, none of a coarse grid.
   REQUIRE(state.mean_gap < 0.75 * lowered * rms);
-  const auto back = press_to_mean_gap(surface, 1, state.mean_gap, options);
+  const auto back = press(surface, 1, {.mean_gap = state.mean_gap}, options);
   CHECK(back.converged);
   CHECK(independent_residual(back.contact_pressure, surface, 1) < 1.1 * options.tolerance);
   // e_c is an energy; pressures differ by its root.
@@ -112,7 +112,7 @@ TEST_CASE("A single point and constant heights are in full contact under any pre
   for (const Index n : {1, 24})
     for (const double pressure : {1e-6, 1.0, 1e6}) {
       const Surface plane = surface_of({n, n, 1, 1}, [](double, double) { return -3.25; });
-      const auto state = press_to_pressure(plane, 1, pressure, options);
+      const auto state = press(plane, 1, {.pressure = pressure}, options);
       CHECK(state.converged);
       CHECK(state.contact_area_fraction == 1);
       CHECK(state.contact_pressure.mean() == Approx(pressure).epsilon(1e-12));
@@ -143,7 +143,7 @@ TEST_CASE("Measured surfaces converge, as cells that repeat and as isolated bodi
 TEST_CASE("Undefined points of a measured surface are named, not pressed", "[normal]") {
   const Surface surface = read_surface(SALEBRA_SURFACES "/sur-2.sur");
   REQUIRE(surface.undefined_points() == 25);
-  CHECK_THROWS_WITH(press_to_pressure(surface, 1e9, 1e3), Catch::Contains("25"));
+  CHECK_THROWS_WITH(press(surface, 1e9, {.pressure = 1e3}), Catch::Contains("25"));
 }
 
 TEST_CASE("Where conjugate gradients stall, gradient projection finds the same contact",
@@ -206,7 +206,7 @@ TEST_CASE("A contact that the fallback solves carries the load asked, on cells o
     if (k % 4 > 0) options.hardness = load * (1.1 + 5 * random.uniform());
     options.boundary = k % 2 == 0 ? Boundary::periodic : Boundary::free;
     INFO("contact " << k << ", dx/dy = " << root * root << ", load " << load);
-    const NormalContactState state = press_to_pressure(surface, 1, load, options);
+    const NormalContactState state = press(surface, 1, {.pressure = load}, options);
     CHECK(state.converged);
     // The load is corrected to 1e-14, and its sum rounds by a few 1e-16.
     CHECK(state.mean_pressure == Approx(load).epsilon(2e-14).scale(0));
@@ -228,13 +228,13 @@ TEST_CASE("A fallback that runs out of iterations says so", "[normal]") {
 TEST_CASE("A start near the solution saves iterations and gives the same contact", "[normal]") {
   const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
   NormalContactOptions options;
-  const auto cold = press_to_pressure(surface, 1e9, 3e6, options);
+  const auto cold = press(surface, 1e9, {.pressure = 3e6}, options);
   options.initial_pressure = &cold.contact_pressure;
-  const auto warm = press_to_pressure(surface, 1e9, 3e6, options);
+  const auto warm = press(surface, 1e9, {.pressure = 3e6}, options);
   CHECK(warm.converged);
   CHECK(warm.iterations < cold.iterations);
   CHECK(warm.mean_gap == Approx(cold.mean_gap).epsilon(1e-6));
   const Field wrong = Field::Zero(3, 3);
   options.initial_pressure = &wrong;
-  CHECK_THROWS_AS(press_to_pressure(surface, 1e9, 3e6, options), InvalidInput);
+  CHECK_THROWS_AS(press(surface, 1e9, {.pressure = 3e6}, options), InvalidInput);
 }

@@ -212,7 +212,7 @@ TEST_CASE("Without coupling the coupled contact is the sliding one", "[coupling]
   REQUIRE(coupled.advance(indentation, {2e-6, 1e-6}).converged);
   SlidingContact alone(grid, material, free_boundary(friction, 1e-6).sliding);
   const Field pressure =
-      press_to_indentation(surface, contact_modulus, indentation, {.boundary = Boundary::free})
+      press(surface, contact_modulus, {.indentation = indentation}, {.boundary = Boundary::free})
           .contact_pressure;
   alone.advance(pressure);
   alone.advance(pressure, {2e-6, 1e-6});

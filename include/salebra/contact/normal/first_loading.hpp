@@ -8,7 +8,7 @@
 /// A first loading during which the highest parts of a surface flow, and the surface that it
 /// leaves. Pressures rise to the hardness H and no further. Where p = H, the surface sinks in by
 ///     w = h − max h + δ − Gp >= 0,   0 elsewhere,
-/// with G and p of press_to_pressure() and the indentation δ. The residual heights h − w meet the
+/// with G and p of press() and the indentation δ. The residual heights h − w meet the
 /// conditions of an elastic contact under the same pressures. Unloading, and every later cycle
 /// below the first load, is therefore the elastic contact of the residual surface: what presses
 /// surfaces takes it in place of the first one. Reloading follows the unloading curve, up to the
@@ -53,7 +53,7 @@ struct ResidualSurface {
 
 /// The surface that is left after a contact with a hardness, at any load. Heights of cells below
 /// the hardness keep their bits.
-/// state    of this surface, modulus and options, by press_to_pressure() or press_to_indentation()
+/// state    of this surface, modulus and options, by press() or press()
 /// throws   InvalidInput for a state of another grid
 /// cost     one transform pair in double; 24 bytes a cell
 ResidualSurface residual_surface(Surface surface, double contact_modulus,
@@ -68,7 +68,7 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
 ///                    found by repetition to a thousandth of itself. Where u_z makes the contact of
 ///                    a periodic surface full, no oscillation has a loss, and the first loading
 ///                    ends at the nominal pressure.
-/// throws             InvalidInput before any work as press_to_pressure(), for a hardness that is
+/// throws             InvalidInput before any work as press(), for a hardness that is
 ///                    not above the mean pressure too, and during the work where the largest mean
 ///                    pressure of the oscillation is not below the hardness
 /// cost               one contact; with an amplitude six to ten, which start from each other

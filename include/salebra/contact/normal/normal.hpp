@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
@@ -19,6 +20,17 @@ template <>
 struct Words<Precision> {
   static constexpr auto values = std::to_array<std::pair<Precision, std::string_view>>(
       {{Precision::mixed, "mixed"}, {Precision::full, "full"}});
+};
+
+/// Where a contact shall stand: exactly one of these.
+struct Target {
+  std::optional<double> pressure = {};  ///< nominal, > 0, below the hardness, Pa
+  /// ū in (0, max h − mean h), m. Periodic and elastic contacts only: a free one has no mean gap,
+  /// and hardness makes the gap depend on more than the approach.
+  std::optional<double> mean_gap = {};
+  /// Rigid approach from first touch, > 0, m; below max h − mean h for periodic contacts.
+  std::optional<double> indentation = {};
+  std::optional<double> force = {};  ///< > 0, N: the pressure times the nominal area
 };
 
 struct NormalContactOptions {
@@ -92,34 +104,22 @@ ContactSet contact_set(const NormalContactState& state);
 
 /// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal
 /// pressure:
-///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal_pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
-/// by nested conjugate gradients on the contact set with a preconditioner that needs no transform.
-/// It departs from the usual constrained CG of Polonsky and Keer (1999) in that CG is not restarted
-/// when the set changes. On large grids of which the contact and its neighbourhood are a small
-/// part, the iterations apply a ladder of stencils in place of G, and exact transforms only renew
-/// the gap. A surface may be spread over several processes: the call is then collective, and all
-/// numbers have the same bits as in one process.
-/// contact_modulus   E* > 0, Pa;   nominal_pressure > 0, Pa, below the hardness
+///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
+/// by nested conjugate gradients on the contact set with a preconditioner that needs no transform;
+/// or the same contact by its force, mean gap or indentation. It departs from the usual constrained
+/// CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes. On large grids
+/// of which the contact and its neighbourhood are a small part, the iterations apply a ladder of
+/// stencils in place of G, and exact transforms only renew the gap. A surface may be spread over
+/// several processes: the call is then collective, and all numbers have the same bits as in one
+/// process.
+/// contact_modulus   E* > 0, Pa
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
 /// cost              15 to 100 iterations of one transform pair each, or of one application of the
-///                   ladder and 5 to 7 pairs in all; 50 to 75 bytes a cell with heights and result,
+///                   ladder and 5 to 7 pairs in all; at a mean gap 3 to 20 times as many where more
+///                   than 0.99 of the cells touch; 50 to 75 bytes a cell with heights and result,
 ///                   the more the larger the contact (docs/performance.md)
-NormalContactState press_to_pressure(const Surface& surface, double contact_modulus,
-                                     double nominal_pressure,
-                                     const NormalContactOptions& options = {});
-
-/// Solves the same contact for a given mean gap ū in (0, max h − mean h): the inverse of
-/// press_to_pressure. Periodic and elastic contacts only: a free one has no mean gap, and hardness
-/// makes the gap depend on more than the approach. Cost: as press_to_pressure, but 3 to 20 times as
-/// many iterations where more than 0.99 of the cells touch.
-NormalContactState press_to_mean_gap(const Surface& surface, double contact_modulus,
-                                     double mean_gap, const NormalContactOptions& options = {});
-
-/// Solves the same contact for a rigid approach from first touch, > 0, m; below max h − mean h for
-/// periodic contacts.
-NormalContactState press_to_indentation(const Surface& surface, double contact_modulus,
-                                        double indentation,
-                                        const NormalContactOptions& options = {});
+NormalContactState press(const Surface& surface, double contact_modulus, const Target& target,
+                         const NormalContactOptions& options = {});
 
 /// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve
 /// with the set held: N/m. punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left

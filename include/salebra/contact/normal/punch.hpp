@@ -46,7 +46,7 @@ constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
 /// pressure, where given, receives that of a unit approach, Pa/m.
 /// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in
 /// contact. Cost: one transform pair an iteration, in float, and one in double; on the ladder
-/// (press_to_pressure()) three pairs in all.
+/// (press()) three pairs in all.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options = {},
                                Field* pressure = nullptr);

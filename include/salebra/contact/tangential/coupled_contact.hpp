@@ -53,7 +53,7 @@ constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
 /// (Dundurs' β), which history leads from one state to the next. In each increment a normal solve
 /// on the heights lowered by u_z[τ] and a partial-slip solve with the displacement u_t[p] follow
 /// each other until nothing changes (Panagiotopoulos); the error falls by about β² a sweep or
-/// faster. With β = 0 it is SlidingContact on the pressures of press_to_indentation, in two sweeps.
+/// faster. With β = 0 it is SlidingContact on the pressures of press, in two sweeps.
 class CoupledContact {
  public:
   /// Throws InvalidInput for a bad surface, material or option.
