@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity.hpp>
 #include <vector>
 
 namespace salebra::cli {

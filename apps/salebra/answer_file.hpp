@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/results/quantity.hpp>
 #include <string>
 
 #include "session.hpp"

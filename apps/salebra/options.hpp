@@ -7,8 +7,6 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/words.hpp>
-#include <salebra/contact/half_space/material.hpp>
-#include <salebra/damping/oscillation.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/results/quantity.hpp>
 
 #include "answer_file.hpp"
 #include "io/text_file.hpp"
@@ -68,6 +69,12 @@ std::string to_csv(const Session& session, const ResultTable& table) {
 }
 
 }  // namespace
+
+std::string ResultColumn::units() const {
+  return other_units.empty() ? std::string(si_unit(find_quantity(name).dimension)) : other_units;
+}
+
+std::string ResultColumn::long_name() const { return std::string(find_quantity(name).long_name); }
 
 ResultTable table_of(const std::string& name, const Json& columns) {
   ResultTable table{.name = name, .columns = {}};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/results/quantity.hpp>
 #include <string>
 #include <vector>
 
@@ -17,10 +16,8 @@ struct ResultColumn {
   std::vector<double> values;
   std::string other_units = {};  ///< of a spectral density in another convention
 
-  std::string units() const {
-    return other_units.empty() ? std::string(si_unit(find_quantity(name).dimension)) : other_units;
-  }
-  std::string long_name() const { return std::string(find_quantity(name).long_name); }
+  std::string units() const;
+  std::string long_name() const;
 };
 
 /// Columns of one length, the first of which is the coordinate.

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <sstream>

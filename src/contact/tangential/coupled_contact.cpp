@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <utility>
 

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/generators/shapes.hpp>
 

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 
