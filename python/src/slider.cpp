@@ -134,8 +134,8 @@ progress : bool or callable
         const Position position = position_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return threshold_amplitude(law, position, angular_frequency, slider, friction_coefficient,
-                                     largest_amplitude, options);
+          return threshold_amplitude(law, position, {largest_amplitude, angular_frequency}, slider,
+                                     friction_coefficient, options);
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
@@ -153,9 +153,9 @@ progress : bool or callable
         const Position position = position_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return threshold_angular_frequency(law, position, normal_amplitude, slider,
-                                             friction_coefficient, largest_angular_frequency,
-                                             options);
+          return threshold_angular_frequency(law, position,
+                                             {normal_amplitude, largest_angular_frequency}, slider,
+                                             friction_coefficient, options);
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),

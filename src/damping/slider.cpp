@@ -572,34 +572,32 @@ SliderStability slider_stability(const ContactLaw& law, const Position& position
 }
 
 SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& position,
-                                    double angular_frequency, const Slider& slider,
-                                    double friction_coefficient, double largest_amplitude,
-                                    const SliderOptions& options) {
-  check({largest_amplitude, angular_frequency}, slider, friction_coefficient, options);
+                                    const NormalOscillation& last, const Slider& slider,
+                                    double friction_coefficient, const SliderOptions& options) {
+  check(last, slider, friction_coefficient, options);
   check_falling(slider);
-  const double low =
-      slider.velocity / angular_frequency / limit_of_slope(law, position, friction_coefficient);
-  return threshold({law, position, slider, friction_coefficient, options}, low, largest_amplitude,
-                   [&](double amplitude) {
-                     return NormalOscillation{amplitude, angular_frequency};
+  const double low = slider.velocity / last.angular_frequency /
+                     limit_of_slope(law, position, friction_coefficient);
+  return threshold({law, position, slider, friction_coefficient, options}, low,
+                   last.normal_amplitude, [&](double amplitude) {
+                     return NormalOscillation{amplitude, last.angular_frequency};
                    });
 }
 
 SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
-                                            double normal_amplitude, const Slider& slider,
+                                            const NormalOscillation& last, const Slider& slider,
                                             double friction_coefficient,
-                                            double largest_angular_frequency,
                                             const SliderOptions& options) {
-  require_positive(normal_amplitude, "normal_amplitude");
-  check({normal_amplitude, largest_angular_frequency}, slider, friction_coefficient, options);
+  require_positive(last.normal_amplitude, "normal_amplitude");
+  check(last, slider, friction_coefficient, options);
   check_falling(slider);
   const double touch =
-      slider.velocity / normal_amplitude / limit_of_slope(law, position, friction_coefficient);
+      slider.velocity / last.normal_amplitude / limit_of_slope(law, position, friction_coefficient);
   // Slower oscillations do not average.
   const double low = std::max(touch, 4.01 * natural_frequency(slider));
   return threshold({law, position, slider, friction_coefficient, options}, low,
-                   largest_angular_frequency, [&](double frequency) {
-                     return NormalOscillation{normal_amplitude, frequency};
+                   last.angular_frequency, [&](double frequency) {
+                     return NormalOscillation{last.normal_amplitude, frequency};
                    });
 }
 

@@ -59,11 +59,11 @@ SliderThresholds thresholds_of(const SliderQuestion& question, const ContactLaw&
                        (friction * law.normal_stiffness(indentation));
   const double largest = question.largest_amplitude.value_or(
       std::min(10 * std::max(amplitude, start), covered_amplitude(law, indentation)));
-  SliderThresholds found{.amplitude = threshold_amplitude(law, position, omega, slider, friction,
-                                                          largest, question.options)};
+  SliderThresholds found{.amplitude = threshold_amplitude(law, position, {largest, omega}, slider,
+                                                          friction, question.options)};
   if (amplitude > 0)
-    found.frequency = in_hertz(threshold_angular_frequency(law, position, amplitude, slider,
-                                                           friction, 10 * omega, question.options));
+    found.frequency = in_hertz(threshold_angular_frequency(law, position, {amplitude, 10 * omega},
+                                                           slider, friction, question.options));
   return found;
 }
 

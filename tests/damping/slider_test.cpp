@@ -243,7 +243,7 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
     CAPTURE(++number);
     const Slider slider = slider_of(one.mass, one.slowness, one.velocity, one.support, one.slope);
     const SliderThreshold threshold =
-        threshold_amplitude(*one.law, one.position, omega, slider, friction, one.largest);
+        threshold_amplitude(*one.law, one.position, {one.largest, omega}, slider, friction);
     // A thousandth for the steps of the full equation.
     CHECK(std::abs(threshold.linear_estimate - threshold.value) <
           threshold.linear_estimate_error + 1e-3 * threshold.value);
@@ -269,19 +269,19 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
 TEST_CASE("A threshold over frequency is that over amplitude, read the other way", "[slider]") {
   const Slider slider = slider_of(0.01, 50, 50e-6, 0, 1);
   const SliderThreshold amplitude =
-      threshold_amplitude(rough, load, omega, slider, friction, 50e-9);
+      threshold_amplitude(rough, load, {50e-9, omega}, slider, friction);
   const SliderThreshold frequency =
-      threshold_angular_frequency(rough, load, amplitude.value, slider, friction, 10 * omega);
+      threshold_angular_frequency(rough, load, {amplitude.value, 10 * omega}, slider, friction);
   CHECK(frequency.value == Approx(omega).epsilon(1e-6));
-  CHECK(threshold_angular_frequency(rough, load, amplitude.linear_estimate, slider, friction,
-                                    10 * omega)
+  CHECK(threshold_angular_frequency(rough, load, {amplitude.linear_estimate, 10 * omega}, slider,
+                                    friction)
             .linear_estimate == Approx(omega).epsilon(1e-9));
   // The damping is at most 3 N s/m at this velocity.
   Slider steep = slider;
   steep.falling_slope = 20;
-  CHECK(std::isnan(threshold_amplitude(rough, load, omega, steep, friction, 50e-9).value));
-  CHECK(
-      std::isnan(threshold_amplitude(rough, load, omega, steep, friction, 50e-9).linear_estimate));
+  CHECK(std::isnan(threshold_amplitude(rough, load, {50e-9, omega}, steep, friction).value));
+  CHECK(std::isnan(
+      threshold_amplitude(rough, load, {50e-9, omega}, steep, friction).linear_estimate));
 }
 
 TEST_CASE("A slider on a tabulated contact with its own K_t slides as its averages say",
@@ -343,7 +343,7 @@ TEST_CASE("Bad input of a slider is named", "[slider]") {
   options.steps = 8;
   CHECK_THROWS_WITH(slider_motion(rough, load, {1e-9, omega}, good, friction, options),
                     Catch::StartsWith("steps: 8"));
-  CHECK_THROWS_WITH(threshold_amplitude(rough, load, omega, {0.01, 1000, 5e-5}, friction, 1e-8),
+  CHECK_THROWS_WITH(threshold_amplitude(rough, load, {1e-8, omega}, {0.01, 1000, 5e-5}, friction),
                     Catch::StartsWith("falling_slope: 0 N s/m must be above"));
   SliderOptions stopped;
   stopped.on_progress = [](const ProgressReport&) { return false; };

@@ -254,17 +254,15 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {
 
 /// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The
 /// estimate has an upper end too, for Γ falls with either.
-/// largest_amplitude, largest_angular_frequency  end of the range
+/// last    the oscillation at the end of the range: the largest amplitude, or the largest frequency
 /// throws  InvalidInput as slider_motion(), and where b <= c, which needs no oscillation
 /// cost    slider_stability() and steady_sliding() some tens to hundreds of times
 SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& position,
-                                    double angular_frequency, const Slider& slider,
-                                    double friction_coefficient, double largest_amplitude,
-                                    const SliderOptions& options = {});
+                                    const NormalOscillation& last, const Slider& slider,
+                                    double friction_coefficient, const SliderOptions& options = {});
 SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
-                                            double normal_amplitude, const Slider& slider,
+                                            const NormalOscillation& last, const Slider& slider,
                                             double friction_coefficient,
-                                            double largest_angular_frequency,
                                             const SliderOptions& options = {});
 
 }  // namespace salebra
