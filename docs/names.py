@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Names of all results with their units and meanings, from the descriptions of the structs and the table of those without one (src/results/quantity.cpp)."""
+"""Names of all results with their units and meanings, from the descriptions of the structs."""
 
 import pathlib
 import re
 
 _ROOT = pathlib.Path(__file__).resolve().parent.parent
-_TABLE = ("include/salebra/**/*.hpp", "generators/include/salebra/**/*.hpp", "src/**/*.hpp", "src/results/quantity.cpp")
+_TABLE = ("include/salebra/**/*.hpp", "generators/include/salebra/**/*.hpp", "src/**/*.hpp", "apps/salebra/*.hpp")
 _PER_AREA = {"N": "Pa", "J": "J/m^2", "N/m": "Pa/m"}
 
 

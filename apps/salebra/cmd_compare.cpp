@@ -230,10 +230,6 @@ void run(const CompareArguments& arguments, Session& session) {
     throw Interrupted("compare: interrupted; the surfaces that were finished are in the answer");
 }
 
-}  // namespace
-
-namespace {
-
 /// "gw_moments, gw_deterministic, … and persson".
 std::string other_models() {
   std::vector<std::string_view> names;

@@ -6,9 +6,9 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 
+#include "io/text_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "written_text.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -124,6 +124,12 @@ if [[ $funcstack[1] == _salebra ]]; then _salebra "$@"; else compdef _salebra sa
                      commands, options);
 }
 
+void write_script(const std::string& text, Session& session) {
+  if (!session.has_output()) return session.answer(Json{{"text", text}}, text);
+  write_text_file(session.output(), text, session.write_options());
+  session.answer(Json{{"file", session.output().string()}}, "");
+}
+
 }  // namespace
 
 void add_completion_command(Program& program) {
@@ -133,7 +139,7 @@ void add_completion_command(Program& program) {
       {"salebra completion bash -o ~/.local/share/bash-completion/completions/salebra",
        "salebra completion zsh"},
       [name, &program](Session& session) {
-        answer_text(*name == "bash" ? bash_script(program) : zsh_script(program), session);
+        write_script(*name == "bash" ? bash_script(program) : zsh_script(program), session);
       },
       "", OutputCheck::any_name);
   add_choice(command, "SHELL", *name, {"bash", "zsh"}, "the shell")->required();

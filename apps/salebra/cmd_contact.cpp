@@ -9,16 +9,13 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/normal/first_loading.hpp>
-#include <salebra/contact/sweep.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/study/configuration.hpp>
 
+#include "answers.hpp"
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
-#include "first_loading.hpp"
-#include "grid_axes.hpp"
 #include "program.hpp"
 #include "results/columns.hpp"
 #include "results/describe.hpp"
@@ -53,7 +50,7 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
   collectively(session.ranks(), [&] {
     file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
     QuantityGroup group(file->group("contact"));
-    if (has_pressure) write_axes(group, grid);
+    if (has_pressure) group.axes(grid);
     if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
     if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
     group.attribute("pressure", state.mean_pressure);
@@ -136,18 +133,19 @@ void press_once(const ContactArguments& arguments, Session& session) {
       write_surface(arguments.residual, residual.surface, session.provenance(),
                     session.write_options());
   }
-  Json answer = {{"pressure", state.mean_pressure},
-                 {"max_pressure", max_pressure(session.ranks(), state)}};
+  Json answer =
+      json_of(ContactPressures{state.mean_pressure, max_pressure(session.ranks(), state)});
   answer.add(json_of(state));
   answer["seconds"] = elapsed.count();
   add_first_loading(answer, first_loading);
   if (arguments.stiffness && state.converged) {
     const ForceSample sample =
         force_sample(state, surface, material, {.contact = options, .stick = arguments.stick});
-    answer["normal_stiffness"] = sample.normal_stiffness;
-    answer["normal_stiffness_per_area"] = sample.normal_stiffness / surface.grid.area();
-    if (std::isfinite(material.tangential_modulus))
-      answer["tangential_stiffness"] = sample.tangential_stiffness;
+    const Json columns = json_of(sample, surface.grid.area());
+    for (const char* name :
+         {"normal_stiffness", "normal_stiffness_per_area", "tangential_stiffness"})
+      if (name[0] != 't' || std::isfinite(material.tangential_modulus))
+        answer[name] = columns[name];
     if (session.stopped()) {
       arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
       throw Interrupted("contact: interrupted; the stiffness was not computed");

@@ -9,7 +9,6 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/questions/damping.hpp>
 
-#include "answer_file.hpp"
 #include "damping_maps.hpp"
 #include "figures.hpp"
 #include "io/number_table.hpp"
@@ -17,7 +16,8 @@
 #include "options.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
-#include "questions/answer_json.hpp"
+#include "result_tables.hpp"
+#include "results/answer_json.hpp"
 #include "results/quantity_group.hpp"
 #include "text.hpp"
 
@@ -45,23 +45,6 @@ struct DampingArguments {
                        (amplitudes.size() > 1 && motion.frequency.count() > 1)));
   }
 };
-
-// The quantity that has several values, by its name in JSON; "" if there is none.
-std::pair<std::string, std::vector<double>> varied(const DampingArguments& arguments) {
-  const LawOptions& law = arguments.law;
-  auto found = arguments.motion.varied();
-  for (const auto& [name, values] : {std::pair{"force", &law.force},
-                                     {"indentation", &law.indentation},
-                                     {"pressure", &law.pressure},
-                                     {"mean_gap", &law.mean_gap},
-                                     {"force_amplitude", &arguments.force_amplitude}}) {
-    if (values->size() < 2) continue;
-    require(found.second.empty(), name, fmt::format("{} values", values->size()),
-            "are a second range; only one quantity may be a range");
-    found = {name, *values};
-  }
-  return found;
-}
 
 std::vector<Motion> motions_of(const DampingArguments& arguments) {
   if (arguments.force_amplitude.empty()) return arguments.motion.all_motions();
@@ -99,7 +82,10 @@ void follow_file(const DampingArguments& arguments, Session& session) {
     group.dataset("tangential", path.displacement, {"time"});
     group.dataset("tangential_force", answer.loss.tangential_force, {"time"});
     if (!question.transverse.empty()) {
-      group.dataset("transverse", question.transverse, {"time"});
+      const Quantity quantity = quantity_of("transverse");
+      group.plain().dataset("transverse", question.transverse, {"time"},
+                            std::string(si_unit(quantity.dimension)),
+                            std::string(quantity.long_name));
       group.dataset("transverse_force", answer.loss.transverse_force, {"time"});
     }
     group.dataset("dissipated", answer.loss.dissipated, {"time"});
@@ -119,7 +105,7 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
   const auto& law = static_cast<const IndenterLaw&>(*contact.law);
   const double indentation = indentation_of(law, contact.positions.front());
   const Json object = json_of(state_of(law, indentation));
-  write_answer(session, "damping", object);
+  write_tables(session, "damping", object, {});
   if (session.has_plot()) session.plot(contact_figure(law, indentation));
   session.answer(object);
 }
@@ -138,23 +124,26 @@ void plot_case(const DampingArguments& arguments, const DampingAnswer& answer, S
 }
 
 void lose(const DampingArguments& arguments, Session& session) {
-  const auto [quantity, values] = varied(arguments);
   const std::vector<Motion> motions = motions_of(arguments);
+  DampingQuestion question{.contact = {},
+                           .motions = motions,
+                           .force_amplitude = arguments.force_amplitude,
+                           .hold = *value_of<Hold>(arguments.hold),
+                           .amplitude = *value_of<Amplitude>(arguments.amplitude),
+                           .facts = arguments.premises.facts(arguments.material),
+                           .steps = arguments.steps};
+  Varied varied = arguments.motion.varied();
+  find_varied(arguments.law, varied);
+  find_varied(question, varied);
+  const auto& [quantity, values] = varied;
   arguments.maps.check(motions, session);
   if (arguments.law.surface.given())
     require(motions.size() == 1 && arguments.force_amplitude.empty() &&
                 arguments.motion.mode != "two-frequencies",
             "--surface", arguments.law.surface.file,
             "takes one motion of equal frequencies or drag; give several --pressure, or a --curve");
-  const DampingAnswer answer =
-      ask(DampingQuestion{.contact = contact_of(arguments, session),
-                          .motions = motions,
-                          .force_amplitude = arguments.force_amplitude,
-                          .hold = *value_of<Hold>(arguments.hold),
-                          .amplitude = *value_of<Amplitude>(arguments.amplitude),
-                          .facts = arguments.premises.facts(arguments.material),
-                          .steps = arguments.steps},
-          session.context());
+  question.contact = contact_of(arguments, session);
+  const DampingAnswer answer = ask(std::move(question), session.context());
   session.warn(answer.contact.doubts);
   session.warn(answer.doubts);
   const bool one = values.empty();
@@ -165,7 +154,7 @@ void lose(const DampingArguments& arguments, Session& session) {
   object.add(answer_json(answer, answer.contact.nominal_area()));
   const auto lost = std::ranges::count(answer.results, false, &DampingResult::converged);
   if (lost == 0) {
-    write_answer(session, "damping", object);
+    write_tables(session, "damping", object, {});
     if (!one && session.has_plot())
       session.plot(damping_figure(quantity, values, answer.results));
     else if (!arguments.maps.given())

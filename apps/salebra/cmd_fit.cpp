@@ -5,15 +5,15 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/contact/law/fit.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
-#include "answer_file.hpp"
+#include "answers.hpp"
 #include "curve_figure.hpp"
-#include "law_words.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "results/columns.hpp"
+#include "result_tables.hpp"
+#include "results/answer_json.hpp"
+#include "study_command.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -61,13 +61,14 @@ void run(const FitArguments& arguments, Session& session) {
     for (const char* name : {"decay_length_low", "decay_length_high"}) answer.erase(name);
   answer["window"] = json_of(fit.window);
   answer["window"]["points"] = fit.window.points;
-  Json by_weights = Json::object();
-  for (const auto& [other, name] : Words<FitWeights>::values)
-    by_weights[name] = fit_exponential(curve, window, other).decay_length;
-  answer["weights"] = arguments.weights;
-  answer["decay_length_by_weights"] = by_weights;
+  const auto length_by = [&](FitWeights other) {
+    return fit_exponential(curve, window, other).decay_length;
+  };
   const WindowSensitivity parts = window_sensitivity(curve, window, weights);
-  answer["window_sensitivity"] = json_of(parts);
+  answer.add(answer_json(FitChoices{
+      weights,
+      {length_by(FitWeights::spacing), length_by(FitWeights::equal), length_by(FitWeights::force)},
+      parts}));
   std::string verdict = "Four samples in the window would be needed to test the law.\n";
   if (fit.window.points >= 4) {
     const ExponentialTest test = test_exponential(curve, window, weights);
@@ -79,7 +80,7 @@ void run(const FitArguments& arguments, Session& session) {
     if (noisy) answer["test"]["significance"] = test.significance;
     verdict = in_words(test, parts, law, noisy);
   }
-  write_answer(session, "fit", answer);
+  write_tables(session, "fit", answer, {});
   // Too long for the answer in words, and not a part of the fit.
   Json complete = answer;
   complete["local"] = lists_of(local_decay_length(curve));

@@ -19,7 +19,6 @@
 #include "base/memory.hpp"
 #include "dry_run.hpp"
 #include "options.hpp"
-#include "plausibility.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "shape_options.hpp"

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `salebra joint`: partial slip under a tangential oscillation.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/joint.hpp>
 #include <salebra/questions/damping.hpp>
 
 #include "figures.hpp"
-#include "first_loading.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "premise_options.hpp"
@@ -55,37 +49,7 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& p
   return figure;
 }
 
-// Every motion once more, cell by cell, at the same indentation.
-std::vector<JointLoss> simulate(const JointArguments& arguments, const ContactAnswer& contact,
-                                const std::vector<TangentialOscillation>& motions,
-                                double indentation, Session& session) {
-  const Material material = arguments.material.material_with_tangential_modulus();
-  const PressureLevels levels =
-      boundary_element_pressures(*contact.surface, material.contact_modulus);
-  CycleOptions options{.friction_coefficient = *arguments.premises.friction_coefficient,
-                       .steps = *arguments.direct_steps,
-                       .max_periods = 20};
-  options.on_progress = session.progress();
-  std::vector<JointLoss> losses;
-  for (const TangentialOscillation& motion : motions) {
-    losses.push_back(simulated_joint_loss(levels, contact.surface->grid, material, indentation,
-                                          motion, arguments.normal_amplitude.value_or(0),
-                                          arguments.phase.value_or(0), options));
-    if (interrupted()) throw Interrupted("joint: stopped before all motions were done");
-  }
-  if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
-    throw NotConverged(
-        fmt::format("joint: {} of {} motions cell by cell did not converge to a steady loss", lost,
-                    losses.size()));
-  return losses;
-}
-
-void run(const JointArguments& arguments, Session& session) {
-  const bool direct = arguments.direct_steps.has_value();
-  require_tables(session, direct ? std::vector<std::string>{"motions", "direct"}
-                                 : std::vector<std::string>{"motions"});
-  require(!direct || arguments.law.surface.given(), "--direct-steps",
-          arguments.direct_steps.value_or(0), "is of a surface cell by cell; give --surface");
+void check(const JointArguments& arguments) {
   std::vector<std::string> missing;
   if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
   if (arguments.tangential_forces.empty() && arguments.tangential_amplitudes.empty())
@@ -98,89 +62,46 @@ void run(const JointArguments& arguments, Session& session) {
           "is that of a normal oscillation; give --normal-amplitude");
   if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
-  const double friction = *arguments.premises.friction_coefficient;
-  require_positive(friction, "--friction-coefficient");
-  const ContactAnswer contact =
-      arguments.law.contact(arguments.material, session, arguments.premises.hardness,
-                            std::abs(arguments.normal_amplitude.value_or(0)));
-  require(contact.positions.size() == 1, "--normal-force",
-          fmt::format("{} positions", contact.positions.size()),
-          "are given; joint takes one, and several tangential forces or amplitudes");
-  const Position& position = contact.positions.front();
-  const ContactLaw& law = *contact.law;
+}
 
-  const bool oscillates = arguments.normal_amplitude && *arguments.normal_amplitude != 0;
-  const double phase = arguments.phase.value_or(0);
-  std::vector<TangentialOscillation> motions;
+void run(const JointArguments& arguments, Session& session) {
+  const bool direct = arguments.direct_steps.has_value();
+  require_tables(session, direct ? std::vector<std::string>{"motions", "direct"}
+                                 : std::vector<std::string>{"motions"});
+  check(arguments);
+  JointQuestion question{
+      .contact = arguments.law.question(arguments.material, session, arguments.premises.hardness),
+      .normal_amplitude = arguments.normal_amplitude.value_or(0),
+      .phase = arguments.phase.value_or(0),
+      .angular_frequency = 2 * std::numbers::pi * arguments.frequency.value_or(0),
+      .facts = arguments.premises.facts(arguments.material),
+      .steps = arguments.steps,
+      .direct_steps = arguments.direct_steps};
   for (const double force : arguments.tangential_forces)
-    motions.emplace_back(TangentialForce{force});
+    question.motions.emplace_back(TangentialForce{force});
   for (const double amplitude : arguments.tangential_amplitudes)
-    motions.emplace_back(TangentialAmplitude{amplitude});
-  std::vector<JointLoss> losses;
-  const Progress progress = session.progress();
-  const auto of_all = [&](ProgressReport report) {
-    report.fraction = (double(losses.size()) + report.fraction) / double(motions.size());
-    return progress(report);
-  };
-  if (contact.surface && !oscillates)
-    losses =
-        surface_joint_loss(*contact.surface, arguments.material.material_with_tangential_modulus(),
-                           law, position, motions, friction, progress);
-  else
-    for (const TangentialOscillation& motion : motions)
-      losses.push_back(oscillates
-                           ? joint_loss(law, position, motion, friction,
-                                        *arguments.normal_amplitude, phase, arguments.steps, of_all)
-                           : joint_loss(law, position, motion, friction));
-  if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
-    throw NotConverged(
-        fmt::format("joint: {} of {} integrals did not reach the tolerance", lost, losses.size()));
+    question.motions.emplace_back(TangentialAmplitude{amplitude});
+  const JointAnswer found = ask(std::move(question), session.context());
+  session.warn(found.contact.doubts);
+  for (const std::string& remark : found.remarks) session.note(remark);
 
-  if (contact.surface && oscillates)
-    session.note(
-        "the loss is that of a law through some loads: its error is not known while the "
-        "normal force oscillates");
-  if (const auto lost = std::ranges::count_if(
-          losses, [](const JointLoss& one) { return std::isnan(one.work_per_cycle); });
-      lost > 0)
-    session.note(
-        fmt::format("n/a at {} of {} motions: the error of the loss is larger than the "
-                    "loss, because too few cells part where the joint slips; a finer "
-                    "surface helps",
-                    lost, losses.size()));
-  const double indentation = losses.front().indentation;
-  const double area =
-      arguments.nominal_area.value_or(contact.curve ? contact.curve->nominal_area : 0);
-  Json answer = {{"force", law.force(indentation)},
-                 {"indentation", indentation},
-                 {"normal_stiffness", law.normal_stiffness(indentation)},
-                 {"tangential_stiffness", law.tangential_stiffness(indentation)}};
-  std::vector<ResultTable> tables{table_of("motions", losses, area)};
-  if (direct)
-    tables.push_back(
-        table_of("direct", simulate(arguments, contact, motions, indentation, session), area));
+  const double area = arguments.nominal_area.value_or(found.contact.nominal_area());
+  Json answer = json_of(found.state);
+  std::vector<ResultTable> tables{table_of("motions", found.losses, area)};
+  if (direct) tables.push_back(table_of("direct", found.simulated, area));
   write_tables(session, "joint", answer, tables);
   for (const ResultColumn& column : tables.front().columns) answer[column.name] = column.values;
   if (direct)
     for (const ResultColumn& column : tables.back().columns)
       answer["direct"][column.name] = column.values;
-
-  const JointLoss& largest =
-      *std::ranges::max_element(losses, {}, &JointLoss::tangential_amplitude);
-  const EqualFrequency motion{arguments.normal_amplitude.value_or(0), largest.tangential_amplitude,
-                              phase, 2 * std::numbers::pi * arguments.frequency.value_or(0)};
   if (session.has_plot()) {
-    const DampingCycle largest_cycle =
-        cycle_of(law, motion, indentation, arguments.steps, friction, session.context());
-    session.plot(joint_figure(losses, largest_cycle.path, largest_cycle.loss));
+    const DampingCycle cycle =
+        cycle_of(*found.contact.law, found.largest, found.state.indentation, arguments.steps,
+                 *arguments.premises.friction_coefficient, session.context());
+    session.plot(joint_figure(found.losses, cycle.path, cycle.loss));
   }
-  add_first_loading(answer, contact.first_loading);
-  // A constant normal force is the limit of small normal amplitudes.
-  EqualFrequency judged = motion;
-  if (!oscillates)
-    judged.normal_amplitude = 1e-6 * law.force(indentation) / law.normal_stiffness(indentation);
-  const ContactFacts known = arguments.premises.facts(arguments.material);
-  PremiseReport{{contact.premises_beside_slip(indentation, judged, known)}}.answer(session, answer);
+  add_first_loading(answer, found.contact.first_loading);
+  PremiseReport{{found.premises}}.answer(session, answer);
 }
 
 }  // namespace

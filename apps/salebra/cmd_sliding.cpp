@@ -9,12 +9,12 @@
 #include <salebra/base/error.hpp>
 #include <salebra/questions/sliding.hpp>
 
-#include "first_loading.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "premise_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "results/answer_json.hpp"
 #include "sliding_figure.hpp"
 #include "text.hpp"
 
@@ -178,12 +178,6 @@ SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
   return question;
 }
 
-Json threshold_json(const SliderThreshold& threshold) {
-  return {{"value", threshold.value},
-          {"linear_estimate", threshold.linear_estimate},
-          {"linear_estimate_error", threshold.linear_estimate_error}};
-}
-
 void drag_slider(const SlidingArguments& arguments, Session& session) {
   require_tables(session, {"motion", "averaged_motion"});
   const SliderQuestion question = slider_of(arguments, session);
@@ -200,10 +194,7 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
   } else {
     answer["stable"] = stability["stable"];
   }
-  for (const auto& [name, threshold] :
-       {std::pair{"threshold_amplitude", &found.thresholds.amplitude},
-        {"threshold_frequency", &found.thresholds.frequency}})
-    if (*threshold) answer[name] = threshold_json(**threshold);
+  answer.add(answer_json(found.thresholds));
   add_first_loading(answer, contact.first_loading);
   write_tables(session, "slider", answer,
                {table_of("motion", lists_of(found.motion)),

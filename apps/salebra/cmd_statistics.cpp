@@ -15,9 +15,11 @@
 #include <salebra/surface/summits.hpp>
 #include <string_view>
 
+#include "answers.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
+#include "results/answer_json.hpp"
 #include "surface/psd_convention.hpp"
 #include "surface_figure.hpp"
 #include "text.hpp"
@@ -43,17 +45,13 @@ ResultTable psd_table(const std::string& name, const ConvertedPsd& psd,
 
 std::vector<ResultTable> height_tables(const Surface& surface) {
   const BearingCurve curve(surface);
-  std::vector<double> fraction, height;
+  BearingTable bearing;
   for (int percent = 0; percent <= 100; ++percent) {
-    fraction.push_back(percent / 100.0);
-    height.push_back(curve.height(fraction.back()));
+    bearing.area_fraction.push_back(percent / 100.0);
+    bearing.height.push_back(curve.height(percent / 100.0));
   }
-  return {{"bearing", {{"area_fraction", fraction}, {"height", height}}},
+  return {table_of("bearing", lists_of(bearing)),
           table_of("histogram", lists_of(height_histogram(curve)))};
-}
-
-Json interval_json(const IntervalEstimate& estimate) {
-  return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
 }
 
 const std::vector<std::string> spectrum_tables{"psd", "profile_psd_x", "profile_psd_y"};
@@ -69,15 +67,13 @@ Json summary(const StatisticsArguments& arguments, const Surface& surface, Index
              const SelfAffineFit& fit) {
   const HeightStatistics heights = height_statistics(surface);
   Json answer = json_of(surface.grid);
-  answer.add({{"periodic", surface.periodic},
-              {"undefined_points", undefined},
-              {"filled_points", arguments.fill ? undefined : 0},
-              {"mean", heights.mean}});
+  answer.add(json_of(
+      SurfacePoints{surface.periodic, undefined, arguments.fill ? undefined : 0, heights.mean}));
   answer.add(json_of(heights));
   answer.add(json_of(undefined > 0 ? difference_moments(surface) : surface_moments(surface)));
-  answer["hurst"] = interval_json(fit.hurst);
-  answer["rolloff"] = interval_json(fit.rolloff);
-  answer["short_cutoff"] = interval_json(fit.short_cutoff);
+  answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
+  answer["rolloff"] = to_json(fit.rolloff);
+  answer["short_cutoff"] = to_json(fit.short_cutoff);
   answer["summits"] = json_of(summit_statistics(find_summits(surface)));
   answer["reliability"] = json_of(short_wavelength_limit(
       surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution}));

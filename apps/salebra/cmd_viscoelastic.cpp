@@ -6,7 +6,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/damping/viscoelastic_damping.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>  // the loss of rubber has one face
 #include <salebra/questions/contact.hpp>
 
 #include "figures.hpp"
@@ -130,10 +130,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   for (const Oscillation& motion : arguments.motion.motions())
     premises.cases.push_back(premises_of(law, indentation, motion, facts));
 
-  Json answer = {{"indentation", indentation},
-                 {"force", law.force(indentation)},
-                 {"normal_stiffness", law.normal_stiffness(indentation)},
-                 {"tangential_stiffness", law.tangential_stiffness(indentation)}};
+  Json answer = json_of(state_of(*any_law, indentation));
   answer.add(json_of(prony));
   ResultTable table = table_of("motions", losses);
   const auto [quantity, values] = arguments.motion.varied();

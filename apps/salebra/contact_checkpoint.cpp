@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <new>
 #include <salebra/base/error.hpp>
+#include <salebra/io/result_file.hpp>
 
-#include "grid_axes.hpp"
 #include "named_files.hpp"
 #include "options.hpp"
+#include "results/quantity_group.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -71,7 +72,7 @@ bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field&
     collectively(session.ranks(), [&] {
       result.emplace(file, session.provenance(), WriteOptions{.overwrite = true}, session.ranks());
       QuantityGroup group(result->group("contact"));
-      write_axes(group, grid);
+      group.axes(grid);
       group.dataset("contact_pressure", pressure, "x", "y", FieldType::float32);
     });
     result->commit();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/contact/normal/normal.hpp>
+#include <salebra/questions/contact.hpp>
 #include <string>
 
 #include "session.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/sweep.hpp>  // processes that share a surface have this face alone
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +49,10 @@ void press_once(const ContactArguments& arguments, Session& session);
 void press_often(const ContactArguments& arguments, Session& session);
 /// The force curve of summits, those of the surface or of parameters.
 void press_summits(const ContactArguments& arguments, Session& session);
+
+/// A list for each column of ForceSample, without separation and stiffnesses per area where no
+/// sample has them.
+Json to_json(const ForceCurve& curve);
 
 /// Answers --dry-run.
 void estimate_contacts(const ContactArguments& arguments, Session& session);

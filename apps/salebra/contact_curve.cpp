@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/contact/sweep.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/memory.hpp"
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
-#include "curve_json.hpp"
 #include "dry_run.hpp"
-#include "first_loading.hpp"
+#include "results/columns.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -45,6 +43,16 @@ SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& out
 }
 
 }  // namespace
+
+Json to_json(const ForceCurve& curve) {
+  Json object = json_of(curve.samples, curve.nominal_area);
+  const auto unknown = [](const Json& value) { return !std::isfinite(value.number()); };
+  for (const char* name :
+       {"separation", "normal_stiffness_per_area", "tangential_stiffness_per_area"})
+    if (object.contains(name) && std::ranges::all_of(object[name].elements(), unknown))
+      object.erase(name);
+  return object;
+}
 
 void estimate_contacts(const ContactArguments& arguments, Session& session) {
   const SurfaceOutline outline = arguments.surface.outline(session);

@@ -2,14 +2,13 @@
 // `salebra contact --model gw_…`: Greenwood-Williamson curves of a surface or of given parameters.
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>  // a theory that has one face
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
-#include "curve_json.hpp"
 #include "results/columns.hpp"
 
 namespace salebra::cli {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <salebra/contact/law/fit.hpp>
-#include <salebra/contact/normal/normal.hpp>
+#include <salebra/questions/contact.hpp>
 
+#include "answers.hpp"
 #include "io/plot.hpp"
 
 /// The pictures of contacts and of their force curves.

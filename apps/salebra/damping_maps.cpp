@@ -2,8 +2,6 @@
 // Maps of `damping`: stresses under an indenter, and W(mu)/W(infinity).
 #include "damping_maps.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/io/output.hpp>
 #include <salebra/io/result_file.hpp>
@@ -21,10 +19,9 @@ const IndenterLaw& indenter_of(const DampingAnswer& answer, const std::string& f
   return *law;
 }
 
-void write_stress_map(const MapOptions& options, const IndenterLaw& law, double indentation,
-                      const Oscillation& motion, Session& session) {
-  const StressMap map =
-      stress_map(law, indentation, motion, options.phases, options.radii, session.progress());
+void write_stress_map(const MapOptions& options, const DampingAnswer& answer, Session& session) {
+  const IndenterLaw& law = indenter_of(answer, options.stress_map);
+  const StressMap map = stress_map_of(answer, options.phases, options.radii, session.context());
   ResultFile file(options.stress_map, session.provenance(), session.write_options());
   QuantityGroup group(file.group("stress_map"));
   group.coordinate("angle", map.angle);
@@ -34,23 +31,19 @@ void write_stress_map(const MapOptions& options, const IndenterLaw& law, double 
   group.dataset("shear", map.shear, "angle", "radial_position");
   group.dataset("contact_pressure", map.contact_pressure, "angle", "radial_position");
   if (session.has_plot() && options.friction_map.empty())
-    session.plot(stress_figure(law, indentation, motion, map));
+    session.plot(stress_figure(law, answer.results.front().indentation,
+                               *oscillation_of(answer.motions.front()), map));
   file.commit();
 }
 
-void write_friction_map(const MapOptions& options, const ContactLaw& law, double indentation,
-                        const EqualFrequency& motion, int steps, Session& session) {
-  std::vector<double> numbers = options.friction_numbers, phases;
-  if (numbers.empty())
-    for (int i = 0; i <= 24; ++i) numbers.push_back(std::pow(10.0, -1 + i / 8.0));
-  for (int i = 1; i <= 18; ++i) phases.push_back(std::numbers::pi / 36 * i);
+void write_friction_map(const MapOptions& options, const DampingAnswer& answer, int steps,
+                        Session& session) {
   const FrictionMap map =
-      friction_map(law, indentation, motion.normal_amplitude, motion.tangential_amplitude, numbers,
-                   phases, {.steps = steps, .on_progress = session.progress()});
+      friction_map_of(answer, options.friction_numbers, steps, session.context());
   ResultFile file(options.friction_map, session.provenance(), session.write_options());
   QuantityGroup group(file.group("friction_map"));
-  group.coordinate("friction_number", numbers);
-  group.coordinate("phase", phases);
+  group.coordinate("friction_number", map.friction_number);
+  group.coordinate("phase", map.phase);
   group.dataset("loss_ratio", map.loss_ratio, "friction_number", "phase");
   group.dataset("relaxation_ratio", map.relaxation_ratio, "friction_number", "phase");
   group.dataset("slip_ratio", map.slip_ratio, "friction_number", "phase");
@@ -99,14 +92,8 @@ void MapOptions::check(const std::vector<Motion>& motions, const Session& sessio
 }
 
 void MapOptions::write(const DampingAnswer& answer, int steps, Session& session) const {
-  const Motion& motion = answer.motions.front();
-  const double indentation = answer.results.front().indentation;
-  if (!stress_map.empty())
-    write_stress_map(*this, indenter_of(answer, stress_map), indentation, *oscillation_of(motion),
-                     session);
-  if (!friction_map.empty())
-    write_friction_map(*this, *answer.contact.law, indentation, std::get<EqualFrequency>(motion),
-                       steps, session);
+  if (!stress_map.empty()) write_stress_map(*this, answer, session);
+  if (!friction_map.empty()) write_friction_map(*this, answer, steps, session);
 }
 
 }  // namespace salebra::cli

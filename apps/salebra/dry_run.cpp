@@ -58,35 +58,6 @@ std::string describe_levels(const StudyConfiguration& configuration, const Study
                          : "");
 }
 
-double of_node(const StudyCost& cost) {
-  return cost.memory * std::ceil(double(cost.processes.ranks) / cost.processes.nodes);
-}
-
-Json cost_json(const StudyCost& cost, const std::string& file) {
-  Json points = Json::array();
-  for (const PointCost& point : cost.points)
-    points.push_back({{"surfaces", point.surfaces},
-                      {"nx", point.grid.nx},
-                      {"ny", point.grid.ny},
-                      {"pressure", point.pressures},
-                      {"levels", point.levels},
-                      {"seconds_of_one_thread", point.seconds},
-                      {"warnings", point.warnings}});
-  return Json{{"dry_run", true},
-              {"points", points},
-              {"surfaces", cost.surfaces()},
-              {"contacts", cost.contacts()},
-              {"ranks", cost.processes.ranks},
-              {"nodes", cost.processes.nodes},
-              {"groups", cost.processes.groups},
-              {"threads", cost.threads},
-              {"seconds", cost.seconds},
-              {"memory_bytes", cost.memory * cost.processes.ranks},
-              {"memory_bytes_of_node", of_node(cost)},
-              {"available_memory_bytes", cost.available},
-              {"files", {{"results", file.empty() ? Json() : Json(file)}}}};
-}
-
 /// "64 on 16 machines, in 4 groups".
 std::string describe(const StudyProcesses& processes) {
   return fmt::format("{} on {} machine{}{}", processes.ranks, processes.nodes,
@@ -147,22 +118,21 @@ void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesse
       together ? "processes " + describe(processes) + "\n" : "",
       configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
       together ? "each on idle machines like this one" : "on an idle machine",
-      uncertainty(configuration) == 3 ? "three" : "two", memory_text(of_node(cost)),
+      uncertainty(configuration) == 3 ? "three" : "two", memory_text(cost.memory_of_node()),
       together ? fmt::format(" on each machine, {} in each process", memory_text(cost.memory)) : "",
       cost.available > 0 ? fmt::format(" of {} that are free", memory_text(cost.available)) : "");
   text += file.empty() ? "files     none; add --output FILE to keep the results\n"
                        : fmt::format("files     {}; while it runs, finished surfaces in {}.parts\n",
                                      file, file);
-  Json answer = cost_json(cost, file);
+  Json answer{{"dry_run", true}};
+  answer.add(answer_json(cost));
+  answer["files"]["results"] = file.empty() ? Json() : Json(file);
   if (shard_seconds) {
     const ShardPlan plan = plan_shards(cost, *shard_seconds);
     text += describe_shards(plan, cost.threads, uncertainty(configuration), *shard_seconds);
-    answer["shards"] = {{"count", plan.shards},
-                        {"surfaces", plan.surfaces},
-                        {"seconds", plan.seconds},
-                        {"memory_bytes", plan.memory}};
+    answer["shards"] = json_of(plan);
   }
-  if (cost.available > 0 && of_node(cost) > cost.available)
+  if (cost.available > 0 && cost.memory_of_node() > cost.available)
     session.warn(fmt::format("the memory that is free does not suffice; use fewer points or {}",
                              together ? "more machines" : "fewer --threads"));
   session.answer(answer, text);
@@ -179,10 +149,8 @@ SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Sess
 }
 
 void answer_dry_run(const SurfaceWork& work, const std::string& origin, Session& session) {
-  const SurfaceCost cost = estimate_cost(work);
-  const int on_a_node = (work.ranks + work.nodes - 1) / work.nodes;
-  const double of_node = cost.memory_of_process * on_a_node;
-  const auto available = static_cast<double>(available_memory());
+  const Cost cost = estimate_cost(work);
+  const double of_node = cost.memory_of_node(), available = cost.available;
   std::string text = "This would run, and nothing of it has been run:\n  surface   " +
                      in_points(work.grid, origin);
   if (!work.loads.empty())
@@ -197,28 +165,19 @@ void answer_dry_run(const SurfaceWork& work, const std::string& origin, Session&
   text += fmt::format(
       "memory    about {} on each machine, {} in each process, give or take 15 %{}\n"
       "time      about {} on idle machines like this one, give or take a factor of two{}\n",
-      memory_text(of_node), memory_text(cost.memory_of_process),
+      memory_text(of_node), memory_text(cost.memory),
       available > 0 ? fmt::format("; {} are free on this one", memory_text(available)) : "",
       about(cost.seconds),
       cost.network_seconds > 0
           ? fmt::format("; {:.0f} % of it between machines, if these exchange {:.3g} GB/s, a "
                         "message in {:.2g} us",
-                        100 * cost.network_seconds / cost.seconds, SurfaceCost::bandwidth / 1e9,
-                        SurfaceCost::latency * 1e6)
+                        100 * cost.network_seconds / cost.seconds, Cost::bandwidth / 1e9,
+                        Cost::latency * 1e6)
           : "");
-  const Json answer{{"dry_run", true},
-                    {"nx", work.grid.nx},
-                    {"ny", work.grid.ny},
-                    {"contacts", work.loads.size()},
-                    {"ranks", work.ranks},
-                    {"nodes", work.nodes},
-                    {"groups", work.groups},
-                    {"threads", work.threads},
-                    {"seconds", cost.seconds},
-                    {"network_seconds", cost.network_seconds},
-                    {"memory_bytes", cost.memory_of_process * work.ranks},
-                    {"memory_bytes_of_node", of_node},
-                    {"available_memory_bytes", available}};
+  Json answer{{"dry_run", true}};
+  answer.add(json_of(work.grid));
+  answer["contacts"] = work.loads.size();
+  answer.add(json_of(cost));
   const double rows = double(work.grid.nx) * work.groups / work.ranks;
   if (rows < 64)
     session.warn(

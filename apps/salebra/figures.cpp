@@ -9,7 +9,8 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/units.hpp>
-#include <salebra/results/quantity.hpp>
+
+#include "result_tables.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -83,7 +84,7 @@ PlotPanel path_panel(const SampledMotion& path) {
 }  // namespace
 
 PlotAxis axis_of(std::string_view name, bool logarithmic) {
-  const Quantity quantity = find_quantity(name);
+  const Quantity quantity = quantity_of(std::string(name));
   const std::string unit(si_unit(quantity.dimension));
   return {.label = plot_text(quantity.long_name.empty() ? name : quantity.long_name),
           .unit = unit == "1" ? "" : unit,

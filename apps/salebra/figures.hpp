@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/stress_map.hpp>
 #include <salebra/questions/damping.hpp>
 #include <string>
 #include <string_view>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/half_space/coupling.hpp>
 
 namespace salebra::cli {
 
@@ -53,11 +52,8 @@ void FrictionOptions::apply(CycleOptions& cycle, const MaterialOptions& bodies,
   if (!coupled) return;
   if (dundurs)
     cycle.coupling_constant = *dundurs / (std::numbers::pi * material.contact_modulus);
-  else if (bodies.young.size() == 2)
-    cycle.coupling_constant = coupling_constant(ElasticBody{bodies.young[0], bodies.poisson[0]},
-                                                ElasticBody{bodies.young[1], bodies.poisson[1]});
   else
-    cycle.coupling_constant = coupling_constant(material);
+    cycle.coupling_constant = bodies.coupling_constant();
 }
 
 std::vector<std::string> FrictionOptions::cycles() const {

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/damping/cycle.hpp>
-#include <salebra/damping/oscillation.hpp>
+#include <salebra/questions/oscillation.hpp>
 #include <string>
 #include <vector>
 

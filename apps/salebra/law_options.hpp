@@ -46,4 +46,12 @@ struct LawOptions {
   ContactQuestion read(const MaterialOptions& material, bool positions) const;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<LawOptions>) {
+  using S = LawOptions;
+  visit(&S::force, quantity::force);
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
+  visit(&S::mean_gap, Quantity{"mean_gap", Dimension::length, "mean gap"});
+}
+
 }  // namespace salebra::cli

@@ -5,15 +5,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/half_space/coupling.hpp>  // the bodies are known to options alone
 #include <salebra/io/read_surface.hpp>
+#include <salebra/questions/contact.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/moments.hpp>
 
 #include "io/surface_formats.hpp"
-#include "plausibility.hpp"
+#include "results/columns.hpp"
 #include "surface/plausibility.hpp"
 
 namespace salebra::cli {
@@ -144,6 +147,12 @@ double MaterialOptions::modulus_ratio() const {
   return material_with_tangential_modulus().modulus_ratio();
 }
 
+double MaterialOptions::coupling_constant() const {
+  if (young.size() != 2) return salebra::coupling_constant(material());
+  return salebra::coupling_constant(ElasticBody{young[0], poisson[0]},
+                                    ElasticBody{young[1], poisson[1]});
+}
+
 namespace {
 
 std::uint64_t seed_of(const std::string& text) {
@@ -243,6 +252,20 @@ SurfaceOutline SurfaceOptions::outline(Session& session) const {
   return {surface.grid, surface_moments(surface).rms_slope(), file};
 }
 
+std::vector<std::string> doubts_of_cells(const Grid2D& grid) {
+  const auto [shorter, longer] = std::minmax({grid.dx(), grid.dy()});
+  if (longer <= 10 * shorter) return {};
+  const double ratio = longer / shorter;
+  return {fmt::format("cells of {} x {} have sides of {} to 1; check the size and the points",
+                      format_quantity(grid.dx(), Dimension::length),
+                      format_quantity(grid.dy(), Dimension::length),
+                      ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio))};
+}
+
+void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading) {
+  if (loading) answer["first_loading"] = json_of(*loading);
+}
+
 void add_groups(Command& command, int& groups, const std::string& work) {
   command.add_option("--groups", groups, "of processes of salebra-mpi, each of which " + work)
       ->range(1, 1 << 20);
@@ -330,20 +353,9 @@ void MotionOptions::add_to(Command& app, bool with_two_frequencies) {
                "two-frequencies: of the tangential motion, in Hz");
 }
 
-std::pair<std::string, std::vector<double>> MotionOptions::varied() const {
-  std::pair<std::string, std::vector<double>> found;
-  for (const auto& [name, values] : {std::pair{"normal_amplitude", &normal_amplitude},
-                                     {"tangential_amplitude", &tangential_amplitude},
-                                     {"phase", &phase},
-                                     {"drag_velocity", &drag_velocity},
-                                     {"tangential_frequency", &tangential_frequency},
-                                     {"frequency", &frequency.frequency},
-                                     {"angular_frequency", &frequency.angular_frequency}}) {
-    if (values->size() < 2) continue;
-    require(found.second.empty(), name, fmt::format("{} values", values->size()),
-            "are a second range; only one quantity may be a range");
-    found = {name, *values};
-  }
+Varied MotionOptions::varied() const {
+  Varied found;
+  find_varied(*this, found);
   return found;
 }
 

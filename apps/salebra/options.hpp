@@ -16,6 +16,10 @@
 #include "command.hpp"
 #include "session.hpp"
 
+namespace salebra {
+struct FirstLoading;
+}
+
 /// Option groups that several commands share. Each is a plain struct that must outlive the parsing;
 /// add_to() declares the options, the other functions turn what was given into the library's types
 /// and throw InvalidInput that names the option.
@@ -74,6 +78,8 @@ struct MaterialOptions {
   Material material_with_tangential_modulus() const;
   /// G*/E*; --poisson alone is enough, for one elastic body.
   double modulus_ratio() const;
+  /// β/(πE*), 1/Pa, of the two bodies of --young, else of the material.
+  double coupling_constant() const;
 };
 
 /// "filtered noise" or "random phase".
@@ -107,6 +113,12 @@ struct SurfaceOptions {
   /// Reads a file; a recipe is not generated.
   SurfaceOutline outline(Session& session) const;
 };
+
+/// Cells ten times as long as wide, which are allowed and most likely a slip of the user's hand.
+std::vector<std::string> doubts_of_cells(const Grid2D& grid);
+
+/// Adds its columns under "first_loading", where there was one.
+void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading);
 
 /// --groups of processes; 0: not given. `work` says what each of them does.
 void add_groups(Command& command, int& groups, const std::string& work);
@@ -144,6 +156,26 @@ struct FrequencyOptions {
   std::vector<double> angular() const;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<FrequencyOptions>) {
+  using S = FrequencyOptions;
+  visit(&S::frequency, Quantity{"frequency", Dimension::frequency, "frequency"});
+  visit(&S::angular_frequency, quantity::angular_frequency);
+}
+
+/// Name and values of the quantity with several values; empty if there is none.
+using Varied = std::pair<std::string, std::vector<double>>;
+/// Looks among described lists. Throws InvalidInput for a second one.
+template <Described Lists>
+void find_varied(const Lists& lists, Varied& found) {
+  for_each_column<Lists>([&](const auto& list, const Quantity& quantity) {
+    const std::vector<double>& values = list(lists);
+    if (values.size() < 2) return;
+    require(found.second.empty(), quantity.name, std::to_string(values.size()) + " values",
+            "are a second range; only one quantity may be a range");
+    found = {std::string(quantity.name), values};
+  });
+}
+
 /// What moves; any one quantity may be a range.
 struct MotionOptions {
   std::string mode = "drag";
@@ -169,8 +201,18 @@ struct MotionOptions {
   std::vector<Oscillation> motions() const;
   /// The motions, --mode two-frequencies among them.
   std::vector<Motion> all_motions() const;
-  /// Name and values of the quantity with several values; empty if there is none.
-  std::pair<std::string, std::vector<double>> varied() const;
+  Varied varied() const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<MotionOptions>) {
+  using S = MotionOptions;
+  visit(&S::normal_amplitude, quantity::normal_amplitude);
+  visit(&S::tangential_amplitude, quantity::tangential_amplitude);
+  visit(&S::phase, quantity::phase);
+  visit(&S::drag_velocity, quantity::drag_velocity);
+  visit(&S::tangential_frequency, Quantity{"tangential_frequency", Dimension::frequency,
+                                           "frequency of the tangential motion"});
+  visit(&S::frequency, Part{"", "of the normal motion"});
+}
 
 }  // namespace salebra::cli

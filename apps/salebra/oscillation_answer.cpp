@@ -4,13 +4,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
-#include "first_loading.hpp"
-#include "grid_axes.hpp"
+#include "options.hpp"
 #include "results/columns.hpp"
+#include "results/describe.hpp"
 #include "results/quantity_group.hpp"
 
 namespace salebra::cli {
@@ -43,7 +45,7 @@ void add_friction(Json& object, const OscillationOutcome& outcome) {
 
 /// Axes, columns over time, where the contact is and where energy is lost.
 void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& grid) {
-  write_axes(group, grid);
+  group.axes(grid);
   group.dataset("contact_map", cycle.contact_map());
   if (cycle.loss.size() > 0) group.dataset("loss", cycle.loss);
   describe(
@@ -144,12 +146,13 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
   QuantityGroup group(file.group(prefix + "levels"));
   const ForceCurve& curve = outcome.levels.curve;
   group.coordinate("indentation", curve.column(&ForceSample::indentation));
-  for (const auto& [name, quantity] :
-       {std::pair{"force", &ForceSample::force},
-        {"normal_stiffness", &ForceSample::normal_stiffness},
-        {"tangential_stiffness", &ForceSample::tangential_stiffness},
-        {"contact_area_fraction", &ForceSample::contact_area_fraction}})
-    group.dataset(name, curve.column(quantity), {"indentation"});
+  for (const char* name :
+       {"force", "normal_stiffness", "tangential_stiffness", "contact_area_fraction"}) {
+    std::vector<double> values;
+    std::ranges::transform(curve.samples, std::back_inserter(values),
+                           number_of<ForceSample>(name, "levels"));
+    group.dataset(name, values, {"indentation"});
+  }
   group.attribute("work_per_cycle", outcome.levels.work_per_cycle);
   group.attribute("error_estimate", outcome.levels.error_estimate);
   group.attribute("work_by_whole_cells", outcome.levels.work_by_levels);

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/half_space/coupling.hpp>
 
-#include "first_loading.hpp"
 #include "option_words.hpp"
 #include "results/columns.hpp"
 #include "text.hpp"
@@ -41,7 +40,11 @@ void PremiseOptions::add_to(Command& command, bool excursion_judged) {
   add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
                "of the two bodies, to judge slip")
       ->group(group);
-  add_quantity(command, "--hardness", hardness, Dimension::pressure, hardness_help)->group(group);
+  add_quantity(command, "--hardness", hardness, Dimension::pressure,
+               "of the softer body. A surface is first loaded to its largest pressure, with local "
+               "pressures up to the hardness, and the results are those of the unloading curve; a "
+               "law is only judged by it")
+      ->group(group);
   add_quantity(command, "--density", density, Dimension::mass_density,
                "of the elastic body, to judge inertia")
       ->group(group);
@@ -72,10 +75,7 @@ ContactFacts PremiseOptions::facts(const MaterialOptions& material,
   if (material.contact_modulus || !material.young.empty())
     facts.contact_modulus = material.material().contact_modulus;
   if (material.young.size() == 2 && material.poisson.size() == 2)
-    facts.dundurs =
-        dundurs_constant(facts.contact_modulus,
-                         coupling_constant(ElasticBody{material.young[0], material.poisson[0]},
-                                           ElasticBody{material.young[1], material.poisson[1]}));
+    facts.dundurs = std::numbers::pi * facts.contact_modulus * material.coupling_constant();
   return facts;
 }
 
@@ -86,11 +86,12 @@ void PremiseReport::add_to(Json& answer) const {
     for (const Premises& premises : cases) all.push_back(value_of(premises));
     return all;
   };
+  const auto of_cases = [&](const auto& all) { return list ? json_of(all) : json_of(all.front()); };
   Json& object = answer["premises"] = Json::object();
   for (const PremiseName& name : premise_names()) {
     std::vector<Premise> premises;
     for (const Premises& one : cases) premises.push_back(one.*name.premise);
-    Json& one = object[name.name] = list ? json_of(premises) : json_of(premises.front());
+    Json& one = object[name.name] = of_cases(premises);
     const auto lacking = std::ranges::find_if(
         premises, [](const Premise& premise) { return !premise.needs.empty(); });
     one["needs"] = lacking == premises.end() ? Json() : option_of(lacking->needs);
@@ -103,15 +104,12 @@ void PremiseReport::add_to(Json& answer) const {
     });
   Json& largest = answer["largest_motion"] = Json::array();
   for (std::size_t i = 0; i < judged.size(); ++i) {
-    const auto of = [&](double LargestMotion::*member) {
-      return column([&](const Premises& p) {
-        return p.largest.empty() ? ContactFacts::unknown : p.largest[i].*member;
-      });
-    };
-    largest.push_back({{"friction_coefficient", judged[i].friction_coefficient},
-                       {"drag_velocity", of(&LargestMotion::drag_velocity)},
-                       {"tangential_amplitude", of(&LargestMotion::tangential_amplitude)},
-                       {"excursion", of(&LargestMotion::excursion)}});
+    std::vector<LargestMotion> motions;
+    for (const Premises& p : cases)
+      motions.push_back(p.largest.empty() ? LargestMotion{} : p.largest[i]);
+    Json one = of_cases(motions);
+    one["friction_coefficient"] = judged[i].friction_coefficient;
+    largest.push_back(std::move(one));
   }
 }
 

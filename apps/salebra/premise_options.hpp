@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <salebra/damping/premises.hpp>
 #include <string>
 #include <vector>
 

@@ -6,16 +6,63 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/questions/damping.hpp>
 #include <salebra/results/quantity.hpp>
 
-#include "answer_file.hpp"
+#include "answers.hpp"
 #include "io/text_file.hpp"
+#include "options.hpp"
+#include "study/cost.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
+
+Quantity quantity_of(const std::string& name, const std::string& object) {
+  for (const std::string& one : {object, name}) {
+    if (is_quantity(one)) return find_quantity(one);
+    if (const Column* own = find_column<ContactPressures, SurfacePoints, BearingTable, Lay,
+                                        FitChoices, MotionOptions, DampingQuestion, PathQuestion,
+                                        DampingAnswer, DamperAnswer, Cost>(one))
+      return {own->name, own->dimension, own->long_name};
+  }
+  return find_quantity(name);
+}
+
 namespace {
+
+/// A number, 1 or 0 of a truth, NaN of null.
+double number_of(const Json& value) {
+  if (value.is_boolean()) return value.truth() ? 1 : 0;
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.number();
+}
+
+/// An HDF5 group of that name with a scalar for each number, a dataset over `sample` for each array,
+/// a group for each object, an attribute for each text.
+void write_answer(ResultFile& file, const std::string& path, const Json& object) {
+  ResultGroup group = file.group(path);
+  bool has_samples = false;
+  for (const auto& [name, value] : object.items()) {
+    const Quantity quantity = quantity_of(name, path.substr(path.rfind('/') + 1));
+    const std::string unit(si_unit(quantity.dimension)), long_name(quantity.long_name);
+    if (value.is_object()) {
+      write_answer(file, path + "/" + name, value);
+    } else if (value.is_string()) {
+      group.attribute(name, value.text());
+    } else if (value.is_array()) {
+      std::vector<double> values;
+      for (const Json& item : value.elements()) values.push_back(number_of(item));
+      if (!has_samples) group.index("sample", values.size(), "number of the case");
+      has_samples = true;
+      group.dataset(name, values, {"sample"}, unit, long_name);
+    } else {
+      group.scalar(name, number_of(value), unit, long_name);
+    }
+  }
+}
 
 enum class Kind { hdf5, json, csv };
 
@@ -69,12 +116,6 @@ std::string to_csv(const Session& session, const ResultTable& table) {
 }
 
 }  // namespace
-
-std::string ResultColumn::units() const {
-  return other_units.empty() ? std::string(si_unit(find_quantity(name).dimension)) : other_units;
-}
-
-std::string ResultColumn::long_name() const { return std::string(find_quantity(name).long_name); }
 
 ResultTable table_of(const std::string& name, const Json& columns) {
   ResultTable table{.name = name, .columns = {}};

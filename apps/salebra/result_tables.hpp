@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/base/describe.hpp>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,11 @@
 
 namespace salebra::cli {
 
+/// The quantity of a member of an answer, of the library's or of the program's own structs. Members
+/// of an object that is itself a quantity share it: "decay_length_by_weights" holds lengths, one of
+/// which is called "force". object: name of the object; empty: the answer.
+Quantity quantity_of(const std::string& name, const std::string& object = "");
+
 /// A column of numbers, whose meaning and, unless it says another, unit are those of the quantity
 /// of its name.
 struct ResultColumn {
@@ -16,8 +22,10 @@ struct ResultColumn {
   std::vector<double> values;
   std::string other_units = {};  ///< of a spectral density in another convention
 
-  std::string units() const;
-  std::string long_name() const;
+  std::string units() const {
+    return other_units.empty() ? std::string(si_unit(quantity_of(name).dimension)) : other_units;
+  }
+  std::string long_name() const { return std::string(quantity_of(name).long_name); }
 };
 
 /// Columns of one length, the first of which is the coordinate.

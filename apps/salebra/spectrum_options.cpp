@@ -4,13 +4,13 @@
 
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <utility>
 
+#include "answers.hpp"
 #include "io/number_table.hpp"
 #include "options.hpp"
-#include "results/columns.hpp"
+#include "results/answer_json.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -134,15 +134,15 @@ SelfAffineProfileSpectrum SpectrumOptions::profile_spectrum(double cell) const {
 
 Json SpectrumOptions::anisotropy() const {
   if (!stretch_along && !stretch_across) return nullptr;
-  const Anisotropy stretch{.along = stretch_along.value_or(1),
-                           .across = stretch_across.value_or(1),
-                           .angle = lay_angle.value_or(0)};
-  Json object = json_of(stretch);
+  Lay lay{{stretch_along.value_or(1), stretch_across.value_or(1), lay_angle.value_or(0)},
+          correlation_length,
+          {},
+          {}};
   if (correlation_length) {
-    object["correlation_length_along"] = stretch.along * *correlation_length;
-    object["correlation_length_across"] = stretch.across * *correlation_length;
+    lay.correlation_length_along = lay.along * *correlation_length;
+    lay.correlation_length_across = lay.across * *correlation_length;
   }
-  return object;
+  return answer_json(lay);
 }
 
 }  // namespace salebra::cli

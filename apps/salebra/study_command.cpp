@@ -22,7 +22,6 @@
 #include <set>
 
 #include "dry_run.hpp"
-#include "law_words.hpp"
 #include "results/columns.hpp"
 #include "text.hpp"
 
@@ -549,38 +548,6 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
                   folder));
 }
 
-namespace {
-
-/// of(member) of every number that a Mean holds.
-template <class Mean, class Of>
-Json members_of(const Of& of) {
-  Json object;
-  describe(
-      [&](auto member, const Kept& line) {
-        if constexpr (std::is_member_object_pointer_v<decltype(member)>)
-          object[line.name] = of(member);
-      },
-      std::type_identity<Mean>{});
-  return object;
-}
-
-template <class Mean>
-Json columns_of_means(const std::vector<Mean>& estimates) {
-  return members_of<Mean>([&](auto member) {
-    Json list = Json::array();
-    for (const Mean& estimate : estimates) list.push_back(estimate.*member);
-    return list;
-  });
-}
-
-}  // namespace
-
-Json to_json(const EnsembleMean& estimate) {
-  return members_of<EnsembleMean>([&](auto member) { return estimate.*member; });
-}
-Json to_json(const std::vector<EnsembleMean>& estimates) { return columns_of_means(estimates); }
-Json to_json(const std::vector<StatedMean>& estimates) { return columns_of_means(estimates); }
-
 void require_relative_error(const std::vector<StudyResult>& results) {
   std::string missed;
   double wanted = 0;
@@ -656,6 +623,14 @@ std::string heading(const StudyResult& result) {
                       Dimension::dimensionless),
       format_quantity(material.contact_modulus, Dimension::pressure),
       format_quantity(material.tangential_modulus, Dimension::pressure));
+}
+
+std::string in_words(const LawDescription& law, const std::string& what) {
+  return fmt::format(
+      "F ~ exp(-gap/l) is a {} description of {}: F/l^2 is off F'' by {:+.0f} % (closest) and "
+      "{:+.0f} % (farthest) at the ends of the window.{}",
+      law.fair ? "fair" : "poor", what, 100 * law.law_off_closest, 100 * law.law_off_farthest,
+      law.fair ? "" : " Do not use Eq. (16) here.");
 }
 
 std::string law_verdict(const StudyResult& result) {

@@ -10,6 +10,7 @@
 
 #include "options.hpp"
 #include "premise_options.hpp"
+#include "results/answer_json.hpp"
 #include "results/describe.hpp"
 #include "session.hpp"
 #include "study/study_premises.hpp"
@@ -96,9 +97,6 @@ void name_surface(const StudyConfiguration& configuration, Session& session);
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
                          Session& session);
 
-Json to_json(const EnsembleMean& estimate);
-/// Arrays mean, low and high.
-Json to_json(const std::vector<EnsembleMean>& estimates);
 /// An object with to_json(means(number)) for every number that the description of T names.
 template <Described T, class MeansOf>
 Json columns_json(const MeansOf& means) {
@@ -108,8 +106,6 @@ Json columns_json(const MeansOf& means) {
   });
   return object;
 }
-/// Means, intervals and numerical errors.
-Json to_json(const std::vector<StatedMean>& estimates);
 /// Throws NotConverged where a relative error was requested and is not met: the loads, with what
 /// was reached.
 void require_relative_error(const std::vector<StudyResult>& results);
@@ -118,6 +114,8 @@ std::string interval(const EnsembleMean& estimate, Dimension dimension, int digi
 std::string describe_motion(const Oscillation& motion);
 /// Size, roughness and moduli of the surfaces.
 std::string heading(const StudyResult& result);
+/// One sentence: "F ~ exp(-gap/l) is a poor description of this surface: …". what: "this surface".
+std::string in_words(const LawDescription& law, const std::string& what);
 /// Whether the exponential law holds, in a sentence.
 std::string law_verdict(const StudyResult& result);
 /// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "answer_file.hpp"
+#include "result_tables.hpp"
 #include "terminal.hpp"
 
 namespace salebra::cli {

@@ -52,7 +52,7 @@ _LIKE = {
     "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
     "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
     "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius",
-    "duration": "seconds",
+    "duration": "time", "correlation_length": "rolloff", "force_amplitude": "force", "transverse": "displacement",
 }  # fmt: skip
 # Arrays over the grid; every other array has one dimension.
 _FIELDS = {"heights", "initial_pressure", "contact", "pressure"}

@@ -241,13 +241,14 @@ std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question, const 
   return std::visit([&](const auto& body) { return law(body, context); }, question);
 }
 
+LawState state_of(const ContactLaw& law, double indentation) {
+  return {law.force(indentation), indentation, law.normal_stiffness(indentation),
+          law.tangential_stiffness(indentation)};
+}
+
 IndenterState state_of(const IndenterLaw& law, double indentation) {
-  return {.contact_radius = law.contact_radius(indentation),
-          .indentation = indentation,
-          .force = law.force(indentation),
-          .normal_stiffness = law.normal_stiffness(indentation),
-          .tangential_stiffness = law.tangential_stiffness(indentation),
-          .force_curvature = law.force_curvature(indentation)};
+  return {state_of(static_cast<const ContactLaw&>(law), indentation),
+          law.contact_radius(indentation), law.force_curvature(indentation)};
 }
 
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,

@@ -253,6 +253,25 @@ DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indent
   return cycle;
 }
 
+StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,
+                        const Context& context) {
+  return stress_map(dynamic_cast<const IndenterLaw&>(*answer.contact.law),
+                    answer.results.front().indentation, *oscillation_of(answer.motions.front()),
+                    phases, radii, context.on_progress);
+}
+
+FrictionMap friction_map_of(const DampingAnswer& answer, std::vector<double> friction_numbers,
+                            int steps, const Context& context) {
+  if (friction_numbers.empty())
+    for (int i = 0; i <= 24; ++i) friction_numbers.push_back(std::pow(10.0, -1 + i / 8.0));
+  std::vector<double> phases;
+  for (int i = 1; i <= 18; ++i) phases.push_back(std::numbers::pi / 36 * i);
+  const auto& motion = std::get<EqualFrequency>(answer.motions.front());
+  return friction_map(*answer.contact.law, answer.results.front().indentation,
+                      motion.normal_amplitude, motion.tangential_amplitude, friction_numbers,
+                      phases, {.steps = steps, .on_progress = context.on_progress});
+}
+
 PathAnswer ask(const PathQuestion& question, const Context& context) {
   const auto law = law_of(question.contact, context);
   const double friction = question.facts.friction_coefficient;

@@ -47,6 +47,8 @@ template <class Value>
 constexpr bool has_json = std::is_enum_v<Value> || std::is_convertible_v<const Value&, Json>;
 template <class Value>
 constexpr bool has_json<std::optional<Value>> = has_json<Value>;
+template <class Item>
+constexpr bool has_json<std::vector<Item>> = has_json<Item>;
 
 template <class Value>
 constexpr bool is_list = false;
@@ -70,7 +72,7 @@ std::vector<Column> all_columns() {
               return json_value(std::invoke(member, *static_cast<const Whole*>(whole)));
             };
           add_column(all, line, is_list<Value>, std::is_same_v<Line, Extensive>, std::move(value));
-        } else if constexpr (std::is_same_v<Line, Part>) {
+        } else if constexpr (std::is_same_v<Line, Part> && Described<Value>) {
           for (Column column : all_columns<Value>()) {
             column.value = [member, inner = column.value](const void* whole) {
               return inner(&std::invoke(member, *static_cast<const Whole*>(whole)));
@@ -98,6 +100,15 @@ template <Described T>
 const std::vector<Column>& columns_of() {
   static const std::vector<Column> columns = detail::all_columns<T>();
   return columns;
+}
+
+/// The first column of that name, or none.
+template <Described... Structs>
+const Column* find_column(std::string_view name) {
+  for (const std::vector<Column>* columns : {&columns_of<Structs>()...})
+    for (const Column& column : *columns)
+      if (column.name == name) return &column;
+  return nullptr;
 }
 
 /// The columns of a result as an object, its lists left out. nominal_area: m²; 0: not known, and no

@@ -51,16 +51,13 @@ CycleFields::CycleFields(std::filesystem::path prefix, const Surface& surface,
       provenance_(std::move(provenance)) {
   surface.require_whole("fields of an oscillating contact");
   require_output(list_file(prefix_), options);
-  x_ = positions(grid_.nx, grid_.dx());
-  y_ = positions(grid_.ny, grid_.dy());
   std::vector<double> points;
   points.reserve(static_cast<std::size_t>(3 * grid_.points()));
-  for (const double x : x_)
-    for (const double y : y_) points.insert(points.end(), {x, y, 0.0});
+  for (const double x : positions(grid_.nx, grid_.dx()))
+    for (const double y : positions(grid_.ny, grid_.dy())) points.insert(points.end(), {x, y, 0.0});
   ResultFile file(mesh_file(prefix_), provenance_, {.overwrite = true});
   QuantityGroup mesh(file.group("mesh"));
-  mesh.coordinate("x", x_);
-  mesh.coordinate("y", y_);
+  mesh.axes(grid_);
   mesh.plain().labels("component", {"x", "y", "z"}, "component of a point");
   mesh.dataset("cells", points, {"x", "y", "component"});
   mesh.dataset("heights", heights_);
@@ -100,8 +97,7 @@ void CycleFields::write(const CycleState& state, double time, const NormalContac
 
   ResultFile file(frame_file(state.step), provenance_, {.overwrite = true});
   QuantityGroup fields(file.group("fields"));
-  fields.coordinate("x", x_);
-  fields.coordinate("y", y_);
+  fields.axes(grid_);
   std::vector<std::string> names;
   for_each_column<CycleFrame>([&](const auto& column, const Quantity& quantity) {
     const Field& field = column(frame);

@@ -35,6 +35,15 @@ constexpr void describe(auto&& visit, std::type_identity<CycleFrame>) {
   visit(&S::loss, Quantity{"loss", energy_per_area, "energy dissipated in a period by unit area"});
 }
 
+/// Where the fields lie, (nx, ny, 3).
+struct CycleMesh {
+  std::vector<double> cells;  ///< m
+};
+
+constexpr void describe(auto&& visit, std::type_identity<CycleMesh>) {
+  visit(&CycleMesh::cells, Quantity{"cells", Dimension::length, "middles of the cells"});
+}
+
 /// Fields of a simulated cycle at chosen steps, for ParaView and for any reader of HDF5:
 ///     PREFIX.xdmf          what to open; lists the steps written so far
 ///     PREFIX-mesh.h5       /mesh/points (nx, ny, 3): where each cell's middle lies, and
@@ -78,7 +87,6 @@ class CycleFields {
   Grid2D grid_;
   Field heights_;
   Provenance provenance_;
-  std::vector<double> x_, y_;
   std::vector<Frame> frames_;
 };
 

@@ -42,6 +42,11 @@ class QuantityGroup {
   void attribute(const std::string& name, Value value) {
     group_.attribute(std::string(listed(name).name), value);
   }
+  /// The coordinates x and y of the cells of a grid.
+  void axes(const Grid2D& grid) {
+    coordinate("x", positions(grid.nx, grid.dx()));
+    coordinate("y", positions(grid.ny, grid.dy()));
+  }
   /// For words and indices, which are no quantities.
   ResultGroup& plain() { return group_; }
 

@@ -171,7 +171,7 @@ double network_seconds(const SurfaceWork& work, double load) {
                               std::pow(felt(load) / 0.02, power_of_load) *
                               (work.normal_stiffness ? 1.5 : 1.0);
   const double messages = transforms * 2 * (ranks - 1) + applications * (30 + 3 * std::log2(ranks));
-  return bytes / nodes * (1 - 1 / nodes) / SurfaceCost::bandwidth + messages * SurfaceCost::latency;
+  return bytes / nodes * (1 - 1 / nodes) / Cost::bandwidth + messages * Cost::latency;
 }
 
 }  // namespace
@@ -208,13 +208,14 @@ int groups_that_fit(SurfaceWork work, const std::function<bool(double bytes)>& f
   return 1;
 }
 
-SurfaceCost estimate_cost(const SurfaceWork& work) {
+Cost estimate_cost(const SurfaceWork& work) {
   require(work.nodes >= 1 && work.nodes <= work.ranks, "nodes", work.nodes,
           "must lie between 1 and the number of processes");
   require(work.groups >= 1 && work.groups <= work.ranks, "groups", work.groups,
           "must lie between 1 and the number of processes");
-  SurfaceCost cost;
-  cost.memory_of_process = surface_memory(work);
+  Cost cost{{work.ranks, work.nodes, work.groups}, work.threads};
+  cost.memory = surface_memory(work);
+  cost.available = static_cast<double>(available_memory());
   const double speed = reference_transform / transform_seconds();
   const double ranks = std::max(1, work.ranks / work.groups);
   const double gain = ranks * gain_of(work.threads, 1);
@@ -225,14 +226,13 @@ SurfaceCost estimate_cost(const SurfaceWork& work) {
   // Loads are dealt to the groups; a process alone presses one on each thread.
   const double gain_of_loads = work.ranks == 1 ? gain_of(work.threads, work.loads.size()) : gain;
   std::vector<double> of_group(static_cast<std::size_t>(work.groups), 0.0);
-  double network = 0;
   for (const double load : work.loads) {
     auto least = std::ranges::min_element(of_group);
     *least += (contact_seconds(work, load) / gain_of_loads + set_up * cells) / speed;
-    network += network_seconds(work, load) / work.groups;
+    cost.network_seconds += network_seconds(work, load) / work.groups;
   }
-  cost.network_seconds = network;
-  cost.seconds = generation_per_cell * cells / speed / gain + std::ranges::max(of_group) + network;
+  cost.seconds = generation_per_cell * cells / speed / gain + std::ranges::max(of_group) +
+                 cost.network_seconds;
   return cost;
 }
 
@@ -286,7 +286,7 @@ namespace {
 
 /// The surfaces of a point by several processes: the groups take one each at a time.
 void add_point(StudyCost& cost, const PointCost& own) {
-  const StudyProcesses& all = cost.processes;
+  const StudyProcesses& all = cost;
   std::vector<double> loads;
   for (const double pressure : own.pressures) loads.push_back(pressure / own.contact_scale);
   SurfaceWork work = surface_work(own.configuration, own.grid, loads, all);
@@ -302,7 +302,9 @@ void add_point(StudyCost& cost, const PointCost& own) {
   const double more = 1 + level_per_cell * own.levels / sweep;
   const double rounds =
       std::ceil(static_cast<double>(own.surfaces) / static_cast<double>(all.groups));
-  cost.seconds += rounds * more * estimate_cost(work).seconds;
+  const Cost one = estimate_cost(work);
+  cost.seconds += rounds * more * one.seconds;
+  cost.network_seconds += rounds * more * one.network_seconds;
 }
 
 }  // namespace
@@ -312,9 +314,7 @@ StudyCost estimate_cost(const StudyConfiguration& configuration, const StudyProc
           "must lie between 1 and the number of processes");
   require(processes.groups >= 1 && processes.groups <= processes.ranks, "groups", processes.groups,
           "must lie between 1 and the number of processes");
-  StudyCost cost;
-  cost.processes = processes;
-  cost.threads = parallel::threads();
+  StudyCost cost{{processes, parallel::threads()}, {}};
   cost.available = static_cast<double>(available_memory());
   cost.memory = memory_of_program;
   const double speed = reference_transform / transform_seconds();

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <salebra/study/configuration.hpp>
 #include <string>
 #include <vector>
+
+#include "results/answer_json.hpp"
 
 namespace salebra {
 
@@ -25,27 +28,69 @@ struct PointCost {
       warnings;  ///< of the generator: what the grid does to the spectrum; StudyLoads::doubts
 };
 
+constexpr void describe(auto&& visit, std::type_identity<PointCost>) {
+  using enum Dimension;
+  using S = PointCost;
+  visit(&S::surfaces, Quantity{"surfaces", dimensionless, "number of surfaces"});
+  visit(&S::grid, Part{"", "points and size of one of them"});
+  visit(&S::pressures, Quantity{"pressure", pressure, "nominal pressure"});
+  visit(&S::levels, Quantity{"levels", dimensionless, "contacts inside the oscillation"});
+  visit(&S::seconds, Quantity{"seconds_of_one_thread", Dimension::time, "time of one thread"});
+  visit(&S::warnings, Quantity{"warnings", dimensionless, "remarks"});
+}
+
 /// Processes that share a study, StudyRun::groups.
 struct StudyProcesses {
   int ranks = 1, nodes = 1;  ///< and the machines that they share evenly
   int groups = 1;
 };
 
-/// What a study would cost on this machine, or on several like it, before anything of it is
-/// computed.
-struct StudyCost {
+/// What work would cost on machines like this one.
+struct Cost : StudyProcesses {
+  int threads = 1;             ///< of each process
+  double seconds = 0;          ///< wall time on idle machines; with a precision, the most
+  double network_seconds = 0;  ///< of it for what goes from machine to machine
+  double memory = 0;           ///< peak of the process that takes most, bytes
+  double available = 0;        ///< memory of this machine, bytes; 0 where it does not say
+
+  double memory_of_all() const { return memory * ranks; }
+  double memory_of_node() const { return memory * std::ceil(double(ranks) / nodes); }
+
+  /// Assumed between machines, bytes/s, half of an adapter of 200 Gb/s, and of a message, s.
+  static constexpr double bandwidth = 12.5e9, latency = 2e-6;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<Cost>) {
+  using enum Dimension;
+  using S = Cost;
+  visit(&S::ranks, Quantity{"ranks", dimensionless, "number of processes"});
+  visit(&S::nodes, Quantity{"nodes", dimensionless, "number of machines"});
+  visit(&S::groups, Quantity{"groups", dimensionless, "number of groups of processes"});
+  visit(&S::threads, Quantity{"threads", dimensionless, "threads of each process"});
+  visit(&S::seconds, Quantity{"seconds", Dimension::time, "wall time"});
+  visit(&S::network_seconds, Quantity{"network_seconds", Dimension::time, "time between machines"});
+  visit(&S::memory_of_all, Quantity{"memory_bytes", dimensionless, "memory of all processes"});
+  visit(&S::memory_of_node, Quantity{"memory_bytes_of_node", dimensionless, "of each machine"});
+  visit(&S::available, Quantity{"available_memory_bytes", dimensionless, "memory that is free"});
+}
+
+/// What a study would cost before anything of it is computed: its memory is that of the surfaces
+/// that are side by side, and of the program.
+struct StudyCost : Cost {
   std::vector<PointCost> points;
-  StudyProcesses processes;
-  int threads = 1;  ///< of each process
-  double seconds =
-      0;  ///< wall time with these threads on an idle machine; with a precision, the most
-  double memory =
-      0;  ///< peak of a process, bytes: of the surfaces that are side by side, and of the program
-  double available = 0;  ///< memory of the machine, bytes; 0 where it does not say
 
   std::size_t surfaces() const;
   std::size_t contacts() const;
 };
+
+constexpr void describe(auto&& visit, std::type_identity<StudyCost>) {
+  using enum Dimension;
+  using S = StudyCost;
+  visit(&S::points, Objects{{"points", "each of the parameter grid"}});
+  visit(&S::surfaces, Quantity{"surfaces", dimensionless, "number of surfaces"});
+  visit(&S::contacts, Quantity{"contacts", dimensionless, "number of contacts"});
+  describe(visit, std::type_identity<Cost>{});
+}
 
 /// Peak memory of run_ensembles() at one point of the parameter grid, bytes: the program, the
 /// surfaces that are side by side on this many threads, and what is kept of all of them. grid: of
@@ -74,25 +119,14 @@ struct SurfaceWork {
   int threads = 1;  ///< of each process
 };
 
-/// What that would cost on machines like this one.
-struct SurfaceCost {
-  double seconds = 0;            ///< wall time on idle machines; half to twice as long
-  double network_seconds = 0;    ///< of it for what goes from machine to machine
-  double memory_of_process = 0;  ///< peak of the one that takes most, bytes; true to 15 %
-
-  static constexpr double bandwidth =
-      12.5e9;  ///< assumed between machines, bytes/s: half of an adapter of 200 Gb/s
-  static constexpr double latency = 2e-6;  ///< assumed of a message, s
-};
-
 /// Time as estimate_cost() of a study has it, shared evenly, with the exchange between machines as
-/// docs/scaling.md models it. Memory as it was measured for one to sixteen processes. Neither has
-/// the reading and writing of files.
+/// docs/scaling.md models it. Memory as it was measured for one to sixteen processes, true to 15 %.
+/// Neither has the reading and writing of files.
 /// throws InvalidInput unless there is at least one process on each machine and in each group
 /// cost   some milliseconds
-SurfaceCost estimate_cost(const SurfaceWork& work);
+Cost estimate_cost(const SurfaceWork& work);
 
-/// SurfaceCost::memory_of_process alone.
+/// Its memory alone.
 double surface_memory(const SurfaceWork& work);
 
 /// The contacts of one surface of a study, which each group of processes presses at all of these
@@ -112,6 +146,15 @@ struct ShardPlan {
   double seconds = 0;        ///< wall time of the longest shard on an idle machine
   double memory = 0;         ///< peak of a shard, bytes
 };
+
+constexpr void describe(auto&& visit, std::type_identity<ShardPlan>) {
+  using enum Dimension;
+  using S = ShardPlan;
+  visit(&S::shards, Quantity{"count", dimensionless, "number of shards"});
+  visit(&S::surfaces, Quantity{"surfaces", dimensionless, "number of surfaces"});
+  visit(&S::seconds, Quantity{"seconds", Dimension::time, "wall time"});
+  visit(&S::memory, Quantity{"memory_bytes", dimensionless, "memory of a shard"});
+}
 
 /// The fewest shards none of which takes longer than that; one for each surface where even these
 /// do.

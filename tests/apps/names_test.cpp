@@ -8,11 +8,15 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/questions/damping.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
 
-#include "results/describe.hpp"
+#include "../../apps/salebra/answers.hpp"
+#include "../../apps/salebra/options.hpp"
+#include "results/columns.hpp"
 #include "run_program.hpp"
+#include "study/cost.hpp"
 #include "study/study_premises.hpp"
 #include "study/study_text.hpp"
 
@@ -27,27 +31,26 @@ struct Meaning {
 using Meanings = std::map<std::string, Meaning>;
 
 template <class... Structs>
-Meanings columns_of() {
+Meanings meanings_of() {
   Meanings all;
-  const auto add = [&](const auto&, const Quantity& quantity) {
-    all[std::string(quantity.name)] = {std::string(si_unit(quantity.dimension)),
-                                       std::string(quantity.long_name)};
-  };
-  (for_each_column<Structs>(add), ...);
+  for (const std::vector<Column>* columns : {&columns_of<Structs>()...})
+    for (const Column& column : *columns)
+      if (!column.per_area)
+        all[column.name] = {std::string(si_unit(column.dimension)), column.long_name};
   return all;
 }
 
 /// The group of a file, or the object of an answer, and the structs whose columns it has.
 const std::map<std::string, Meanings> groups{
-    {"surface", columns_of<Realisation>()},
-    {"curve", columns_of<ForceSample>()},
-    {"local", columns_of<LocalDecayLength>()},
-    {"fit", columns_of<ModelResult, LawDescription>()},
-    {"damping", columns_of<DampingPoint, DeviationRange>()},
-    {"spots", columns_of<SpotStatistics>()},
-    {"convergence", columns_of<ModelResult>()},
-    {"comparison", columns_of<ForceSample, DampingPoint>()},
-    {"ensemble", columns_of<SelfAffineParameters, Grid2D, ModelResult>()}};
+    {"surface", meanings_of<Realisation>()},
+    {"curve", meanings_of<ForceSample>()},
+    {"local", meanings_of<LocalDecayLength>()},
+    {"fit", meanings_of<ModelResult, LawDescription>()},
+    {"damping", meanings_of<DampingPoint, DeviationRange>()},
+    {"spots", meanings_of<SpotStatistics>()},
+    {"convergence", meanings_of<ModelResult>()},
+    {"comparison", meanings_of<ForceSample, DampingPoint>()},
+    {"ensemble", meanings_of<SelfAffineParameters, Grid2D, ModelResult>()}};
 
 /// Axes and verdicts, which belong to no struct.
 const std::set<std::string> beside{"model",     "realisation", "pressure", "midpoint",
@@ -86,18 +89,29 @@ const std::set<std::string> indices{"sample",    "component",   "realisation", "
                                     "ny",        "mapped_load", "step"};
 const std::set<std::string> counts{"realisations", "seed"};
 
-/// Columns of studies, whose descriptions stand beside their structs.
-const Meanings& columns_of_studies() {
+/// Columns of questions and of the program, which the library's glossary does not have.
+const Meanings& columns_of_program() {
   static const Meanings all =
-      columns_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture,
-                 DeviationRange, StudyPremises, StudyTheories>();
+      meanings_of<Cost, PointCost, DampingQuestion, PathQuestion, DampingAnswer, DamperAnswer,
+                  cli::MotionOptions, cli::ContactPressures, cli::SurfacePoints, cli::BearingTable,
+                  cli::Lay, cli::FitChoices>();
+  return all;
+}
+/// These and those of studies, whose descriptions stand beside their structs.
+const Meanings& other_columns() {
+  static const Meanings all = [] {
+    Meanings found = columns_of_program();
+    found.merge(meanings_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture,
+                            DeviationRange, StudyPremises, StudyTheories>());
+    return found;
+  }();
   return all;
 }
 bool is_listed(const std::string& name) {
-  return is_quantity(name) || columns_of_studies().contains(name);
+  return is_quantity(name) || other_columns().contains(name);
 }
 Meaning meaning_of(const std::string& name) {
-  if (!is_quantity(name)) return columns_of_studies().at(name);
+  if (!is_quantity(name)) return other_columns().at(name);
   const Quantity quantity = find_quantity(name);
   return {std::string(si_unit(quantity.dimension)), std::string(quantity.long_name)};
 }
@@ -347,9 +361,10 @@ TEST_CASE("Every option that is a quantity has its unit", "[names]") {
       INFO(command << " --" << name);
       // The coefficient of a power law has no other name.
       CHECK((!is_old(name) || name == "coefficient"));
-      if (!is_quantity(name) && name.ends_with('s')) name.pop_back();
-      if (!is_quantity(name)) continue;
-      CHECK(unit_of((*found)[3]) == std::string(si_unit(find_quantity(name).dimension)));
+      const auto listed = [&] { return is_quantity(name) || columns_of_program().contains(name); };
+      if (!listed() && name.ends_with('s')) name.pop_back();
+      if (!listed()) continue;
+      CHECK(unit_of((*found)[3]) == meaning_of(name).units);
       ++known;
     }
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/questions/damping.hpp>
+#include <salebra/questions/sliding.hpp>
 #include <vector>
 
-#include "questions/answer_json.hpp"
+#include "results/answer_json.hpp"
+#include "study/cost.hpp"
 
 using namespace salebra;
 
@@ -65,4 +68,47 @@ TEST_CASE("Cases that do not match in number are refused", "[questions]") {
   const DampingQuestion question{.contact = ExponentialContact{1e-7, ratio, {1, 2, 3}},
                                  .motions = {Drag{1e-8, 1e-3, omega}, Drag{2e-8, 1e-3, omega}}};
   CHECK_THROWS_AS(ask(question), InvalidInput);
+}
+
+TEST_CASE("A joint is that of its law, and what a surface alone has is refused of a law",
+          "[questions]") {
+  JointQuestion question{.contact = contact,
+                         .motions = {TangentialAmplitude{2e-9}, TangentialForce{0.05}}};
+  question.facts.friction_coefficient = 0.3;
+  const JointAnswer constant = ask(question);
+  const ExponentialLaw law(1, 1e-7, ratio);
+  for (std::size_t i = 0; i < 2; ++i)
+    CHECK(constant.losses.at(i).work_per_cycle ==
+          joint_loss(law, AtForce{1}, question.motions[i], 0.3).work_per_cycle);
+  CHECK(constant.state.normal_stiffness == Approx(1e7));  // F/l
+  // The larger of the two motions is the one that is judged.
+  CHECK(constant.largest.tangential_amplitude ==
+        std::max(2e-9, constant.losses[1].tangential_amplitude));
+  question.normal_amplitude = 2e-8;
+  question.phase = pi / 2;
+  const JointAnswer shaken = ask(question);
+  CHECK(shaken.losses.at(0).work_per_cycle ==
+        joint_loss(law, AtForce{1}, question.motions[0], 0.3, 2e-8, pi / 2).work_per_cycle);
+  CHECK(shaken.simulated.empty());
+
+  question.direct_steps = 16;
+  CHECK_THROWS_WITH(ask(question), Catch::Contains("direct_steps"));
+  question.direct_steps = {};
+  question.contact = ExponentialContact{1e-7, ratio, {1, 2}};
+  CHECK_THROWS_WITH(ask(question), Catch::Contains("2 positions"));
+}
+
+TEST_CASE("An answer has what is there: estimates as members, words as lists, structs as objects",
+          "[questions]") {
+  const StudyCost cost{{.seconds = 3}, {{.pressures = {1, 2}, .surfaces = 4, .warnings = {"few"}}}};
+  const Json plan = answer_json(cost);
+  CHECK(plan["seconds"].number() == 3);
+  REQUIRE(plan["points"].size() == 1);
+  CHECK(plan["points"][0]["pressure"].size() == 2);
+  CHECK(plan["points"][0]["warnings"][0].text() == "few");
+  SliderThresholds thresholds;
+  CHECK(answer_json(thresholds).empty());
+  thresholds.amplitude = {.value = 1e-9};
+  CHECK(answer_json(thresholds).size() == 1);
+  CHECK(answer_json(thresholds)["threshold_amplitude"]["value"].number() == 1e-9);
 }

@@ -98,12 +98,12 @@ TEST_CASE("More processes take less time until machines exchange more than they 
     work.groups = groups;
     return estimate_cost(work);
   };
-  const SurfaceCost one = seconds(4, 1), two = seconds(8, 2), many = seconds(64, 16);
+  const Cost one = seconds(4, 1), two = seconds(8, 2), many = seconds(64, 16);
   CHECK(one.network_seconds == 0);
   // 40 bytes a cell and contact in six transforms, of which half leave a machine of two.
   const double bytes = 8 * (4 + 2 * 2) * 16384.0 * 16384.0 / 4;
-  CHECK(two.network_seconds > 8 * bytes / SurfaceCost::bandwidth);
-  CHECK(two.network_seconds < 2 * 8 * bytes / SurfaceCost::bandwidth);
+  CHECK(two.network_seconds > 8 * bytes / Cost::bandwidth);
+  CHECK(two.network_seconds < 2 * 8 * bytes / Cost::bandwidth);
   CHECK(many.network_seconds < two.network_seconds);
   // Each machine presses loads by itself.
   CHECK(seconds(8, 2, 2).network_seconds == 0);

@@ -111,28 +111,36 @@ ContactAnswer ask(ContactQuestion question, const Context& context = {});
 std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question,
                                          const Context& context = {});
 
-/// An indenter at rest.
-struct IndenterState {
-  double contact_radius = 0;        ///< a, m
-  double indentation = 0;           ///< δ, m
+/// A contact at rest.
+struct LawState {
   double force = 0;                 ///< F, N
+  double indentation = 0;           ///< δ, m
   double normal_stiffness = 0;      ///< K, N/m
   double tangential_stiffness = 0;  ///< K_t, N/m
-  double force_curvature = 0;       ///< F'', N/m²
+};
+
+constexpr void describe(auto&& visit, std::type_identity<LawState>) {
+  using S = LawState;
+  visit(&S::force, quantity::force);
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::normal_stiffness, quantity::normal_stiffness);
+  visit(&S::tangential_stiffness, Quantity{"tangential_stiffness", Dimension::stiffness,
+                                           "tangential stiffness in full stick"});
+}
+
+struct IndenterState : LawState {
+  double contact_radius = 0;   ///< a, m
+  double force_curvature = 0;  ///< F'', N/m²
 };
 
 constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
-  using enum Dimension;
   using S = IndenterState;
-  visit(&S::contact_radius, Quantity{"contact_radius", length, "contact radius"});
-  visit(&S::indentation, quantity::indentation);
-  visit(&S::force, quantity::force);
-  visit(&S::normal_stiffness, quantity::normal_stiffness);
-  visit(&S::tangential_stiffness,
-        Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+  describe(visit, std::type_identity<LawState>{});
+  visit(&S::contact_radius, Quantity{"contact_radius", Dimension::length, "contact radius"});
   visit(&S::force_curvature, quantity::force_curvature);
 }
 
+LawState state_of(const ContactLaw& law, double indentation);
 IndenterState state_of(const IndenterLaw& law, double indentation);
 
 /// Puts the residual surface of the first loading in place of the surface, and returns what flowed;

@@ -5,8 +5,11 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/questions/contact.hpp>
 #include <string>
@@ -28,6 +31,11 @@ struct DampingQuestion {
   ContactFacts facts = {};
   int steps = 2000;  ///< straight ones in a normal cycle where slip is followed; >= 8
 };
+
+constexpr void describe(auto&& visit, std::type_identity<DampingQuestion>) {
+  visit(&DampingQuestion::force_amplitude,
+        Quantity{"force_amplitude", Dimension::force, "amplitude of the normal force"});
+}
 
 /// Each list has an entry for each case, or none where it is not of these cases.
 struct DampingAnswer {
@@ -79,6 +87,14 @@ struct DampingCycle {
 DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
                       double friction_coefficient, const Context& context = {});
 
+/// Stresses under an indenter in the first case, a motion of one frequency.
+StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,
+                        const Context& context = {});
+/// Losses of the first case, of equal frequencies, over M and phases of 5° to 90°.
+/// friction_numbers  M; empty: 25 from 0.1 to 100
+FrictionMap friction_map_of(const DampingAnswer& answer, std::vector<double> friction_numbers,
+                            int steps, const Context& context = {});
+
 /// A measured motion, which brings its own indentations.
 struct PathQuestion {
   ContactQuestion contact;  ///< its positions are not looked at
@@ -86,6 +102,11 @@ struct PathQuestion {
   std::vector<double> transverse = {};  ///< y at the samples, without slip, m; empty: none
   ContactFacts facts = {};              ///< with a coefficient of friction slip is followed
 };
+constexpr void describe(auto&& visit, std::type_identity<PathQuestion>) {
+  visit(&PathQuestion::transverse,
+        Quantity{"transverse", Dimension::length, "displacement along y"});
+}
+
 struct PathAnswer {
   TrajectoryDamping loss;
   Premises premises;
@@ -129,6 +150,35 @@ constexpr void describe(auto&& visit, std::type_identity<DamperAnswer>) {
 /// throws  InvalidInput for several positions, no frequency, an oscillator of several amplitudes or
 ///         frequencies, a slope or velocity that is not > 0, and as the functions of damper.hpp
 DamperAnswer ask(DamperQuestion question, const Context& context = {});
+
+/// Partial slip of a contact under tangential oscillations, with a normal one or without.
+struct JointQuestion {
+  ContactQuestion contact = {};  ///< at one position
+  std::vector<TangentialOscillation> motions = {};
+  double normal_amplitude = 0;   ///< u_z of δ + u_z cos ωt, m; 0: the normal force is constant
+  double phase = 0;              ///< φ0 of the tangential motions against it, rad
+  double angular_frequency = 0;  ///< to judge inertia, rad/s; 0: not known
+  ContactFacts facts = {};       ///< with the coefficient of friction
+  int steps = 2000;              ///< in a cycle with a normal oscillation; >= 16
+  /// In a cycle of a surface that is simulated cell by cell too; empty: none is.
+  std::optional<int> direct_steps = {};
+};
+
+struct JointAnswer {
+  ContactAnswer contact;
+  LawState state = {};  ///< at the mean indentation
+  /// Of each motion; with a normal oscillation by the law, otherwise of a surface by its contacts.
+  std::vector<JointLoss> losses = {};
+  std::vector<JointLoss> simulated = {};  ///< cell by cell
+  EqualFrequency largest = {};            ///< of the motions
+  Premises premises = {};                 ///< of it
+  std::vector<std::string> remarks = {};  ///< on the error of the losses
+};
+
+/// throws  InvalidInput for several positions, no motion, direct steps without a surface, and as
+///         ask(ContactQuestion) and the functions of joint.hpp, whose costs are its own; NotConverged
+///         where an integral or a simulated cycle did not; Interrupted
+JointAnswer ask(JointQuestion question, const Context& context = {});
 
 /// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what
 /// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.

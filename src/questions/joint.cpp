@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Partial slip under tangential oscillations: by the law, by a surface's contacts, cell by cell.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/questions/damping.hpp>
+
+namespace salebra {
+namespace {
+
+void require_converged(const std::vector<JointLoss>& losses, std::string_view what) {
+  if (const auto lost = std::ranges::count(losses, false, &JointLoss::converged); lost > 0)
+    throw NotConverged(fmt::format("joint: {} of {} {}", lost, losses.size(), what));
+}
+
+/// Every motion once more, cell by cell, at the same indentation.
+std::vector<JointLoss> simulate(const JointQuestion& question, const Surface& surface,
+                                const Material& material, double indentation,
+                                const Context& context) {
+  const PressureLevels levels = boundary_element_pressures(surface, material.contact_modulus);
+  CycleOptions options{.friction_coefficient = question.facts.friction_coefficient,
+                       .steps = *question.direct_steps,
+                       .max_periods = 20};
+  options.on_progress = context.on_progress;
+  std::vector<JointLoss> losses;
+  for (const TangentialOscillation& motion : question.motions) {
+    losses.push_back(simulated_joint_loss(levels, surface.grid, material, indentation, motion,
+                                          question.normal_amplitude, question.phase, options));
+    if (context.stopped && context.stopped())
+      throw Interrupted("joint: stopped before all motions were done");
+  }
+  require_converged(losses, "motions cell by cell did not converge to a steady loss");
+  return losses;
+}
+
+/// By the springs of the law.
+std::vector<JointLoss> losses_of_law(const JointQuestion& question, const ContactLaw& law,
+                                     const Position& position, const Context& context) {
+  const double friction = question.facts.friction_coefficient;
+  std::vector<JointLoss> losses;
+  const auto of_all = [&](ProgressReport report) {
+    report.fraction = (double(losses.size()) + report.fraction) / double(question.motions.size());
+    return !context.on_progress || context.on_progress(report);
+  };
+  for (const TangentialOscillation& motion : question.motions)
+    losses.push_back(question.normal_amplitude != 0
+                         ? joint_loss(law, position, motion, friction, question.normal_amplitude,
+                                      question.phase, question.steps, of_all)
+                         : joint_loss(law, position, motion, friction));
+  return losses;
+}
+
+}  // namespace
+
+JointAnswer ask(JointQuestion question, const Context& context) {
+  require_that(!question.motions.empty(), "motions", "not given; give one");
+  const bool oscillates = question.normal_amplitude != 0;
+  Material material;
+  auto* surface = std::get_if<SurfaceContact>(&question.contact);
+  require(surface || !question.direct_steps, "direct_steps", question.direct_steps.value_or(0),
+          "is of a surface cell by cell; give `surface`");
+  if (surface) {
+    surface->normal_amplitude = std::abs(question.normal_amplitude);
+    material = surface->material;
+  }
+  JointAnswer answer{ask(std::move(question.contact), context)};
+  require(answer.contact.positions.size() == 1, "normal_force",
+          fmt::format("{} positions", answer.contact.positions.size()),
+          "are given; a joint takes one, and several tangential forces or amplitudes");
+  const Position& position = answer.contact.positions.front();
+  const ContactLaw& law = *answer.contact.law;
+  const double friction = question.facts.friction_coefficient;
+  answer.losses = surface && !oscillates
+                      ? surface_joint_loss(*answer.contact.surface, material, law, position,
+                                           question.motions, friction, context.on_progress)
+                      : losses_of_law(question, law, position, context);
+  require_converged(answer.losses, "integrals did not reach the tolerance");
+  if (surface && oscillates)
+    answer.remarks.emplace_back(
+        "the loss is that of a law through some loads: its error is not known while the normal "
+        "force oscillates");
+  if (const auto lost = std::ranges::count_if(
+          answer.losses, [](const JointLoss& one) { return std::isnan(one.work_per_cycle); });
+      lost > 0)
+    answer.remarks.push_back(
+        fmt::format("n/a at {} of {} motions: the error of the loss is larger than the loss, "
+                    "because too few cells part where the joint slips; a finer surface helps",
+                    lost, answer.losses.size()));
+  const double indentation = answer.losses.front().indentation;
+  answer.state = state_of(law, indentation);
+  if (question.direct_steps)
+    answer.simulated = simulate(question, *answer.contact.surface, material, indentation, context);
+
+  const JointLoss& largest =
+      *std::ranges::max_element(answer.losses, {}, &JointLoss::tangential_amplitude);
+  answer.largest = {question.normal_amplitude, largest.tangential_amplitude, question.phase,
+                    question.angular_frequency};
+  // A constant normal force is the limit of small normal amplitudes.
+  EqualFrequency judged = answer.largest;
+  if (!oscillates)
+    judged.normal_amplitude = 1e-6 * answer.state.force / answer.state.normal_stiffness;
+  answer.premises = answer.contact.premises_beside_slip(indentation, judged, question.facts);
+  return answer;
+}
+
+}  // namespace salebra
