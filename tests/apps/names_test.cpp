@@ -2,6 +2,7 @@
 // Tests that options, files and answers of all commands call each quantity what its description
 // says.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <map>
 #include <regex>
 #include <salebra/damping/oscillation.hpp>
@@ -268,75 +269,15 @@ TEST_CASE("Every column of a sweep has the name and unit of its description", "[
 TEST_CASE("Every number that the program writes has the name, unit and meaning of the table",
           "[names]") {
   const ProgramTest test;
-  const std::string body = " --contact-modulus 10GPa --poisson 0.3 ";
-  const std::string law = " --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 ";
-  const std::string drag = " --drag-velocity 1mm/s --frequency 20kHz ";
-  const std::string rough =
-      "--points 64 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.5um --rms-height 10nm ";
-  const std::string shape = "oscillate --shape paraboloid --points 24 --steps 8 --levels 4 " + body;
   test.write("study.toml", study_text("seeds = [3, 4]"));
-  test.write("path.txt", "0 1e-6 0\n1 1.2e-6 1e-7\n2 1.1e-6 2e-7\n3 0.8e-6 1e-7\n4 1e-6 0\n");
-  test.write("planar.txt",
-             "0 1e-6 0 0\n1 1.2e-6 1e-7 0\n2 1.1e-6 2e-7 1e-7\n3 0.8e-6 1e-7 2e-7\n4 1e-6 0 0\n");
-  for (const std::string& command : std::vector<std::string>{
-           "generate " + rough + "-o rough.h5",
-           "generate --points 128 --size-x 1mm --correlation gaussian --correlation-length 50um "
-           "--stretch-along 3 --rms-height 1um --skewness -1 --kurtosis 5 -o skew.h5",
-           "generate --shape sphere --radius 2um --points 32 --size-x 1um -o sphere.h5",
-           "statistics rough.h5 --tip-radius 10nm --all -o statistics.h5",
-           "contact rough.h5 --pressure 20MPa --stiffness -o contact.h5" + body,
-           "contact rough.h5 --pressure 2:60MPa:10 --stiffness --stick -o curve.h5" + body,
-           "contact rough.h5 --model gw_deterministic --pressure 2:60MPa:5 -o gw.h5" + body,
-           "contact --model gw_moments --summit-density 10/um2 --radius 100nm --summit-rms 10nm "
-           "--mean-gap 10nm,20nm,40nm" +
-               body,
-           "fit curve.h5 -o fit.h5",
-           "damping --normal-amplitude 1:50nm:4 -o damping.h5" + law + drag,
-           "damping --normal-amplitude 5nm --friction-coefficient 0.3 -o friction.h5" + law + drag,
-           "damping --mode two-frequencies --normal-amplitude 1nm --tangential-amplitude 1nm "
-           "--phase 40deg --frequency 20kHz --tangential-frequency 1kHz -o two.h5" +
-               law,
-           "damping --law paraboloid --radius 10mm --indentation 1um --normal-amplitude 300nm -o "
-           "indenter.h5" +
-               drag + body,
-           "damping --law paraboloid --radius 10mm --indentation 1um --mode equal-frequency "
-           "--normal-amplitude 300nm --tangential-amplitude 200nm --phase 90deg --stress-map "
-           "stress.h5 --map-phases 8 --map-radii 8 --quiet" +
-               body,
-           "damping --law paraboloid --radius 10mm --trajectory path.txt --friction-coefficient "
-           "0.3 -o path.h5" +
-               body,
-           "damping --law paraboloid --radius 10mm --trajectory planar.txt -o planar.h5" + body,
-           "damping --normal-amplitude 20nm --frequency 20kHz --mass 10g --spring-stiffness 1kN/m "
-           "-o damper.h5" +
-               law,
-           "damping --normal-amplitude 1nm,2nm --frequency 10kHz,20kHz --falling-slope 5 -o "
-           "map.h5" +
-               law,
-           "sliding --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
-           "--velocities 1um/s,1mm/s -o friction_over_velocity.h5" +
-               law,
-           "sliding --friction-coefficient 0.3 --normal-amplitude 10nm --frequency 20kHz "
-           "--velocities 1um/s,1mm/s --excursions 1nm,1um -o regimes.h5" +
-               law,
-           "sliding --friction-coefficient 0.3 --normal-amplitude 10nm,20nm --frequency 20kHz "
-           "--velocity-ratios 0.1,1 -o amplitudes.h5" +
-               law,
-           "sliding --friction-coefficient 0.3 --mass 1kg --spring-stiffness 1MN/m --velocities "
-           "1mm/s --falling-slope 10 --normal-amplitude 10nm --frequency 20kHz -o slider.h5" +
-               law,
-           "joint --friction-coefficient 0.3 --tangential-amplitudes 5nm,10nm --nominal-area 1mm2 "
-           "-o joint.h5" +
-               law,
-           "viscoelastic --law paraboloid --radius 5mm --indentation 20um --prony "
-           "1MPa:1ms,2MPa:20ms --normal-amplitude 2um --drag-velocity 1um/s --frequency 10,100 "
-           "--steps 64 -o viscoelastic.h5" +
-               body,
-           shape + "--friction 0.5 --coupled --fields fields --field-steps 4 -o cycle.h5",
-           "study study.toml --no-report -o study.h5",
-           "compare study.toml --no-report -o compare.h5"}) {
-    const auto run = test.answer(command + " --quiet");
-    check_numbers(run, "");
+  std::string shell;
+  std::ifstream runs(SALEBRA_RUNS);
+  for (std::string line; std::getline(runs, line);) {
+    if (line.empty() || line.starts_with('#')) continue;
+    if (line.starts_with("salebra "))
+      check_numbers(test.done(line.substr(8) + " --json --quiet", shell).json(), "");
+    else
+      shell += line + "; ";
   }
   int files = 0;
   for (const std::string& file : test.files()) {

@@ -15,28 +15,11 @@ namespace {
 salebra::CycleSettings settings_in(const std::filesystem::path& checkpoint) {
   const salebra::ResultReader reader(checkpoint);
   salebra::CycleSettings settings;
-  for (const char* name : {"arithmetic",
-                           "surface",
-                           "nx",
-                           "ny",
-                           "size_x",
-                           "size_y",
-                           "contact_modulus",
-                           "cerruti_isotropic",
-                           "cerruti_directed",
-                           "indentation",
-                           "normal_amplitude",
-                           "tangential_amplitude",
-                           "phase",
-                           "direction",
-                           "steps",
-                           "tolerance",
-                           "max_iterations",
-                           "boundary",
-                           "lateral",
-                           "friction_coefficient",
-                           "max_periods",
-                           "steady_tolerance"})
+  for (const std::string& name :
+       words("arithmetic surface nx ny size_x size_y contact_modulus cerruti_isotropic "
+             "cerruti_directed indentation normal_amplitude tangential_amplitude phase direction "
+             "steps tolerance max_iterations boundary lateral friction_coefficient max_periods "
+             "steady_tolerance"))
     if (const auto value = reader.text_attribute("settings", name))
       settings.emplace_back(name, *value);
   return settings;
@@ -56,7 +39,7 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
   // Each route with an error of its own, on the same cells.
   CHECK(answer["routes_agree"] == true);
   CHECK(answer["error_contains"] == nlohmann::json{"steps"});
-  CHECK(answer["error_estimate"].get<double>() < 0.02 * answer["work_per_cycle"].get<double>());
+  CHECK(number(answer, "/error_estimate") < 0.02 * number(answer, "/work_per_cycle"));
   CHECK(answer["converged"] == true);
   CHECK(test.files().count("cycle.h5") == 1);
   CHECK(salebra::ResultReader(test.folder() / "cycle.h5")
@@ -82,48 +65,41 @@ TEST_CASE("oscillate reproduces the paper's experiment by the name of a shape", 
 
 TEST_CASE("oscillate tells relaxation and slip apart under finite friction", "[oscillate]") {
   const ProgramTest test;
-  const std::string command =
-      "oscillate --shape cone --points 32 --contact-modulus 1GPa --poisson 0.3 ";
-  const auto number = [](const nlohmann::json& object, const char* key) {
-    return object[key].get<double>();
-  };
-  const auto balanced = [&](const nlohmann::json& answer) {
-    const auto& friction = answer["friction"];
+  const auto balanced = [&](const std::string& options) {
+    const auto answer = test.answer("oscillate --points 32 --contact-modulus 1GPa " + options);
+    const auto friction = answer["friction"];
     CHECK(friction["converged"] == true);
     CHECK(friction["steady"] == true);
-    CHECK(number(friction, "slip_work") + number(friction, "relaxation_work") ==
-          Approx(number(friction, "work_per_cycle")).epsilon(1e-5));
-    CHECK(std::abs(number(friction, "balance")) < 1e-5);
+    CHECK(number(friction, "/slip_work") + number(friction, "/relaxation_work") ==
+          Approx(number(friction, "/work_per_cycle")).epsilon(1e-5));
+    CHECK(std::abs(number(friction, "/balance")) < 1e-5);
     CHECK(answer["converged"] == true);
     return friction;
   };
-  const auto stuck = balanced(test.answer(command + "--friction 100 --steps 32"));
-  const auto coarse = balanced(test.answer(command + "--friction 100 --steps 16"));
   // Both cycles are of second order in the steps, with different constants: 3.5 % at 16 steps, 1.0
   // % at 32.
-  const double missing = 1 - number(stuck, "over_stick");
-  CHECK(std::abs(missing) < 0.015);
-  CHECK(std::abs(missing) < std::abs(1 - number(coarse, "over_stick")) / 3);
-  CHECK(number(stuck, "slip_work") < 1e-6 * number(stuck, "work_per_cycle"));
-  const auto slipping = balanced(test.answer(command + "--friction 0.3 --steps 32 --output f.h5"));
-  CHECK(number(slipping, "slip_work") > 0.1 * number(slipping, "work_per_cycle"));
-  CHECK(number(slipping, "relaxation_work") > 0.1 * number(slipping, "work_per_cycle"));
+  const auto stuck = balanced("--shape cone --poisson 0.3 --friction 100 --steps 32");
+  CHECK(number(stuck, "/over_stick") == Approx(1).margin(0.015));
+  CHECK(number(stuck, "/slip_work") < 1e-6 * number(stuck, "/work_per_cycle"));
+  const auto slipping =
+      balanced("--shape cone --poisson 0.3 --friction 0.3 --steps 32 --output f.h5");
+  CHECK(number(slipping, "/slip_work") > 0.1 * number(slipping, "/work_per_cycle"));
+  CHECK(number(slipping, "/relaxation_work") > 0.1 * number(slipping, "/work_per_cycle"));
   CHECK(slipping["tangential_force"].size() == 33);
-  CHECK(test.files().count("f.h5") == 1);
+  CHECK(test.files() == "f.h5");
   // Along y an elongated contact is stiffer than along x: a cycle with friction that moved along
   // the other axis would be 10 % off.
-  const auto across =
-      balanced(test.answer("oscillate --shape elliptic-paraboloid --points 32 --contact-modulus "
-                           "1GPa --poisson 0.5 --friction 100 --steps 32 --direction 90deg"));
-  CHECK(number(across, "over_stick") == Approx(1).epsilon(0.025));
+  const auto across = balanced(
+      "--shape elliptic-paraboloid --poisson 0.5 --friction 100 --steps 32 --direction 90deg");
+  CHECK(number(across, "/over_stick") == Approx(1).epsilon(0.025));
   // The exact cone at nu = 0.3, by the method of dimensionality reduction; measured 0.3 % apart,
   // errors of the steps. The parts are not compared: springs are not cells.
   const auto exact = test.answer(
       "damping --law cone --angle 0.05 --indentation 20um --mode equal-frequency "
       "--normal-amplitude 6um --tangential-amplitude 6um --phase 90deg --contact-modulus 1GPa "
       "--poisson 0.3 --friction-coefficient 0.3");
-  CHECK(number(slipping, "work_per_cycle") ==
-        Approx(number(exact["with_slip"], "work_per_cycle")).epsilon(0.01));
+  CHECK(number(slipping, "/work_per_cycle") ==
+        Approx(number(exact, "/with_slip/work_per_cycle")).epsilon(0.01));
 }
 
 TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding", "[oscillate]") {
@@ -131,40 +107,36 @@ TEST_CASE("oscillate lets a rough surface slip, between full stick and sliding",
   test.done(
       "generate --points 48 --size-x 10um --hurst 0.8 --rolloff 2.5um --short-cutoff 1.67um "
       "--rms-slope 0.1 --seed 3 -o r.h5 --quiet");
-  // h_rms is some 40 nm. u_x/u_z = 5: whether a cell slips is decided by its own pressure.
-  const std::string command =
-      "oscillate --surface r.h5 --pressure 3MPa --contact-modulus 1GPa --poisson 0.3 "
-      "--normal-amplitude 4nm --tangential-amplitude 20nm --phase 70deg --steps 32 ";
-  const auto number = [](const nlohmann::json& object, const char* key) {
-    return object[key].get<double>();
-  };
-  const auto friction = [&](const char* coefficient) {
-    const auto answer = test.answer(command + "--max-periods 12 --friction " + coefficient);
-    auto cycle = answer["friction"];
+  // h_rms is some 40 nm. u_x/u_z = 5: whether a cell slips is decided by its own pressure. Columns:
+  // friction, W over that of full stick, slip over W. Without slip it is the other simulation's
+  // loss, up to the different constants of the steps: 2.2 % apart at 32.
+  for (const auto& [friction, stick_low, stick_high, slip_low, slip_high] :
+       std::vector<std::tuple<std::string, double, double, double, double>>{
+           {"1000", 0.97, 1.03, -1e-6, 1e-6},
+           {"1", 0, 2, 0.02, 0.98},
+           {"0.001", 0, 0.1, 0, 1.01}}) {
+    INFO(friction);
+    const auto answer = test.answer(
+        "oscillate --surface r.h5 --pressure 3MPa --contact-modulus 1GPa --poisson 0.3 "
+        "--normal-amplitude 4nm --tangential-amplitude 20nm --phase 70deg --steps 32 "
+        "--max-periods 12 --friction " +
+        friction);
+    const auto& cycle = answer["friction"];
     CHECK(cycle["converged"] == true);
     CHECK(cycle["steady"] == true);
-    CHECK(std::abs(number(cycle, "balance")) < 1e-5);
-    CHECK(number(cycle, "relaxation_work") + number(cycle, "slip_work") ==
-          Approx(number(cycle, "dissipated")));
-    CHECK(number(cycle, "slip_work") > -1e-6 * number(cycle, "dissipated"));
-    cycle["force"] = answer["force"];
-    return cycle;
-  };
-  // Without slip it is the other simulation's loss, up to the different constants of the steps: 2.2
-  // % apart at 32.
-  const auto stuck = friction("1000");
-  CHECK(number(stuck, "over_stick") == Approx(1).epsilon(0.03));
-  CHECK(number(stuck, "slip_work") < 1e-6 * number(stuck, "dissipated"));
-  const auto partial = friction("1");
-  CHECK(number(partial, "slip_work") > 0.02 * number(partial, "dissipated"));
-  CHECK(number(partial, "relaxation_work") > 0.02 * number(partial, "dissipated"));
-  // Sliding: F_x = μF on the whole path of 4 u_x. F swings about its mean as cosθ does and |dx| as
-  // |sin(θ + φ0)|, so that the mean force along the path is that at rest up to second order in u_z,
-  // and the elastic return at both ends takes μF/K_t of the way.
-  const auto sliding = friction("0.001");
-  CHECK(number(sliding, "dissipated") ==
-        Approx(0.001 * number(sliding, "force") * 4 * 20e-9).epsilon(0.05));
-  CHECK(number(sliding, "over_stick") < 0.1);
+    CHECK(std::abs(number(cycle, "/balance")) < 1e-5);
+    const double lost = number(cycle, "/dissipated"), slip = number(cycle, "/slip_work") / lost;
+    CHECK(number(cycle, "/relaxation_work") / lost + slip == Approx(1));
+    CHECK(number(cycle, "/over_stick") > stick_low);
+    CHECK(number(cycle, "/over_stick") < stick_high);
+    CHECK(slip > slip_low);
+    CHECK(slip < slip_high);
+    // Sliding: F_x = μF on the whole path of 4 u_x. F swings about its mean as cosθ does and |dx|
+    // as |sin(θ + φ0)|, so that the mean force along the path is that at rest up to second order
+    // in u_z, and the elastic return at both ends takes μF/K_t of the way.
+    if (friction == "0.001")
+      CHECK(lost == Approx(0.001 * number(answer, "/force") * 4 * 20e-9).epsilon(0.05));
+  }
 }
 
 TEST_CASE("A killed cycle with friction resumes to the same numbers and lists all its fields",
@@ -199,7 +171,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   CHECK(other.status != 0);
   CHECK(other.json()["friction"]["converged"] == false);
   CHECK(other.json()["converged"] == false);
-  CHECK(other.json()["dissipated"] == Approx(2 * whole["dissipated"].get<double>()));
+  CHECK(other.json()["dissipated"] == Approx(2 * number(whole, "/dissipated")));
   const auto resumed = test.answer(recorded + "--resume");
   CHECK(resumed["friction"] == whole["friction"]);
   CHECK(resumed["work_per_cycle"] == whole["work_per_cycle"]);
@@ -222,7 +194,7 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
     CHECK(answer["friction"]["friction_coefficient"].is_null());
     // The premise is judged by what was computed.
     CHECK(answer["premises"]["coupling"]["value"] ==
-          Approx(std::abs(answer["coupling"]["work_change"].get<double>())).margin(1e-12));
+          Approx(std::abs(number(answer, "/coupling/work_change"))).margin(1e-12));
     return answer["coupling"];
   };
   const auto with = change("--poisson 0.3 --output f.h5");
@@ -245,22 +217,22 @@ TEST_CASE("oscillate couples pressures and tractions by Dundurs' constant", "[os
                    file.number_attribute("friction", "work_per_cycle").value() -
                1));
   CHECK(with["dundurs"] == Approx(2.0 / 7));
-  CHECK(std::abs(with["work_change"].get<double>()) > 1e-3);
+  CHECK(std::abs(number(with, "/work_change")) > 1e-3);
   CHECK(with["force_change"] > 1e-3);
   CHECK(with["periods"] == 2);
   // The other sum, without what the eight steps make of gaps.
-  CHECK(std::abs(with["balance"].get<double>()) < 1e-4);
+  CHECK(std::abs(number(with, "/balance")) < 1e-4);
   // Without it the coupled contact is the other one.
   const auto without = change("--poisson 0.3 --dundurs 0");
-  CHECK(std::abs(without["work_change"].get<double>()) < 1e-4);
+  CHECK(std::abs(number(without, "/work_change")) < 1e-4);
   CHECK(without["force_change"] < 1e-5);
   CHECK(change("--poisson 0.5")["dundurs"].get<double>() == Approx(0).margin(1e-12));
   CHECK(change("--poisson 0.3 --dundurs 0.1")["dundurs"].get<double>() == Approx(0.1));
   // Without coupling it slips as the other one does.
   const auto slipping = test.answer(command + "--poisson 0.3 --dundurs 0 --friction 0.3");
-  CHECK(slipping["friction"]["slip_work"].get<double>() >
-        0.1 * slipping["friction"]["work_per_cycle"].get<double>());
-  CHECK(std::abs(slipping["coupling"]["work_change"].get<double>()) < 1e-3);
+  CHECK(number(slipping, "/friction/slip_work") >
+        0.1 * number(slipping, "/friction/work_per_cycle"));
+  CHECK(std::abs(number(slipping, "/coupling/work_change")) < 1e-3);
 }
 
 TEST_CASE("A killed coupled cycle resumes to the same numbers", "[oscillate]") {
@@ -289,7 +261,7 @@ TEST_CASE("oscillate knows which of two bodies is the softer one", "[oscillate]"
         "oscillate --shape paraboloid --points 16 --steps 4 --levels 4 --max-periods 2 --coupled "
         "--quiet " +
         bodies);
-    return answer["coupling"]["dundurs"].get<double>();
+    return number(answer, "/coupling/dundurs");
   };
   const double softer = dundurs("--young 1GPa,10GPa --poisson 0.3,0.2");
   // β = ½[(1 − 2ν_1)/G_1 − (1 − 2ν_2)/G_2]/[(1 − ν_1)/G_1 + (1 − ν_2)/G_2], G_1 = 1/2.6, G_2 =
@@ -330,7 +302,7 @@ TEST_CASE("oscillate chooses levels and cells for a requested error", "[oscillat
       "--relative-error 2% --method levels");
   CHECK(answer["error_reached"] == true);
   CHECK(answer["error_contains"] == nlohmann::json{"levels", "cells"});
-  CHECK(answer["error_estimate"].get<double>() <= 0.02 * answer["work_per_cycle"].get<double>());
+  CHECK(number(answer, "/error_estimate") <= 0.02 * number(answer, "/work_per_cycle"));
   CHECK(answer["nx"].get<int>() > 32);
   CHECK(answer["trials"].size() >= 3);
   CHECK(answer["trials"].back()["levels"] == answer["levels"]);
@@ -339,7 +311,7 @@ TEST_CASE("oscillate chooses levels and cells for a requested error", "[oscillat
       "oscillate --shape paraboloid --points 32 --contact-modulus 1GPa --poisson 0.3 "
       "--relative-error 0.4% --method levels");
   CHECK(strict["error_reached"] == true);
-  CHECK(strict["error_estimate"].get<double>() <= 0.004 * strict["work_per_cycle"].get<double>());
+  CHECK(number(strict, "/error_estimate") <= 0.004 * number(strict, "/work_per_cycle"));
   // A round contact.
   CHECK(answer["ratio_finite"] == Approx(1).epsilon(0.02));
 }
@@ -360,7 +332,7 @@ TEST_CASE("Several shapes stand side by side, as in the paper's Fig. 3", "[oscil
       "oscillate --shape cylinder,paraboloid,pyramids,sinusoids --points 48 --steps 16 "
       "--contact-modulus 1GPa --poisson 0.3 -o f.h5");
   CHECK(keys(answer) == "cylinder paraboloid pyramids sinusoids");
-  CHECK(std::abs(answer["cylinder"]["work_over_elastic_energy"].get<double>()) < 1e-9);
+  CHECK(std::abs(number(answer, "/cylinder/work_over_elastic_energy")) < 1e-9);
   CHECK(answer["cylinder"]["ratio"].is_null());
   CHECK(answer["paraboloid"]["ratio_finite"] == Approx(1).epsilon(0.02));
   for (const auto& [shape, object] : answer.items()) CHECK(object["premises"].size() == 7);

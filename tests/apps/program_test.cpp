@@ -27,8 +27,7 @@ TEST_CASE("Help of every command shows two examples, and the options that it has
                "oscillate", "report", "completion");
   // The shell alone calls it.
   CHECK((screen.find(" " + command + "  ") < screen.find("Which")) == (command != "completion"));
-  const auto help = test.run(command + " --help");
-  CHECK(help.status == 0);
+  const auto help = test.done(command + " --help");
   CHECK(help.err.empty());
   CHECK_THAT(help.out, Contains("\nExamples:\n  salebra " + command));
   const auto second = help.out.find("  salebra " + command, help.out.find("Examples:") + 20);
@@ -45,8 +44,7 @@ TEST_CASE("The options of every command stand once", "[program]") {
 
 TEST_CASE("Help is what a bare call, help and --help show", "[program]") {
   const ProgramTest test;
-  const auto help = test.run("--help");
-  CHECK(help.status == 0);
+  const auto help = test.done("--help");
   CHECK_THAT(help.out, Contains("Which command?"));
   for (const char* words : {"", "help"}) {
     test.done(words);
@@ -161,25 +159,6 @@ TEST_CASE("Quiet, a command leaves nothing on stderr but errors", "[program]") {
   CHECK_THAT(test.run(coarse).err, Contains("warning"));
   CHECK(test.run(coarse + " --quiet").err.empty());
   CHECK_THAT(test.run("statistics none.txt --quiet").err, Contains("error"));
-}
-
-TEST_CASE("A command's former name is answered with the present one", "[program]") {
-  const ProgramTest test;
-  const auto [former, now] = GENERATE(table<std::string, std::string>({
-      {"damper", "damping, "},
-      {"figure3", "oscillate"},
-      {"friction", "sliding"},
-      {"gw", "contact, "},
-      {"info", "statistics"},
-      {"manual", "help, "},
-      {"mdr", "damping, "},
-      {"slider", "sliding"},
-      {"sweep", "contact, "},
-  }));
-  INFO(former);
-  for (const std::string before : {"", "help "})
-    check_refused(test.run(before + former), former + ": is now " + now);
-  test.done(now.substr(0, now.find(',')) + " --help");
 }
 
 TEST_CASE("This installation agrees with the analytic solutions", "[program][verify]") {

@@ -100,3 +100,7 @@ Names keys(const nlohmann::json& object) {
   for (const auto& [name, value] : object.items()) names.insert(name);
   return names;
 }
+
+double number(const nlohmann::json& answer, const std::string& path) {
+  return answer.at(nlohmann::json::json_pointer(path));
+}

@@ -53,3 +53,5 @@ class ProgramTest {
 void check_refused(const ProgramTest::Result& result, const std::string& part);
 
 Names keys(const nlohmann::json& object);
+/// The number there: "/curve/pressure/0".
+double number(const nlohmann::json& answer, const std::string& path);
