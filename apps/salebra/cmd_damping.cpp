@@ -167,13 +167,17 @@ void lose(const DampingArguments& arguments, Session& session) {
                                    answer.results.size()));
 }
 
-void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
+void write_map(const DamperAnswer& answer, const std::optional<double>& falling_slope,
                const Session& session) {
+  const DamperMap& map = answer.map;
   ResultFile file(session.output(), session.provenance(), session.write_options());
   QuantityGroup group(file.group("damper"));
   group.coordinate("normal_amplitude", map.normal_amplitude);
   group.coordinate("angular_frequency", map.angular_frequency);
   group.dataset("damping_constant", map.damping_constant, "normal_amplitude", "angular_frequency");
+  if (answer.damping_constant_error.size() > 0)
+    group.dataset("damping_constant_error", answer.damping_constant_error, "normal_amplitude",
+                  "angular_frequency");
   if (falling_slope) {
     std::vector<bool> stable;
     for (Index i = 0; i < map.damping_constant.rows(); ++i)
@@ -188,12 +192,11 @@ void write_map(const DamperMap& map, const std::optional<double>& falling_slope,
 
 // γ: a number, a row over the one quantity that varies, or rows over frequencies for each
 // amplitude.
-Json constants(const DamperMap& map) {
+Json constants(const Field& map) {
   Json rows = Json::array();
-  for (Index i = 0; i < map.damping_constant.rows(); ++i) {
+  for (Index i = 0; i < map.rows(); ++i) {
     Json row = Json::array();
-    for (Index j = 0; j < map.damping_constant.cols(); ++j)
-      row.push_back(map.damping_constant(i, j));
+    for (Index j = 0; j < map.cols(); ++j) row.push_back(map(i, j));
     rows.push_back(row.size() == 1 ? row[0] : row);
   }
   return rows.size() == 1 ? rows[0] : rows;
@@ -202,13 +205,18 @@ Json constants(const DamperMap& map) {
 // For people, a map is a row for each pair of amplitude and frequency: in one table with the list
 // of amplitudes and that of frequencies, each amplitude would stand beside a frequency it has
 // nothing to do with.
-std::string text_of(const Json& answer, const DamperMap& map) {
+std::string text_of(const Json& answer, const DamperAnswer& found) {
+  const DamperMap& map = found.map;
   Json pairs = Json::array();
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
-    for (std::size_t j = 0; j < map.angular_frequency.size(); ++j)
-      pairs.push_back({{"normal_amplitude", map.normal_amplitude[i]},
-                       {"angular_frequency", map.angular_frequency[j]},
-                       {"damping_constant", map.damping_constant(Index(i), Index(j))}});
+    for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
+      Json pair{{"normal_amplitude", map.normal_amplitude[i]},
+                {"angular_frequency", map.angular_frequency[j]},
+                {"damping_constant", map.damping_constant(Index(i), Index(j))}};
+      if (found.contact.surface)
+        pair["damping_constant_error"] = found.damping_constant_error(Index(i), Index(j));
+      pairs.push_back(pair);
+    }
   std::string text = to_text(Json{{"map", pairs}});
   if (answer.contains("stabilising_amplitude"))
     text += "\n" + to_text(Json{{"angular_frequency", answer["angular_frequency"]},
@@ -258,14 +266,16 @@ void damp(const DampingArguments& arguments, Session& session) {
   question.contact = contact_of(arguments, session);
   const DamperAnswer answer = ask(std::move(question), session.context());
   session.warn(answer.contact.doubts);
-  if (answer.contact.surface) session.note(law_of_some_loads);
+  session.warn(answer.doubts);
   Json object = Json::object();
   if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
   if (omega.size() > 1) object["angular_frequency"] = omega;
-  if (!amplitudes.empty()) object["damping_constant"] = constants(answer.map);
+  if (!amplitudes.empty()) object["damping_constant"] = constants(answer.map.damping_constant);
+  if (answer.damping_constant_error.size() > 0)
+    object["damping_constant_error"] = constants(answer.damping_constant_error);
   object.add(answer_json(answer));
   if (!amplitudes.empty() && session.has_output())
-    write_map(answer.map, arguments.falling_slope, session);
+    write_map(answer, arguments.falling_slope, session);
   if (session.has_plot()) {
     const Figure figure = damper_figure(answer, arguments.falling_slope, omega);
     require_that(!figure.panels.empty(), "--plot",
@@ -274,7 +284,7 @@ void damp(const DampingArguments& arguments, Session& session) {
     session.plot(figure);
   }
   const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
-  const std::string text = pairs ? text_of(object, answer.map) : to_text(object);
+  const std::string text = pairs ? text_of(object, answer) : to_text(object);
   if (answer.premises.empty()) return session.answer(object, text);
   PremiseReport{answer.premises, amplitudes.size() > 1}.answer(session, object, text);
 }

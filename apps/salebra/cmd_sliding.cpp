@@ -39,9 +39,16 @@ struct SlidingArguments {
 };
 
 // Columns of the amplitude alone; the others depend on the velocity too.
-constexpr std::string_view of_amplitude[]{"mean_force", "critical_velocity",
-                                          "static_friction_coefficient", "low_speed_damping",
-                                          "relaxation_damping"};
+constexpr std::string_view of_amplitude[]{"mean_force",
+                                          "critical_velocity",
+                                          "static_friction_coefficient",
+                                          "low_speed_damping",
+                                          "relaxation_damping",
+                                          "mean_force_error",
+                                          "critical_velocity_error",
+                                          "static_friction_coefficient_error",
+                                          "low_speed_damping_error",
+                                          "relaxation_damping_error"};
 
 void check(const SlidingArguments& arguments) {
   const SlidingQuestion& sliding = arguments.sliding;
@@ -84,7 +91,14 @@ ContactAnswer contact_of(const SlidingArguments& arguments, Session& session) {
   require(contact.positions.size() == 1, "--normal-force",
           fmt::format("{} positions", contact.positions.size()),
           "are given; sliding takes one, and several --velocities");
-  if (contact.surface) session.note(law_of_some_loads);
+  if (contact.surface && arguments.of_slider())
+    session.note(
+        "n/a: the error of the motion. It is that on a law through some loads of the surface, and "
+        "two laws within the error of one may lead to motions of another kind");
+  if (contact.surface && !arguments.sliding.excursions.empty())
+    session.note(
+        "n/a: the error of regimes and of no_slip_excursion, which are those of a law through some "
+        "loads of the surface");
   return contact;
 }
 
@@ -123,13 +137,16 @@ void slide(const SlidingArguments& arguments, Session& session) {
   question.angular_frequency = arguments.frequency.angular().front();
   question.hold = *value_of<Hold>(arguments.hold);
   const ContactAnswer contact = contact_of(arguments, session);
-  const SlidingAnswer found = ask(question, *contact.law, contact.positions.front());
+  const SlidingAnswer found =
+      ask(question, contact,
+          contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
+          session.context());
 
   Json answer = Json::object(), columns = json_of(found.points);
   if (single) {
     columns.erase("normal_amplitude");
     for (const std::string_view name : of_amplitude) {
-      answer[name] = columns[name][0];
+      if (contact.surface || !name.ends_with("_error")) answer[name] = columns[name][0];
       columns.erase(std::string(name));
     }
   }

@@ -12,10 +12,6 @@
 
 namespace salebra::cli {
 
-/// What an answer by LawOptions::contact() of a surface has to say.
-inline constexpr std::string_view law_of_some_loads =
-    "the law is through some loads of the surface: the error of what follows from it is not known";
-
 /// A force law, a curve from a file, or a surface, and where the contact stands on it.
 struct LawOptions {
   IndenterOptions indenter;  ///< --law, exponential beside the shapes

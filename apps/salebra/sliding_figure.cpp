@@ -14,7 +14,9 @@ Figure sliding_figure(const std::vector<SlidingPoint>& points, double friction) 
   PlotCurve mean{.name = "computed"}, slow{.name = "static friction and Γv"};
   slow.style = PlotStyle::dashed;
   PlotCurve total{.name = "whole"}, opening{.name = "levels that open"};
-  for (const auto& [amplitude, velocity, ratio, state, no_slip_excursion] : points) {
+  for (const SlidingPoint& point : points) {
+    const double velocity = point.velocity;
+    const SteadySliding& state = point.state;
     for (PlotCurve* curve : {&mean, &slow, &total, &opening}) curve->x.push_back(velocity);
     mean.y.push_back(state.friction_coefficient);
     const double linear =

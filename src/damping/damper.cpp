@@ -31,19 +31,26 @@ OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position
                                  const NormalOscillation& normal,
                                  const TangentialOscillator& oscillator,
                                  const DampingOptions& options) {
+  const DampingResult damper =
+      damper_at(law, position, normal.normal_amplitude, normal.angular_frequency, options);
+  return oscillator_decay(damper.damping_constant,
+                          law.tangential_stiffness(damper.indentation - normal.normal_amplitude),
+                          normal.angular_frequency, oscillator);
+}
+
+OscillatorDecay oscillator_decay(double damping_constant, double contact_stiffness,
+                                 double angular_frequency, const TangentialOscillator& oscillator) {
   require_positive(oscillator.mass, "mass");
   require(std::isfinite(oscillator.spring_stiffness) && oscillator.spring_stiffness >= 0,
           "spring_stiffness", oscillator.spring_stiffness, "must be finite and >= 0");
-  const DampingResult damper =
-      damper_at(law, position, normal.normal_amplitude, normal.angular_frequency, options);
   OscillatorDecay decay;
-  decay.damping_constant = damper.damping_constant;
-  decay.contact_stiffness = law.tangential_stiffness(damper.indentation - normal.normal_amplitude);
+  decay.damping_constant = damping_constant;
+  decay.contact_stiffness = contact_stiffness;
   const double stiffness = oscillator.spring_stiffness + decay.contact_stiffness;
   require(stiffness > 0, "spring_stiffness", oscillator.spring_stiffness,
           "N/m leaves nothing to oscillate against, because the contact opens; give a spring");
   decay.natural_frequency = std::sqrt(stiffness / oscillator.mass);
-  decay.frequency_ratio = decay.natural_frequency / normal.angular_frequency;
+  decay.frequency_ratio = decay.natural_frequency / angular_frequency;
   const double ratio = decay.damping_constant / (2 * oscillator.mass * decay.natural_frequency);
   decay.damping_ratio = ratio;
   decay.quality_factor = 1 / (2 * ratio);

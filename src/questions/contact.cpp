@@ -213,6 +213,13 @@ ContactAnswer answer(SurfaceContact body, const Context& context) {
 
 }  // namespace
 
+std::size_t ContactAnswer::load() const {
+  const double force = law->force(indentation_of(*law, positions.front()));
+  const auto nearest = std::ranges::min_element(
+      curve->samples, {}, [&](const ForceSample& one) { return std::abs(one.force - force); });
+  return std::size_t(nearest - curve->samples.begin());
+}
+
 ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation) const {
   facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation);
   if (first_loading && first_loading->yielded())

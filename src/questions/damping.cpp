@@ -181,6 +181,93 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
   }
 }
 
+/// What a damper of a surface does: γ of each amplitude from contacts inside the oscillation, and
+/// what follows from it.
+class SurfaceDamper {
+ public:
+  SurfaceDamper(const DamperQuestion& question, const Material& material, const Context& context,
+                DamperAnswer& answer)
+      : question_(question), material_(material), answer_(answer), about_(*answer.contact.curve) {
+    options_ = {
+        .hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress};
+    const ForceSample load = about_.samples[answer.contact.load()];
+    about_.samples = {load};
+  }
+
+  void map() {
+    DamperMap& map = answer_.map;
+    answer_.damping_constant_error = map.damping_constant;
+    for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i) {
+      const auto [constant, error] = at(map.normal_amplitude[i]);
+      for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
+        map.damping_constant(Index(i), Index(j)) = constant / map.angular_frequency[j];
+        answer_.damping_constant_error(Index(i), Index(j)) = error / map.angular_frequency[j];
+      }
+    }
+  }
+
+  void decay(double contact_stiffness) {
+    const double omega = question_.angular_frequency.front();
+    const auto by = [&](double constant) {
+      return oscillator_decay(constant, contact_stiffness, omega, *question_.oscillator);
+    };
+    const double constant = answer_.map.damping_constant(0, 0),
+                 error = answer_.damping_constant_error(0, 0);
+    const OscillatorDecay found = by(constant), more = by(constant + error);
+    answer_.decay = found;
+    OscillatorDecay& off = answer_.decay_error.emplace();
+    off.damping_constant = error;
+    off.contact_stiffness = off.natural_frequency = off.frequency_ratio = not_known;
+    for (double OscillatorDecay::*const number :
+         {&OscillatorDecay::damping_ratio, &OscillatorDecay::quality_factor,
+          &OscillatorDecay::decay_time, &OscillatorDecay::logarithmic_decrement})
+      off.*number = std::abs(more.*number - found.*number);
+  }
+
+  /// The amplitude of the law, corrected once by what γ is there, along the slope of the law.
+  void stabilise(double angular_frequency) {
+    double& amplitude = answer_.stabilising_amplitude.back();
+    const double by_law = amplitude;
+    const auto lost = [&] {
+      amplitude = not_known;
+      answer_.stabilising_amplitude_error.push_back(not_known);
+    };
+    if (!std::isfinite(by_law)) return lost();
+    const auto [constant, error] = at(by_law);
+    const Field about =
+        damper_map(*answer_.contact.law, answer_.contact.positions.front(), {by_law, 1.05 * by_law},
+                   {angular_frequency}, {.hold = question_.hold, .amplitude = question_.amplitude})
+            .damping_constant;
+    const double exponent = std::log(about(1, 0) / about(0, 0)) / std::log(1.05);
+    amplitude *= std::pow(*question_.falling_slope * angular_frequency / constant, 1 / exponent);
+    const double off =
+        std::hypot(amplitude * error / (constant * exponent), (amplitude - by_law) / 2);
+    if (!(exponent > 0) || !(off < amplitude) || amplitude > question_.largest_amplitude)
+      return lost();
+    answer_.stabilising_amplitude_error.push_back(off);
+  }
+
+ private:
+  /// γω and its error; NaN where the error is larger.
+  std::pair<double, double> at(double amplitude) {
+    const SurfaceDamping found = surface_damping(*answer_.contact.surface, material_,
+                                                 Drag{amplitude, 1e-6, 1}, about_, options_)[0];
+    const double error = found.damping_constant_error();
+    if (error < std::abs(found.damping_constant)) return {found.damping_constant, error};
+    answer_.doubts.push_back(fmt::format(
+        "the error of the damping constant under {} exceeds it, and neither is given; a finer "
+        "surface helps",
+        format_quantity(amplitude, Dimension::length)));
+    return {not_known, not_known};
+  }
+
+  const DamperQuestion& question_;
+  const Material& material_;
+  DamperAnswer& answer_;
+  ForceCurve about_;  // the load
+  SurfaceDampingOptions options_;
+};
+
 void require_motion_of_surface(const DampingQuestion& question) {
   require_that(question.motions.size() == 1 && question.force_amplitude.empty() &&
                    !std::holds_alternative<TwoFrequencies>(question.motions.front()),
@@ -300,8 +387,11 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
   const std::vector<double>&amplitudes = question.normal_amplitude,
         &omega = question.angular_frequency;
   require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
-  if (auto* surface = std::get_if<SurfaceContact>(&question.contact))
+  Material material;
+  if (auto* surface = std::get_if<SurfaceContact>(&question.contact)) {
     surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
+    material = surface->material;
+  }
   DamperAnswer answer{ask(std::move(question.contact), context)};
   const ContactLaw& law = *answer.contact.law;
   require(answer.contact.positions.size() == 1, "normal_force",
@@ -318,22 +408,28 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
     answer.premises.push_back(premises_of(law, indentation, motion,
                                           answer.contact.facts_at(question.facts, indentation)));
   }
+  std::optional<SurfaceDamper> of_surface;
+  if (answer.contact.surface) of_surface.emplace(question, material, context, answer);
   if (!amplitudes.empty())
     answer.map = damper_map(law, position, amplitudes, omega, options);
   else
     require_that(question.falling_slope.has_value(), "normal_amplitude",
                  "missing; give it, or `falling_slope` to have it computed");
+  if (of_surface && !amplitudes.empty()) of_surface->map();
   if (question.oscillator) {
     require(one, "mass", question.oscillator->mass,
             "kg needs one `normal_amplitude` and one `frequency`");
     answer.decay = oscillator_decay(law, position, {amplitudes.front(), omega.front()},
                                     *question.oscillator, options);
+    if (of_surface) of_surface->decay(answer.decay->contact_stiffness);
   }
   if (!question.falling_slope) return answer;
   require_positive(*question.falling_slope, "falling_slope");
-  for (const double frequency : omega)
+  for (const double frequency : omega) {
     answer.stabilising_amplitude.push_back(stabilising_amplitude(
         law, position, frequency, *question.falling_slope, question.largest_amplitude, options));
+    if (of_surface) of_surface->stabilise(frequency);
+  }
   return answer;
 }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/questions/sliding.hpp>
+#include <span>
+#include <tuple>
 
 namespace salebra {
 namespace {
@@ -90,6 +92,31 @@ SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law,
                               velocities, question.excursions, question.friction_coefficient);
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i].no_slip_excursion = answer.regimes->no_slip_excursion[i];
+  return answer;
+}
+
+SlidingAnswer ask(const SlidingQuestion& question, const ContactAnswer& contact,
+                  const Material& material, const Context& context) {
+  SlidingAnswer answer = ask(question, *contact.law, contact.positions.front());
+  if (!contact.surface) return answer;
+  const std::size_t velocities = answer.points.size() / question.normal_amplitude.size();
+  for (std::size_t first = 0; first < answer.points.size(); first += velocities) {
+    const auto points = std::span(answer.points).subspan(first, velocities);
+    SurfaceSlidingMotion motion{
+        .normal = {points.front().normal_amplitude, question.angular_frequency},
+        .velocities = {},
+        .friction_coefficient = question.friction_coefficient,
+        .hold = question.hold};
+    for (const SlidingPoint& point : points) motion.velocities.push_back(point.velocity);
+    const auto found = surface_sliding(*contact.surface, material, *contact.curve, contact.load(),
+                                       motion, context.on_progress);
+    for (std::size_t i = 0; i < velocities; ++i) {
+      // The indentations of the law, by which the premises are judged, are those of its cells.
+      const double indentation = points[i].state.indentation;
+      std::tie(points[i].state, points[i].errors) = found[i];
+      points[i].state.indentation = indentation;
+    }
+  }
   return answer;
 }
 

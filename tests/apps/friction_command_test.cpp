@@ -67,6 +67,54 @@ TEST_CASE("sliding maps amplitudes and ratios of velocities", "[sliding]") {
   CHECK(test.files() == "map.csv map.sliding.csv map.svg");
 }
 
+TEST_CASE("Sliding and dampers of a surface have errors, and what has none is said", "[sliding]") {
+  const ProgramTest test;
+  test.done(
+      "generate --points 32 --size-x 10um --hurst 0.8 --rolloff 5um --short-cutoff 1.67um "
+      "--rms-slope 0.1 --seed 3 -o rough.h5");
+  const std::string contact =
+      "--surface rough.h5 --pressure 5MPa --contact-modulus 1GPa --poisson 0.3 --normal-amplitude "
+      "2nm --frequency 20kHz --quiet ";
+  const auto slides =
+      test.answer("sliding --friction-coefficient 0.3 --velocities 1um/s,10um/s " + contact);
+  for (const std::string name : {"mean_force", "critical_velocity", "static_friction_coefficient",
+                                 "low_speed_damping", "relaxation_damping"})
+    CHECK(slides[name + "_error"] < slides[name]);
+  for (const std::string name : {"mean_tangential_force", "friction_coefficient", "sliding_damping",
+                                 "relaxation_work", "slip_work"})
+    for (const std::size_t i : {0, 1}) CHECK(slides[name + "_error"][i] < slides[name][i]);
+  // Forces and losses come from one law.
+  CHECK(slides["relaxation_work"][0].get<double>() + slides["slip_work"][0].get<double>() ==
+        Approx(slides["mean_tangential_force"][0].get<double>() * 1e-6 / 20e3));
+
+  // γ of a damper and of slow sliding is that of `damping`, with its error.
+  const auto stuck = test.answer("damping --drag-velocity 1um/s " + contact);
+  const auto damper =
+      test.answer("damping --mass 1g --spring-stiffness 1kN/m --falling-slope 0.001 " + contact);
+  for (const auto& answer : {damper["damping_constant"], slides["relaxation_damping"]})
+    CHECK(answer == Approx(stuck["damping_constant"].get<double>()).epsilon(1e-3));
+  CHECK(damper["damping_constant_error"] ==
+        Approx(stuck["damping_constant_error"].get<double>()).epsilon(0.01));
+  // ζ = γ/(2mω0).
+  const auto &decay = damper["decay"], &off = damper["decay_error"];
+  const double relative =
+      damper["damping_constant_error"].get<double>() / damper["damping_constant"].get<double>();
+  CHECK(off["damping_ratio"] == Approx(decay["damping_ratio"].get<double>() * relative));
+  CHECK(off["natural_frequency"].is_null());
+  CHECK(damper["stabilising_amplitude_error"] < damper["stabilising_amplitude"]);
+  const auto map = test.answer(
+      "damping --surface rough.h5 --pressure 5MPa --contact-modulus 1GPa --poisson 0.3 --quiet "
+      "--normal-amplitude 1nm,2nm --frequency 20kHz,40kHz -o map.h5");
+  CHECK(map["damping_constant_error"][1][0] ==
+        Approx(damper["damping_constant_error"].get<double>()));
+  CHECK(map["damping_constant_error"][1][1] ==
+        Approx(damper["damping_constant_error"].get<double>() / 2));
+  const auto slider = test.done(
+      "sliding --friction-coefficient 0.3 --velocities 1um/s --mass 1g --spring-stiffness 1kN/m "
+      "--surface rough.h5 --pressure 5MPa --contact-modulus 1GPa --poisson 0.3");
+  CHECK_THAT(slider.err, Catch::Contains("n/a: the error of the motion"));
+}
+
 TEST_CASE("sliding says in which regime a slow motion is, as damping with friction does",
           "[sliding][regimes]") {
   const ProgramTest test;

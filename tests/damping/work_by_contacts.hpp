@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/law.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/oscillation.hpp>
+#include <utility>
 #include <vector>
 
 namespace salebra {
@@ -57,6 +60,62 @@ inline double work_by_contacts(const Surface& surface, const Material& material,
   }
   const double way = motion.drag_velocity / motion.angular_frequency;
   return 4 * way * way * material.modulus_ratio() * sum;
+}
+
+/// W of a joint by contacts between the forces F and F − T/μ, the levels that slip, with K_t = K:
+/// 4μ² ∫_0^c (c − 2t) K(δ − t) dt.
+inline double joint_work_by_contacts(const Surface& surface, const Material& stuck, double pressure,
+                                     double tangential_force, double friction_coefficient) {
+  constexpr int intervals = 16;
+  NormalContactOptions options;
+  options.tolerance = 1e-10;
+  const NormalContactState high =
+      press(surface, stuck.contact_modulus, {.pressure = pressure}, options);
+  const double least = high.force - tangential_force / friction_coefficient;
+  const double depth = high.indentation - press(surface, stuck.contact_modulus,
+                                                {.pressure = least / surface.grid.area()}, options)
+                                              .indentation;
+  Field start = high.contact_pressure;
+  options.initial_pressure = &start;
+  double sum = 0, above = high.force, from = 0;
+  for (int k = 1; k <= intervals; ++k) {
+    const double to = depth * std::pow(std::sin(std::numbers::pi * k / (2 * intervals)), 2);
+    const NormalContactState state =
+        press(surface, stuck.contact_modulus, {.indentation = high.indentation - to}, options);
+    start = state.contact_pressure;
+    sum += (above - state.force) * (depth - from - to);
+    above = state.force;
+    from = to;
+  }
+  return 4 * friction_coefficient * friction_coefficient * sum;
+}
+
+/// The law of a surface from contacts inside an oscillation about the indentation under a pressure,
+/// and that indentation; with K_t = (G*/E*)K.
+inline std::pair<std::unique_ptr<const ContactLaw>, double> law_by_contacts(
+    const Surface& surface, const Material& material, double pressure, double normal_amplitude,
+    int intervals) {
+  NormalContactOptions options;
+  options.tolerance = 1e-10;
+  NormalContactState state =
+      press(surface, material.contact_modulus, {.pressure = pressure}, options);
+  const double center = state.indentation;
+  Field start = state.contact_pressure;
+  options.initial_pressure = &start;
+  ForceCurve curve{.model = "bem", .nominal_area = surface.grid.area()};
+  for (int k = 0; k <= intervals; ++k) {
+    // A law that ends at the oscillation's last digit would be left by round-off.
+    const double place =
+        center - 1.001 * normal_amplitude * std::cos(std::numbers::pi * k / intervals);
+    state = press(surface, material.contact_modulus, {.indentation = place}, options);
+    start = state.contact_pressure;
+    ForceSample& sample = curve.samples.emplace_back();
+    sample.indentation = place;
+    sample.force = state.force;
+    sample.normal_stiffness =
+        normal_stiffness(state, surface.grid, material.contact_modulus, options);
+  }
+  return {std::make_unique<TabulatedLaw>(curve, material.modulus_ratio()), center};
 }
 
 }  // namespace salebra

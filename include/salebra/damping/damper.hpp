@@ -63,6 +63,10 @@ OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position
                                  const TangentialOscillator& oscillator,
                                  const DampingOptions& options = {});
 
+/// The same of a γ and a K_t(δ0 − u_z) that are known.
+OscillatorDecay oscillator_decay(double damping_constant, double contact_stiffness,
+                                 double angular_frequency, const TangentialOscillator& oscillator);
+
 /// γ over normal amplitudes × angular frequencies, and where it stabilises a slider.
 struct DamperMap {
   std::vector<double> normal_amplitude;   ///< m

@@ -3,9 +3,14 @@
 
 #include <limits>
 #include <salebra/base/describe.hpp>
+#include <salebra/base/grid.hpp>
+#include <salebra/base/progress.hpp>
+#include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/law/force_curve.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace salebra {
@@ -55,12 +60,61 @@ constexpr void describe(auto&& visit, std::type_identity<SteadySliding>) {
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
 
+/// Errors of the numbers of a SteadySliding, of a surface; NaN where not known.
+struct SlidingErrors {
+  static constexpr double unknown = SteadySliding::unknown;
+  double mean_force_error = unknown, critical_velocity_error = unknown,
+         static_friction_coefficient_error = unknown, low_speed_damping_error = unknown,
+         relaxation_damping_error = unknown, mean_tangential_force_error = unknown,
+         friction_coefficient_error = unknown, sliding_damping_error = unknown,
+         relaxation_work_error = unknown, slip_work_error = unknown;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<SlidingErrors>) {
+  using enum Dimension;
+  using S = SlidingErrors;
+  visit(&S::mean_force_error, Quantity{"mean_force_error", force, "error of mean_force"});
+  visit(&S::critical_velocity_error,
+        Quantity{"critical_velocity_error", velocity, "error of critical_velocity"});
+  visit(&S::static_friction_coefficient_error,
+        Quantity{"static_friction_coefficient_error", dimensionless,
+                 "error of static_friction_coefficient"});
+  visit(&S::low_speed_damping_error,
+        Quantity{"low_speed_damping_error", damping, "error of low_speed_damping"});
+  visit(&S::relaxation_damping_error,
+        Quantity{"relaxation_damping_error", damping, "error of relaxation_damping"});
+  visit(&S::mean_tangential_force_error,
+        Quantity{"mean_tangential_force_error", force, "error of mean_tangential_force"});
+  visit(&S::friction_coefficient_error,
+        Quantity{"friction_coefficient_error", dimensionless, "error of friction_coefficient"});
+  visit(&S::sliding_damping_error,
+        Quantity{"sliding_damping_error", damping, "error of sliding_damping"});
+  visit(&S::relaxation_work_error,
+        Quantity{"relaxation_work_error", energy, "error of relaxation_work"});
+  visit(&S::slip_work_error, Quantity{"slip_work_error", energy, "error of slip_work"});
+}
+
+/// Each number with its error.
+inline constexpr std::pair<double SteadySliding::*, double SlidingErrors::*> sliding_errors[]{
+    {&SteadySliding::mean_force, &SlidingErrors::mean_force_error},
+    {&SteadySliding::critical_velocity, &SlidingErrors::critical_velocity_error},
+    {&SteadySliding::static_friction_coefficient,
+     &SlidingErrors::static_friction_coefficient_error},
+    {&SteadySliding::low_speed_damping, &SlidingErrors::low_speed_damping_error},
+    {&SteadySliding::mean_tangential_force, &SlidingErrors::mean_tangential_force_error},
+    {&SteadySliding::friction_coefficient, &SlidingErrors::friction_coefficient_error},
+    {&SteadySliding::sliding_damping, &SlidingErrors::sliding_damping_error},
+    {&SteadySliding::relaxation_work, &SlidingErrors::relaxation_work_error},
+    {&SteadySliding::slip_work, &SlidingErrors::slip_work_error},
+    {&SteadySliding::relaxation_damping, &SlidingErrors::relaxation_damping_error}};
+
 /// Steady sliding at one amplitude and velocity of several.
 struct SlidingPoint {
   double normal_amplitude = 0;                     ///< u_z, m
   double velocity = 0;                             ///< v, m/s
   double velocity_ratio = SteadySliding::unknown;  ///< v/v_c, where the velocity is given by it
   SteadySliding state = {};
+  SlidingErrors errors = {};  ///< of a surface
   /// As RegimeMap has it; unknown too where no regimes are mapped.
   double no_slip_excursion = SteadySliding::unknown;
 };
@@ -73,6 +127,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingPoint>) {
   visit(&S::velocity_ratio,
         Quantity{"velocity_ratio", dimensionless, "velocity over critical velocity"});
   visit(&S::state, Part{"state", "steady sliding"});
+  visit(&S::errors, Part{"errors", "errors of steady sliding, of a surface"});
   visit(&S::no_slip_excursion,
         Quantity{"no_slip_excursion", length,
                  "largest excursion without slip; 0: none, n/a: all excursions"});
@@ -122,5 +177,29 @@ std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position&
                                           std::span<const double> velocities,
                                           double friction_coefficient,
                                           const DampingOptions& options = {});
+
+/// Steady sliding over velocities under one oscillation.
+struct SurfaceSlidingMotion {
+  NormalOscillation normal;         ///< u_z > 0
+  std::vector<double> velocities;   ///< > 0, m/s
+  double friction_coefficient = 0;  ///< μ
+  Hold hold = Hold::indentation;
+};
+
+/// The same of a surface, from contacts inside the oscillation, and its errors. K between contacts is
+/// kriged as by surface_damping(), in which all numbers are nearly linear, so that each has a
+/// standard deviation, of which 1.8 are stated. Error, besides: a third of what the number changes
+/// by on cells of half the size, which it is given of; what it changes by where every second contact
+/// is left out, and where K_t/K is a straight line. relaxation_damping is that of surface_damping().
+/// A number that is no larger than its error is NaN, and the error is.
+/// curve   of this surface and material, in full stick; `load` is the sample about which it slides
+/// returns one for each velocity
+/// throws  InvalidInput for u_z that is not > 0, and as above; NotConverged where a contact did
+///         not; Interrupted
+/// cost    nine contacts on the cells as they are and five on cells of half the size, and those of
+///         surface_damping()
+std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
+    const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,
+    const SurfaceSlidingMotion& motion, const Progress& on_progress = {});
 
 }  // namespace salebra

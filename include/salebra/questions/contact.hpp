@@ -90,6 +90,8 @@ struct ContactAnswer {
   std::optional<FirstLoading> first_loading = {};  ///< that left it
   std::vector<std::string> doubts = {};            ///< allowed and most likely a slip, in words
 
+  /// The sample of the curve whose load is nearest to the first position.
+  std::size_t load() const;
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
   /// The facts at an indentation, with what the law, the curve and the first loading say.
   ContactFacts facts_at(ContactFacts facts, double indentation) const;

@@ -131,10 +131,15 @@ struct DamperQuestion {
 struct DamperAnswer {
   ContactAnswer contact;
   DamperMap map = {};  ///< empty without amplitudes
+  Field damping_constant_error = {};  ///< of the map of a surface, N s/m; empty: a law's
   std::optional<OscillatorDecay> decay = {};
+  /// Of a surface, by what the damping constant is off; NaN for what follows from K_t of the law.
+  std::optional<OscillatorDecay> decay_error = {};
   std::vector<double> stabilising_amplitude = {};  ///< for each frequency, m; empty: no slope
+  std::vector<double> stabilising_amplitude_error = {};  ///< of a surface, m
   /// Of each amplitude at the highest frequency: slip does not depend on it, inertia grows with it.
   std::vector<Premises> premises = {};
+  std::vector<std::string> doubts = {};  ///< beside those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
@@ -142,8 +147,11 @@ struct DamperAnswer {
 constexpr void describe(auto&& visit, std::type_identity<DamperAnswer>) {
   using S = DamperAnswer;
   visit(&S::decay, Part{"decay", "free decay of the oscillator"});
+  visit(&S::decay_error, Part{"decay_error", "errors of the free decay, of a surface"});
   visit(&S::stabilising_amplitude, Quantity{"stabilising_amplitude", Dimension::length,
                                             "minimum normal amplitude that stabilises the slider"});
+  visit(&S::stabilising_amplitude_error, Quantity{"stabilising_amplitude_error", Dimension::length,
+                                                  "error of stabilising_amplitude"});
   visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
 }
 

@@ -5,6 +5,7 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
+#include <salebra/questions/contact.hpp>
 #include <vector>
 
 /// Friction of a contact that slides while it oscillates in the normal direction, and the motion of
@@ -31,6 +32,12 @@ struct SlidingAnswer {
 /// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
 ///         NotConverged where a quadrature did not reach its tolerance
 SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law, const Position& position);
+/// The same at the first position of a contact. On a surface each point comes from contacts inside
+/// the oscillation, with its errors (surface_sliding()), but for regimes, which are the law's.
+/// material  of a surface; not looked at otherwise
+/// throws    NotConverged, Interrupted
+SlidingAnswer ask(const SlidingQuestion& question, const ContactAnswer& contact,
+                  const Material& material, const Context& context = {});
 
 /// The motion in which a slider ends, whether it slides stably, and from which oscillation on.
 struct SliderQuestion {

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steady sliding of a surface from contacts inside the oscillation, with errors.
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/steady_sliding.hpp>
+#include <salebra/damping/surface_damping.hpp>
+#include <span>
+#include <utility>
+
+#include "surface/refine.hpp"
+#include "surface_levels.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::KrigedStiffness;
+using detail::Levels;
+using detail::StiffnessRatio;
+using detail::StiffnessSample;
+using detail::VarianceScales;
+using Eigen::ArrayXd;
+using Eigen::VectorXd;
+using std::numbers::pi;
+
+// Intervals between contacts on the cells as they are, of which half are taken on smaller ones.
+constexpr int own_intervals = 8;
+// Indentations between which K is linear: intervals of the angle, among them those of the contacts.
+constexpr int linear_parts = 32;
+constexpr double stated_deviations = 1.8;  // standard deviations, as in surface_damping()
+
+/// A contact whose K is linear between indentations, about a known force in their middle.
+class StiffnessLaw final : public ContactLaw {
+ public:
+  StiffnessLaw(VectorXd places, VectorXd stiffness, double force, const StiffnessRatio& ratio,
+               double modulus_ratio)
+      : ContactLaw(modulus_ratio),
+        places_(std::move(places)),
+        stiffness_(stiffness.cwiseMax(0)),
+        force_(VectorXd::Zero(places_.size())),
+        ratio_(ratio) {
+    for (Index i = 0; i + 1 < places_.size(); ++i)
+      force_(i + 1) =
+          force_(i) - (places_(i) - places_(i + 1)) * (stiffness_(i) + stiffness_(i + 1)) / 2;
+    force_.array() += force - force_(places_.size() / 2);
+  }
+
+  double force(double indentation) const override {
+    const Index i = interval_of(indentation);
+    const double below = places_(i) - indentation;
+    return std::max(0.0, force_(i) - below * (stiffness_(i) + normal_stiffness(indentation)) / 2);
+  }
+  double normal_stiffness(double indentation) const override {
+    const Index i = interval_of(indentation);
+    return std::max(0.0, stiffness_(i) - (places_(i) - indentation) * slope(i));
+  }
+  double force_curvature(double indentation) const override {
+    return slope(interval_of(indentation));
+  }
+  double tangential_stiffness(double indentation) const override {
+    return modulus_ratio() * ratio_.at(force(indentation)) * normal_stiffness(indentation);
+  }
+  double tangential_curvature(double indentation) const override {
+    return modulus_ratio() * ratio_.at(force(indentation)) * force_curvature(indentation);
+  }
+  double indentation_of(double force) const override {
+    double low = places_(places_.size() - 1), high = places_(0);
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = (low + high) / 2;
+      (this->force(middle) < force ? low : high) = middle;
+    }
+    return (low + high) / 2;
+  }
+  std::vector<double> break_points() const override {
+    return {places_.reverse().begin(), places_.reverse().end()};
+  }
+
+ private:
+  Index interval_of(double indentation) const {
+    const auto after =
+        std::upper_bound(places_.begin(), places_.end(), indentation, std::greater());
+    return std::clamp<Index>(after - places_.begin() - 1, 0, places_.size() - 2);
+  }
+  double slope(Index i) const {
+    return (stiffness_(i) - stiffness_(i + 1)) / (places_(i) - places_(i + 1));
+  }
+
+  VectorXd places_, stiffness_, force_;
+  StiffnessRatio ratio_;
+};
+
+// relaxation_damping, the last of them, is not from here.
+constexpr auto numbers = std::span(sliding_errors).first(std::size(sliding_errors) - 1);
+
+/// All of them of all velocities, in one list.
+ArrayXd numbers_of(const std::vector<SteadySliding>& states) {
+  std::vector<double> all;
+  for (const SteadySliding& state : states)
+    for (const auto& [number, error] : numbers) all.push_back(state.*number);
+  return Eigen::Map<const ArrayXd>(all.data(), static_cast<Index>(all.size()));
+}
+
+/// What one grid says, and the squares of the errors of its numbers.
+struct OnGrid {
+  std::vector<SteadySliding> states;
+  ArrayXd numbers, squares;
+};
+
+class SurfaceSlidingRun {
+ public:
+  SurfaceSlidingRun(const Material& material, const ForceSample& load, const StiffnessRatio& ratio,
+                    const SurfaceSlidingMotion& motion)
+      : material_(material), load_(load), ratio_(ratio), motion_(motion) {
+    const double amplitude = motion.normal.normal_amplitude;
+    half_ = amplitude;
+    if (motion.hold == Hold::force)
+      // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
+      half_ += std::min(amplitude, amplitude * amplitude * load.normal_stiffness / load.force / 2);
+  }
+
+  OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
+    NormalContactOptions contact;
+    contact.on_progress = progress;
+    // Forces differ by F·uK/F over the window, and their differences by its square.
+    contact.tolerance =
+        std::clamp(1e-4 * std::pow(half_ * load_.normal_stiffness / load_.force, 2), 1e-12, 1e-7);
+    Levels levels(surface, material_.contact_modulus, contact);
+    const double center = levels.indentation_at(load_.pressure);
+    const StiffnessRatio ratio =
+        first ? ratio_ : ratio_.scaled(levels.ratio_at(center, material_).ratio / ratio_.middle());
+    std::vector<StiffnessSample> contacts, every_second;
+    for (int k = 0; k <= count; ++k) {
+      contacts.push_back(levels.at(center + half_ * std::cos(pi * k / count)));
+      if (k % 2 == 0) every_second.push_back(contacts.back());
+    }
+    if (!levels.usable()) throw NotConverged("sliding: a contact of the surface did not converge");
+    const VectorXd places = center + half_ * ArrayXd::LinSpaced(linear_parts + 1, 0, pi).cos();
+    const KrigedStiffness kriged(contacts, places);
+    scales_.add(kriged.log_likelihood());
+
+    const VectorXd stiffness = stiffness_at(kriged, places);
+    OnGrid grid;
+    grid.states = states_of(places, stiffness, ratio);
+    grid.numbers = numbers_of(grid.states);
+    const auto change = [&](const VectorXd& other, const StiffnessRatio& by) -> ArrayXd {
+      return numbers_of(states_of(places, other, by)) - grid.numbers;
+    };
+    grid.squares =
+        change(stiffness, ratio.straight()).square() +
+        change(stiffness_at(KrigedStiffness(every_second, places), places), ratio).square();
+    // The numbers are nearly linear in K, of which the kriging knows the variance.
+    const double step = 1e-3 * stiffness.maxCoeff();
+    Eigen::MatrixXd weights(grid.numbers.size(), places.size());
+    for (Index i = 0; i < places.size(); ++i) {
+      VectorXd other = stiffness;
+      other(i) += step;
+      weights.col(i) = change(other, ratio) / step;
+    }
+    for (Index k = 0; k < weights.rows(); ++k) {
+      const VectorXd row = weights.row(k);
+      grid.squares(k) += std::pow(stated_deviations * kriged.estimate(row, scales_).deviation, 2);
+    }
+    return grid;
+  }
+
+ private:
+  static VectorXd stiffness_at(const KrigedStiffness& kriged, const VectorXd& places) {
+    return places.unaryExpr([&](double place) { return kriged.stiffness(place); });
+  }
+
+  std::vector<SteadySliding> states_of(const VectorXd& places, const VectorXd& stiffness,
+                                       const StiffnessRatio& ratio) const {
+    const StiffnessLaw law(places, stiffness, load_.force, ratio, material_.modulus_ratio());
+    const Position position = motion_.hold == Hold::indentation
+                                  ? Position(AtIndentation{places(places.size() / 2)})
+                                  : Position(AtForce{load_.force});
+    return steady_sliding(law, position, motion_.normal, motion_.velocities,
+                          motion_.friction_coefficient, {.hold = motion_.hold, .tolerance = 1e-7});
+  }
+
+  const Material& material_;
+  const ForceSample& load_;
+  StiffnessRatio ratio_;
+  const SurfaceSlidingMotion& motion_;
+  double half_ = 0;  // of the window
+  VarianceScales scales_;
+};
+
+}  // namespace
+
+std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
+    const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,
+    const SurfaceSlidingMotion& motion, const Progress& on_progress) {
+  require(load < curve.samples.size(), "load", load, "is none of the curve");
+  require_positive(motion.normal.normal_amplitude, "normal_amplitude");
+  const ForceSample& sample = curve.samples[load];
+  const StiffnessRatio ratio = detail::ratio_on(curve, load, material.modulus_ratio());
+  SurfaceSlidingRun run(material, sample, ratio, motion);
+  const OnGrid own = run.on(surface, own_intervals, true, on_progress);
+  OnGrid fine = run.on(refined(surface, 2), own_intervals / 2, false, on_progress);
+  // Forces converge at second order: of a halving a third remains on the finer cells.
+  const ArrayXd errors =
+      (fine.squares + ((fine.numbers - own.numbers) / 3).square()).max(own.squares / 16).sqrt();
+
+  SurfaceDampingOptions options{.hold = motion.hold, .on_progress = on_progress};
+  ForceCurve about = curve;  // the ratio of stiffnesses comes from contacts inside the oscillation
+  about.samples = {sample};
+  const Drag drag{motion.normal.normal_amplitude, 1e-6, motion.normal.angular_frequency};
+  const SurfaceDamping stuck = surface_damping(surface, material, drag, about, options)[0];
+
+  std::vector<std::pair<SteadySliding, SlidingErrors>> all;
+  Index at = 0;
+  for (SteadySliding& state : fine.states) {
+    SlidingErrors stated;
+    const auto give = [&](double& number, double& error, double found) {
+      error = found;
+      if (!(error <= std::abs(number))) number = error = SteadySliding::unknown;
+    };
+    for (const auto& [number, error] : numbers) give(state.*number, stated.*error, errors(at++));
+    state.error_estimate = stated.mean_tangential_force_error;
+    state.relaxation_damping = stuck.damping_constant;
+    give(state.relaxation_damping, stated.relaxation_damping_error, stuck.damping_constant_error());
+    all.emplace_back(state, stated);
+  }
+  return all;
+}
+
+}  // namespace salebra
