@@ -56,26 +56,23 @@ Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
   Json models = Json::object();
   for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
   const StudyTheories theories = result.theories();
+  Json theory = answer_json(theories);
+  theory.erase("relative_pressure");  // an axis of the whole answer
+  const auto& stiffness = theories.normal_stiffness;
+  theory["campana_persson_muser"] = {
+      {"decay_length_over_rms_height", to_json(theories.decay_length_over_rms_height)},
+      {"normal_stiffness", stiffness.empty() ? Json(nullptr) : to_json(stiffness)}};
   Json spots =
       columns_json<SpotStatistics>([&](const auto& number) { return result.spots(number); });
   spots["corrected_area_slope"] = to_json(result.mean(&Realisation::corrected_area_slope));
-  Json answer = {
-      {"realisations", result.realisations.size()},
-      {"pressure", result.pressures},
-      {"relative_pressure", theories.relative_pressure},
-      {"models", models},
-      {"theories",
-       {{"bgt_area_slope", theories.bgt_area_slope},
-        {"persson_area_slope", theories.persson_area_slope},
-        {"bearing_area_fraction", to_json(theories.bearing_area_fraction)},
-        {"campana_persson_muser",
-         {{"decay_length_over_rms_height", to_json(theories.decay_length_over_rms_height)},
-          {"normal_stiffness", theories.normal_stiffness.empty()
-                                   ? Json(nullptr)
-                                   : to_json(theories.normal_stiffness)}}}}},
-      {"spots", spots},
-      {"flags", flags_json(result)},
-      {"interval_method", result.interval_method()}};
+  Json answer = {{"realisations", result.realisations.size()},
+                 {"pressure", result.pressures},
+                 {"relative_pressure", theories.relative_pressure},
+                 {"models", models},
+                 {"theories", theory},
+                 {"spots", spots},
+                 {"flags", flags_json(result)},
+                 {"interval_method", result.interval_method()}};
   add_first_loading(answer, result);
   add_premises(answer, premises);
   return answer;

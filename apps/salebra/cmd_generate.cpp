@@ -69,6 +69,11 @@ Json all_of(const SpectralMoments& moments) {
   return object;
 }
 
+/// What was asked for, and what a lattice has of it in the mean.
+Json asked(std::uint64_t seed, const std::string& method, const Json& target, const Json& lattice) {
+  return {{"seed", seed}, {"method", method}, {"target", target}, {"lattice", lattice}};
+}
+
 /// Heights of a file; its own size does not matter here.
 Surface read_unsized(const std::string& file) {
   ReadOptions options;
@@ -122,11 +127,9 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   collectively(session.ranks(), [&] { expected = forecast(grid, *spectrum, session.progress()); });
   session.warn(expected.warnings);
   const std::string method = method_of(arguments);
-  answer["seed"] = arguments.seed;
-  answer["method"] = arguments.non_gaussian() ? "non-gaussian" : method;
+  answer.add(asked(arguments.seed, arguments.non_gaussian() ? "non-gaussian" : method,
+                   rms_of(expected.target), all_of(expected.lattice)));
   if (const Json lay = arguments.spectrum.anisotropy(); !lay.is_null()) answer["anisotropy"] = lay;
-  answer["target"] = rms_of(expected.target);
-  answer["lattice"] = all_of(expected.lattice);
   if (arguments.non_gaussian()) {
     require(method == "random-phase", "--method", method,
             "has Gaussian heights only; leave it out with a distribution");
@@ -178,13 +181,10 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
     line.heights(k, 0) = profile.heights[static_cast<std::size_t>(k)];
     x.push_back(static_cast<double>(k) * profile.dx());
   }
-  const Json answer = {{"points", points},
-                       {"size_x", length},
-                       {"seed", arguments.seed},
-                       {"method", method},
-                       {"target", rms_of(spectrum.moments())},
-                       {"lattice", rms_of(spectrum.lattice_moments(points, length))},
-                       {"realised", rms_of(spectral_moments(line))}};
+  Json answer{{"points", points}, {"size_x", length}};
+  answer.add(asked(arguments.seed, method, rms_of(spectrum.moments()),
+                   rms_of(spectrum.lattice_moments(points, length))));
+  answer["realised"] = rms_of(spectral_moments(line));
   if (!session.has_output())
     session.note("no file was written; add --output FILE.csv, .json or .h5 to keep the profile");
   write_tables(
