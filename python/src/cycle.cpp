@@ -206,53 +206,54 @@ Raises
 InvalidInput
     "<file>: <setting> was … in the checkpoint and is … now" for a checkpoint of another run, and for one that exists without resume.
 )");
-  // Both simulations with friction: the same arguments but for the coupling.
-  const auto sliding = [](const BoundSurface& surface, const Material& material,
-                          const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
-                          const CycleOptions& options, bool coupled,
-                          const std::optional<std::filesystem::path>& checkpoint,
-                          double checkpoint_every, bool resume, const ProgressArgument& progress) {
-    cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
-    CycleSettings settings = cycle_settings(surface.surface.grid, material, oscillation(motion),
-                                            mean_indentation, options);
-    if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
-    return simulation(
-        options, checkpoint, checkpoint_every, resume, std::move(settings), progress,
-        [&](const CycleOptions& chosen, const Progress& told) {
-          const NormalContactOptions normal{.boundary = chosen.stick.boundary, .on_progress = told};
-          const Trajectory path = trajectory(motion, mean_indentation);
-          if (coupled)
-            return simulate_coupled_cycle(surface.surface, material, path, chosen, normal);
-          return simulate_frictional_cycle(
-              boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
-                                         normal),
-              surface.surface.grid, material, path, chosen);
-        });
+  // Both simulations with friction: the same arguments but for a constant of the coupling.
+  const auto define = [&m]<class... Constant>(const char* name,
+                                              std::type_identity<void(Constant...)>,
+                                              const char* description, auto... constant_argument) {
+    m.def(
+        name,
+        [](const BoundSurface& surface, const Material& material,
+           const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
+           double friction_coefficient, Constant... coupling_constant, int steps, int max_periods,
+           double steady_tolerance, double direction, double tolerance, int max_iterations,
+           const Choice<Boundary>& boundary, const std::optional<std::filesystem::path>& checkpoint,
+           double checkpoint_every, bool resume, const ProgressArgument& progress) {
+          cite({"popov2015", "polonsky_keer1999", "stanley_kato1997"});
+          CycleOptions options{.friction_coefficient = friction_coefficient,
+                               .steps = steps,
+                               .max_periods = max_periods,
+                               .steady_tolerance = steady_tolerance,
+                               .direction = direction,
+                               .stick = stick_options(tolerance, max_iterations, boundary)};
+          ((options.coupling_constant = coupling_constant), ...);
+          CycleSettings settings = cycle_settings(surface.surface.grid, material,
+                                                  oscillation(motion), mean_indentation, options);
+          if (checkpoint) settings.emplace_back("surface", fingerprint(surface.surface.heights));
+          return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
+                            progress, [&](const CycleOptions& chosen, const Progress& told) {
+                              const NormalContactOptions normal{.boundary = chosen.stick.boundary,
+                                                                .on_progress = told};
+                              const Trajectory path = trajectory(motion, mean_indentation);
+                              if constexpr (sizeof...(Constant) > 0)
+                                return simulate_coupled_cycle(surface.surface, material, path,
+                                                              chosen, normal);
+                              else
+                                return simulate_frictional_cycle(
+                                    boundary_element_pressures(Surface(surface.surface),
+                                                               material.contact_modulus, normal),
+                                    surface.surface.grid, material, path, chosen);
+                            });
+        },
+        nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
+        nb::kw_only(), nb::arg("friction_coefficient") = infinite, constant_argument...,
+        nb::arg("steps") = 64, nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5,
+        nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
+        nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
+        nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
+        description);
   };
-  m.def(
-      "simulate_frictional_cycle",
-      [sliding](const BoundSurface& surface, const Material& material,
-                const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
-                double friction_coefficient, int steps, int max_periods, double steady_tolerance,
-                double direction, double tolerance, int max_iterations,
-                const Choice<Boundary>& boundary,
-                const std::optional<std::filesystem::path>& checkpoint, double checkpoint_every,
-                bool resume, const ProgressArgument& progress) {
-        const CycleOptions options{.friction_coefficient = friction_coefficient,
-                                   .steps = steps,
-                                   .max_periods = max_periods,
-                                   .steady_tolerance = steady_tolerance,
-                                   .direction = direction,
-                                   .stick = stick_options(tolerance, max_iterations, boundary)};
-        return sliding(surface, material, motion, mean_indentation, options, false, checkpoint,
-                       checkpoint_every, resume, progress);
-      },
-      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("friction_coefficient") = infinite, nb::arg("steps") = 64,
-      nb::arg("max_periods") = 6, nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0,
-      nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
-      nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
-      nb::arg("checkpoint_every") = 60.0, nb::arg("resume") = false, nb::arg("progress") = false,
+  define(
+      "simulate_frictional_cycle", std::type_identity<void()>{},
       R"(Direct three-dimensional simulation of a surface with Coulomb friction through one oscillation.
 
 Each step solves ``|τ| <= μp`` in every cell. Without drift the permanent contact settles within two or three periods; a constant drag starts
@@ -294,35 +295,12 @@ friction_coefficient: μ.
 
 Relaxation and slip are told apart by cells; the exponent is NaN. The steps are of second order, 2.5 % of W with 16 of them.
 )");
-  m.def(
-      "simulate_coupled_cycle",
-      [sliding](const BoundSurface& surface, const Material& material,
-                const std::variant<EqualFrequency, Drag>& motion, double mean_indentation,
-                double friction_coefficient, std::optional<double> coupling_constant, int steps,
-                int max_periods, double steady_tolerance, double direction, double tolerance,
-                int max_iterations, const Choice<Boundary>& boundary,
-                const std::optional<std::filesystem::path>& checkpoint, double checkpoint_every,
-                bool resume, const ProgressArgument& progress) {
-        const CycleOptions options{.friction_coefficient = friction_coefficient,
-                                   .steps = steps,
-                                   .max_periods = max_periods,
-                                   .steady_tolerance = steady_tolerance,
-                                   .direction = direction,
-                                   .coupling_constant = coupling_constant,
-                                   .stick = stick_options(tolerance, max_iterations, boundary)};
-        return sliding(surface, material, motion, mean_indentation, options, true, checkpoint,
-                       checkpoint_every, resume, progress);
-      },
-      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
-      nb::kw_only(), nb::arg("friction_coefficient") = infinite,
-      nb::arg("coupling_constant") = nb::none(), nb::arg("steps") = 64, nb::arg("max_periods") = 6,
-      nb::arg("steady_tolerance") = 1e-5, nb::arg("direction") = 0.0, nb::arg("tolerance") = 1e-8,
-      nb::arg("max_iterations") = 1000, nb::arg("boundary") = "periodic",
-      nb::arg("checkpoint") = nb::none(), nb::arg("checkpoint_every") = 60.0,
-      nb::arg("resume") = false, nb::arg("progress") = false,
+  define(
+      "simulate_coupled_cycle", std::type_identity<void(std::optional<double>)>{},
       "The same with the coupling of normal and tangential directions (Dundurs' β); "
       "coupling_constant: β/(πE*), 1/Pa, by default the material's. It shows when neglecting the "
-      "coupling, as the paper does, is safe.");
+      "coupling, as the paper does, is safe.",
+      nb::arg("coupling_constant") = nb::none());
 }
 
 void bind_quadrature(nb::module_& m) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/tangential/stick.hpp>
+#include <salebra/contact/half_space/contact_set.hpp>
 #include <string>
 #include <string_view>
 #include <vector>

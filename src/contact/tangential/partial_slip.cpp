@@ -10,18 +10,6 @@
 
 namespace salebra {
 
-struct PartialSlipSolver::Parts {
-  detail::TangentialWorkspace workspace;
-};
-
-PartialSlipSolver::PartialSlipSolver(const Grid2D& grid, const Material& material,
-                                     const StickOptions& options)
-    : parts_(std::make_unique<Parts>(Parts{detail::TangentialWorkspace(grid, material, options)})) {
-}
-PartialSlipSolver::PartialSlipSolver(PartialSlipSolver&&) noexcept = default;
-PartialSlipSolver& PartialSlipSolver::operator=(PartialSlipSolver&&) noexcept = default;
-PartialSlipSolver::~PartialSlipSolver() = default;
-
 PartialSlipReport PartialSlipSolver::solve(const Field& limit, const TangentialField& displacement,
                                            double scale, TangentialField& traction,
                                            TangentialField& slip) {
@@ -65,17 +53,6 @@ PartialSlipReport PartialSlipSolver::solve(const Field& limit, const TangentialF
   workspace.scatter(tractions, points, traction);
   workspace.scatter(gradient, points, slip);
   return report;
-}
-
-TangentialField PartialSlipSolver::displacement(const ContactSet& loaded,
-                                                const TangentialField& traction,
-                                                const ContactSet& where) {
-  return parts_->workspace.displacement(loaded, traction, where);
-}
-
-void PartialSlipSolver::reserve(const ContactSet& largest) {
-  detail::require_contact(largest, parts_->workspace.grid(), Boundary::free);
-  parts_->workspace.system_for(largest);
 }
 
 ContactSet PartialSlipSolver::prepared() const { return parts_->workspace.prepared(); }

@@ -52,10 +52,6 @@ UnitMotion move_by_one(detail::ContactSystem& system, const detail::PointList& p
 
 }  // namespace
 
-struct StickSolver::Parts {
-  detail::TangentialWorkspace workspace;
-};
-
 StickSolver::StickSolver(const Grid2D& grid, const Material& material, const StickOptions& options)
     : parts_(std::make_unique<Parts>(Parts{detail::TangentialWorkspace(grid, material, options)})) {
 }

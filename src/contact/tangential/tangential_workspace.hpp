@@ -46,3 +46,11 @@ class TangentialWorkspace {
 };
 
 }  // namespace salebra::detail
+
+namespace salebra {
+
+struct StickSolver::Parts {
+  detail::TangentialWorkspace workspace;
+};
+
+}  // namespace salebra

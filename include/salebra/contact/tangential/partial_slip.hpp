@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 
 namespace salebra {
@@ -46,16 +44,12 @@ constexpr void describe(auto&& visit, std::type_identity<PartialSlipReport>) {
 /// (sticking cells, and the direction of traction in slipping ones, with the curvature of their
 /// circles) with preconditioned conjugate gradients inside, each followed by a projection on the
 /// discs and accepted if the energy falls; a projected gradient step with a line search where it
-/// does not. Memory and threads: as StickSolver.
-class PartialSlipSolver {
+/// does not. All else is StickSolver's.
+class PartialSlipSolver : public StickSolver {
  public:
   /// StickOptions::tolerance bounds PartialSlipReport::residual; max_iterations those of conjugate
   /// gradients in a solve.
-  /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
-  PartialSlipSolver(const Grid2D& grid, const Material& material, const StickOptions& options = {});
-  PartialSlipSolver(PartialSlipSolver&&) noexcept;
-  PartialSlipSolver& operator=(PartialSlipSolver&&) noexcept;
-  ~PartialSlipSolver();
+  using StickSolver::StickSolver;
 
   /// limit         (nx, ny), Pa, >= 0, may be infinite: μp; the contact set is where it is > 0
   /// displacement  v on the contact set, m; its values elsewhere are not read
@@ -68,20 +62,9 @@ class PartialSlipSolver {
   PartialSlipReport solve(const Field& limit, const TangentialField& displacement, double scale,
                           TangentialField& traction, TangentialField& slip);
 
-  /// Displacements in the cells of `where` under tractions on `loaded`; 0 in the other cells. Cost:
-  /// 2 FFT pairs.
-  TangentialField displacement(const ContactSet& loaded, const TangentialField& traction,
-                               const ContactSet& where);
-
-  /// Prepares the window for every set within `largest`, so that none of them has to rebuild it.
-  void reserve(const ContactSet& largest);
   /// The window as a set, to be reserved by another solver that has to give the same bits; empty
   /// before the first solve.
   ContactSet prepared() const;
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace salebra

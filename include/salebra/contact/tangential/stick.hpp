@@ -71,7 +71,7 @@ class StickSolver {
   /// Prepares the window for every set within `largest`, so that none of them has to rebuild it.
   void reserve(const ContactSet& largest);
 
- private:
+ protected:
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
