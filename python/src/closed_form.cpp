@@ -14,16 +14,7 @@ namespace salebra::python {
 namespace cf = closed_form;
 
 void bind_closed_form(nb::module_& parent) {
-  nb::module_ m = parent.def_submodule(
-      "_closed_form",
-      "Equations (6)–(16) of Popov, Popov and Pohrt, \"Relaxation damping in "
-      "oscillating contacts\", doi:10.1038/srep16189, each "
-      "under its number, and the closed forms that go beyond them.\n\n"
-      "All assume infinite friction, quasi-static motion and no coupling of "
-      "normal and tangential motion. `modulus_ratio` is G*/E*, "
-      "`force_curvature` is F'' = ∂²F/∂δ², `level` is z0, the distance of a point "
-      "of the indenter from first touch at the mean position. "
-      "Units are SI. Arguments are not checked: they are formulas.");
+  nb::module_ m = parent.def_submodule("_closed_form");
   m.def("edge_slope", &cf::edge_slope, nb::arg("contact_modulus"), nb::arg("force_curvature"),
         "Eq. (6): slope c = 2E*/F'' of the one-dimensional profile at the edge of the contact.");
   m.def(
