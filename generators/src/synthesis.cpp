@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Heights from random modes by inverse transform, after a check of the memory.
+// Surfaces of random modes by inverse transform: Gaussian ones, and those with phases alone random.
 #include "synthesis.hpp"
+
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
 
 #include "base/column_fft.hpp"
 #include "base/memory.hpp"
@@ -20,3 +23,22 @@ Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t see
 }
 
 }  // namespace salebra::detail
+
+namespace salebra {
+
+Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+                       const Progress& progress, const Communicator& ranks) {
+  return {
+      grid,
+      detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress, ranks),
+      true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description(), ranks};
+}
+
+Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
+                     const Progress& progress, const Communicator& ranks) {
+  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress, ranks),
+          true, "random phase, seed " + std::to_string(seed) + ", " + spectrum.description(),
+          ranks};
+}
+
+}  // namespace salebra

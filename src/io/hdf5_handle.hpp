@@ -6,6 +6,7 @@
 #include <salebra/base/error.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 /// HDF5 identifiers that close themselves, and calls that throw IoError naming what failed.
 namespace salebra::detail::hdf5 {
@@ -54,6 +55,17 @@ using Properties = Handle<H5Pclose>;
 
 inline void check(herr_t status, const std::string& what) {
   if (status < 0) throw IoError("cannot " + what);
+}
+
+/// Extent of a dataset along each dimension; empty for a scalar.
+inline std::vector<hsize_t> shape_of(hid_t dataset) {
+  const std::string what = "read the shape of a dataset";
+  const Space space(H5Dget_space(dataset), what);
+  const int rank = H5Sget_simple_extent_ndims(space);
+  check(rank, what);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  check(H5Sget_simple_extent_dims(space, shape.data(), nullptr), what);
+  return shape;
 }
 
 /// How a file is to be created: in the earliest format that holds it, so that the bytes are those of

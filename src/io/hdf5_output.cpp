@@ -11,8 +11,6 @@
 #include <salebra/base/share.hpp>
 #include <salebra/base/version.hpp>
 
-#include "hdf5_read.hpp"
-
 namespace salebra::detail::hdf5 {
 namespace {
 

@@ -12,7 +12,7 @@
 
 #include "atomic_file.hpp"
 #include "hdf5_handle.hpp"
-#include "hdf5_sparse.hpp"
+#include "hdf5_drivers.hpp"
 
 namespace salebra::detail::hdf5 {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The only calls of HDF5 on files that are read: their outline, and the numbers of one dataset.
-#include "hdf5_read.hpp"
-
 #include <hdf5_hl.h>
 
 #include <algorithm>
@@ -9,8 +7,8 @@
 #include <set>
 
 #include "base/archive.hpp"
-#include "hdf5_descriptor.hpp"
 #include "hdf5_document.hpp"
+#include "hdf5_drivers.hpp"
 #include "loaded_surface.hpp"
 
 namespace salebra::detail::hdf5 {
@@ -348,15 +346,6 @@ void about(const InputFile& file, const Work& work) {
 }
 
 }  // namespace
-
-std::vector<hsize_t> shape_of(hid_t dataset) {
-  const Space space(H5Dget_space(dataset), "read the shape of a dataset");
-  const int rank = H5Sget_simple_extent_ndims(space);
-  check(rank, "read the shape of a dataset");
-  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
-  check(H5Sget_simple_extent_dims(space, shape.data(), nullptr), "read the shape of a dataset");
-  return shape;
-}
 
 void read_outline(const InputFile& file, const HandOver& hand_over) {
   about(file, [&](const auto& require_read) {

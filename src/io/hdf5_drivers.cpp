@@ -1,15 +1,104 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 file driver of a file in memory with holes.
-#include "hdf5_sparse.hpp"
+// HDF5 file drivers: of an open descriptor, and of a file in memory with holes.
+#include "hdf5_drivers.hpp"
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <limits>
 #include <new>
-
-#include "hdf5_driver.hpp"
 
 namespace salebra::detail::hdf5 {
 namespace {
+
+/// What both drivers have in common. HDF5 casts its base to a driver's file and back.
+struct DriverFile : H5FD_t {
+  haddr_t end_of_addresses = 0, end = 0;
+};
+
+/// A class of drivers with the functions that need no more than a DriverFile; the others are the
+/// driver's own.
+H5FD_class_t driver_class_of(const char* name, std::size_t access_size) {
+  H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION  // HDF5 1.14 and later refuse a class without them
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = H5_VFD_RESERVED;  // the first number that is not of a driver of HDF5's own
+#endif
+  driver.name = name;
+  driver.maxaddr = std::numeric_limits<std::int64_t>::max();
+  driver.fc_degree = H5F_CLOSE_WEAK;
+  driver.fapl_size = access_size;
+  // Without a comparison HDF5 would take two files for one.
+  driver.cmp = [](const H5FD_t* a, const H5FD_t* b) { return a < b ? -1 : a > b ? 1 : 0; };
+  driver.get_eoa = [](const H5FD_t* file, H5FD_mem_t) {
+    return static_cast<const DriverFile*>(file)->end_of_addresses;
+  };
+  driver.set_eoa = [](H5FD_t* file, H5FD_mem_t, haddr_t address) {
+    static_cast<DriverFile*>(file)->end_of_addresses = address;
+    return herr_t{0};
+  };
+  driver.get_eof = [](const H5FD_t* file, H5FD_mem_t) {
+    return static_cast<const DriverFile*>(file)->end;
+  };
+  for (H5FD_mem_t& kind : driver.fl_map) kind = H5FD_MEM_DEFAULT;
+  return driver;
+}
+
+constexpr haddr_t longest = std::numeric_limits<off_t>::max();
+
+thread_local int read_failure = 0;
+
+struct OpenFile : DriverFile {
+  int descriptor = -1;
+};
+
+H5FD_t* open_file(const char*, unsigned flags, hid_t access, haddr_t) {
+  const auto* descriptor = static_cast<const int*>(H5Pget_driver_info(access));
+  struct stat status {};
+  if (!descriptor || (flags & H5F_ACC_RDWR) != 0 || fstat(*descriptor, &status) != 0)
+    return nullptr;
+  auto* file = new (std::nothrow) OpenFile();
+  if (!file) return nullptr;
+  file->descriptor = *descriptor;
+  file->end = static_cast<haddr_t>(status.st_size);
+  return file;
+}
+
+herr_t close_file(H5FD_t* file) {
+  delete static_cast<OpenFile*>(file);
+  return 0;
+}
+
+herr_t read_bytes(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
+                  void* buffer) {
+  if (address > longest || size > longest - address) return -1;
+  auto* to = static_cast<char*>(buffer);
+  while (size > 0) {
+    const ssize_t got = pread(static_cast<const OpenFile*>(file)->descriptor, to, size,
+                              static_cast<off_t>(address));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) read_failure = errno;
+    if (got <= 0) return -1;
+    to += got;
+    address += static_cast<haddr_t>(got);
+    size -= static_cast<std::size_t>(got);
+  }
+  return 0;
+}
+
+herr_t refuse_to_write(H5FD_t*, H5FD_mem_t, hid_t, haddr_t, std::size_t, const void*) { return -1; }
+
+H5FD_class_t driver_class() {
+  H5FD_class_t driver = driver_class_of("salebra_descriptor", sizeof(int));
+  driver.open = open_file;
+  driver.close = close_file;
+  driver.read = read_bytes;
+  driver.write = refuse_to_write;
+  return driver;
+}
 
 /// What a file access property list carries.
 struct Access {
@@ -94,6 +183,18 @@ Properties access_to(SparseImage& image) {
 
 }  // namespace
 
+int failed_read() { return read_failure; }
+
+File open_descriptor(int descriptor) {
+  read_failure = 0;
+  static const H5FD_class_t driver = driver_class();
+  static const hid_t id = H5FDregister(&driver);
+  const Properties access(H5Pcreate(H5P_FILE_ACCESS), "prepare reading");
+  check(H5Pset_driver(access, id, &descriptor), "prepare reading");
+  // A name must be there. HDF5 would look for the folder of one that is relative.
+  return {H5Fopen("/descriptor", H5F_ACC_RDONLY, access), "open it as HDF5"};
+}
+
 void SparseImage::write(std::uint64_t place, const char* bytes, std::size_t count) {
   while (count > 0) {
     const std::size_t first = place % page_size, part = std::min(count, page_size - first);
@@ -122,7 +223,6 @@ void SparseImage::read(std::uint64_t place, char* bytes, std::size_t count) cons
 }
 
 File create_in(SparseImage& image) {
-  // A name must be there. HDF5 would look for the folder of one that is relative.
   return {H5Fcreate("/sparse", H5F_ACC_TRUNC, H5P_DEFAULT, access_to(image)),
           "create an HDF5 file in memory"};
 }

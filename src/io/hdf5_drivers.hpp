@@ -10,6 +10,14 @@
 
 namespace salebra::detail::hdf5 {
 
+/// The HDF5 file behind an open descriptor, which stays the caller's. Nothing is opened by name,
+/// locked or written.
+File open_descriptor(int descriptor);
+
+/// The error number of a read of this thread that the system refused since open_descriptor(); 0
+/// where none. HDF5 takes what it cannot read of an optional message for absent.
+int failed_read();
+
 /// The bytes of an HDF5 file in memory, of which only those take any that were written: the fields
 /// that other processes write are holes. The layout is that of HDF5's own files in memory.
 class SparseImage {
