@@ -7,7 +7,7 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list;
+// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list. The tests'
 // ladder_reference.hpp says in plain loops what each does. One source is compiled for each vector
 // width; no header with inline functions may be included there.
 

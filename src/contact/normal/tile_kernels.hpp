@@ -7,9 +7,9 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the active-set solver; reference_kernels.hpp says in plain loops what
-// each of them does. They walk tiles: runs of 16 cells of one row that hold contact or are close to
-// it, since short runs of any length do not vectorise. One source is compiled for each vector
+// The pointwise passes of the active-set solver; the tests' reference_kernels.hpp says in plain
+// loops what each does. They walk tiles: runs of 16 cells of one row that hold contact or are close
+// to it, since short runs of any length do not vectorise. One source is compiled for each vector
 // width; no header with inline functions may be included there, because the linker could then give
 // code for a wide machine to a narrow one.
 

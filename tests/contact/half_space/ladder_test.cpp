@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "base/vector_width.hpp"
-#include "contact/half_space/ladder_reference.hpp"
 #include "contact/half_space/near_field_ladder.hpp"
+#include "ladder_reference.hpp"
 
 namespace salebra::detail {
 namespace {

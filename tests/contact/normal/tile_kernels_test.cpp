@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/vector_width.hpp"
-#include "contact/normal/reference_kernels.hpp"
+#include "reference_kernels.hpp"
 
 namespace salebra::detail {
 

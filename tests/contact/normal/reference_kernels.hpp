@@ -5,11 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tile_kernels.hpp"
+#include "contact/normal/tile_kernels.hpp"
 
 // The tile kernels in their plainest form, cell by cell: what tile_kernels.inl computes, without
 // its vectors, lanes and prefetches. The tests compare the fast kernels with these, and a reader
-// begins here. The solver never calls them.
+// begins here.
 namespace salebra::detail::reference {
 
 // One cell of a tile: its place in a packed array, in the framed residual, and in its row.

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstdlib>
 
-#include "ladder_kernels.hpp"
+#include "contact/half_space/ladder_kernels.hpp"
 
 // The ladder's kernels in their plainest form, cell by cell. The tests compare the fast kernels
-// with these, and a reader begins here. The solver never calls them.
+// with these, and a reader begins here.
 namespace salebra::detail::reference {
 
 // The cubic B-spline at a distance of k cells of the finer grid.
