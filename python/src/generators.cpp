@@ -259,14 +259,14 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
 }
 
 void bind_non_gaussian(nb::module_& m) {
-  nb::class_<HeightDistribution> heights(
+  nb::class_<HeightDistribution> bound(
       m, "HeightDistribution", nb::dynamic_attr(),
       "A distribution of heights; location and scale do not matter.");
   number_method(
-      heights, "quantile", "u",
+      bound, "quantile", "u",
       [](const HeightDistribution& self, double u) { return self.quantile(u); },
       "Height that a fraction u of the surface lies below, 0 < u < 1.");
-  heights.def_ro("name", &HeightDistribution::name);
+  bound.def_ro("name", &HeightDistribution::name);
   m.def("gaussian_heights", &gaussian_heights, "Normal heights.");
   m.def("weibull_heights", &weibull_heights, nb::arg("shape"),
         "Weibull: u = 1 − exp(−x^shape), shape > 0.");
