@@ -11,6 +11,7 @@
 #include <salebra/base/share.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
+#include <salebra/questions/contact.hpp>
 #include <salebra/study/configuration.hpp>
 
 #include "answers.hpp"
@@ -25,8 +26,8 @@ namespace salebra::cli {
 namespace {
 
 Target target_of(const ContactArguments& arguments, const Surface& surface) {
-  if (!arguments.mean_gap.empty()) return {.mean_gap = arguments.mean_gap.front()};
-  if (!arguments.indentation.empty()) return {.indentation = arguments.indentation.front()};
+  if (!arguments.at.mean_gap.empty()) return {.mean_gap = arguments.at.mean_gap.front()};
+  if (!arguments.at.indentation.empty()) return {.indentation = arguments.at.indentation.front()};
   return {.pressure = arguments.pressures_on(surface.grid.area()).front()};
 }
 
@@ -163,25 +164,19 @@ void press_once(const ContactArguments& arguments, Session& session) {
 }
 
 std::size_t ContactArguments::positions() const {
-  std::size_t kinds = 0, count = 0;
-  for (const auto& [option, values] : {std::pair("--pressure", &pressure),
-                                       {"--normal-force", &force},
-                                       {"--mean-gap", &mean_gap},
-                                       {"--indentation", &indentation}}) {
-    if (values->empty()) continue;
-    ++kinds;
-    count = values->size();
-    for (const double value : *values) require_positive(value, option);
-  }
-  require(kinds <= 1, "--pressure", kinds,
+  const std::vector<Standings> given = at.given();
+  for (const Standings& kind : given)
+    for (const double value : kind.values)
+      require_positive(value, "--" + option_word(kind.quantity));
+  require(given.size() <= 1, "--pressure", given.size(),
           "kinds of positions are given; give exactly one of --pressure, --normal-force, "
           "--mean-gap, --indentation");
-  return count;
+  return given.empty() ? 0 : given.front().values.size();
 }
 
 std::vector<double> ContactArguments::pressures_on(double area) const {
-  std::vector<double> pressures = pressure;
-  for (const double newtons : force) pressures.push_back(newtons / area);
+  std::vector<double> pressures = at.pressure;
+  for (const double newtons : at.force) pressures.push_back(newtons / area);
   std::ranges::sort(pressures);
   return pressures;
 }
@@ -228,8 +223,8 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
                "given without --stiffness; give both");
   if (positions > 1) {
     command.require_none_of(once, fmt::format("is of one position, and {} are given", positions));
-    require(!arguments.pressure.empty() || !arguments.force.empty(),
-            arguments.mean_gap.empty() ? "--indentation" : "--mean-gap", positions,
+    require(!arguments.at.pressure.empty() || !arguments.at.force.empty(),
+            arguments.at.mean_gap.empty() ? "--indentation" : "--mean-gap", positions,
             "values are given; several positions are pressures or normal forces");
     return;
   }
@@ -276,13 +271,7 @@ void add_contact_command(Program& program) {
   add_choice(command, "--model", arguments->model, models,
              "boundary elements, or Greenwood and Williamson's summits, as spectral moments tell "
              "of them or each by itself; default bem");
-  command.under("Position (several pressures or forces give a curve)");
-  add_values(command, "--pressure", arguments->pressure, Dimension::pressure, "nominal pressure");
-  add_values(command, "--normal-force", arguments->force, Dimension::force, "normal force");
-  add_values(command, "--mean-gap", arguments->mean_gap, Dimension::length,
-             "mean gap of the deformed surfaces; of summits, of the undeformed ones");
-  add_values(command, "--indentation", arguments->indentation, Dimension::length,
-             "from first touch");
+  arguments->at.add_to(command, "Position (several pressures or forces give a curve)");
   arguments->material.add_to(command);
 
   command.under(boundary_elements);

@@ -33,16 +33,15 @@ struct DampingArguments {
   int steps = 2000;
   PremiseOptions premises;
   MapOptions maps;
-  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude;
+  BodyOptions body;
 
   /// Of slow tangential motions, whose damping constant does not depend on their velocity.
   bool of_damper() const {
     const auto& amplitudes = motion.normal_amplitude;
-    const bool wanted = mass || spring_stiffness || falling_slope || largest_amplitude;
-    return wanted || (motion.mode == "drag" && force_amplitude.empty() &&
-                      motion.frequency.given() && !amplitudes.empty() &&
-                      (motion.drag_velocity.empty() ||
-                       (amplitudes.size() > 1 && motion.frequency.count() > 1)));
+    return body.given() || (motion.mode == "drag" && force_amplitude.empty() &&
+                            motion.frequency.given() && !amplitudes.empty() &&
+                            (motion.drag_velocity.empty() ||
+                             (amplitudes.size() > 1 && motion.frequency.count() > 1)));
   }
 };
 
@@ -133,7 +132,7 @@ void lose(const DampingArguments& arguments, Session& session) {
                            .facts = arguments.premises.facts(arguments.material),
                            .steps = arguments.steps};
   Varied varied = arguments.motion.varied();
-  find_varied(arguments.law, varied);
+  find_varied(arguments.law.at, varied);
   find_varied(question, varied);
   const auto& [quantity, values] = varied;
   arguments.maps.check(motions, session);
@@ -240,17 +239,17 @@ DamperQuestion damper_question(const DampingArguments& arguments) {
                           .angular_frequency = motion.frequency.angular(),
                           .hold = *value_of<Hold>(arguments.hold),
                           .amplitude = *value_of<Amplitude>(arguments.amplitude),
-                          .falling_slope = arguments.falling_slope,
+                          .falling_slope = arguments.body.falling_slope,
                           .facts = arguments.premises.facts(arguments.material)};
   if (!motion.drag_velocity.empty()) {
     require_positive(motion.drag_velocity.front(), "--drag-velocity");
     question.drag_velocity = motion.drag_velocity.front();
   }
-  require_that(arguments.mass || !arguments.spring_stiffness, "--spring-stiffness",
+  require_that(arguments.body.mass || !arguments.body.spring_stiffness, "--spring-stiffness",
                "given, but there is no --mass to oscillate");
-  if (arguments.mass)
-    question.oscillator = {*arguments.mass, arguments.spring_stiffness.value_or(0)};
-  question.largest_amplitude = arguments.largest_amplitude.value_or(
+  if (arguments.body.mass)
+    question.oscillator = {*arguments.body.mass, arguments.body.spring_stiffness.value_or(0)};
+  question.largest_amplitude = arguments.body.largest_amplitude.value_or(
       motion.normal_amplitude.empty() ? 1e-6 : std::ranges::max(motion.normal_amplitude));
   return question;
 }
@@ -275,9 +274,9 @@ void damp(const DampingArguments& arguments, Session& session) {
     object["damping_constant_error"] = constants(answer.damping_constant_error);
   object.add(answer_json(answer));
   if (!amplitudes.empty() && session.has_output())
-    write_map(answer, arguments.falling_slope, session);
+    write_map(answer, arguments.body.falling_slope, session);
   if (session.has_plot()) {
-    const Figure figure = damper_figure(answer, arguments.falling_slope, omega);
+    const Figure figure = damper_figure(answer, arguments.body.falling_slope, omega);
     require_that(!figure.panels.empty(), "--plot",
                  "one number is no picture; give a range, --mass, or --falling-slope with several "
                  "frequencies");
@@ -330,22 +329,13 @@ void add_damping_command(Program& program) {
                   "one period from a file of time, indentation, x and, without slip, y (SI)")
       ->file(FileUse::input)
       ->group(path);
-  command.add_option("--steps", arguments->steps, "straight steps a cycle where slip is followed")
+  add_steps(command, arguments->steps, "straight steps a cycle where slip is followed")
       ->range(8, 10000000)
       ->group(path);
-  const std::string use = "Use, of slow tangential motions (--drag-velocity may be left out)";
-  add_quantity(command, "--mass", arguments->mass, Dimension::mass,
-               "of a tangential oscillator on the contact")
-      ->group(use);
-  add_quantity(command, "--spring-stiffness", arguments->spring_stiffness, Dimension::stiffness,
-               "of its spring, without the contact")
-      ->group(use);
-  add_quantity(command, "--falling-slope", arguments->falling_slope, Dimension::damping,
-               "b of a friction force that falls by b per velocity")
-      ->group(use);
-  add_quantity(command, "--largest-amplitude", arguments->largest_amplitude, Dimension::length,
-               "to look for stability in; default the largest --normal-amplitude, or 1um")
-      ->group(use);
+  const std::string before =
+      command.under("Use, of slow tangential motions (--drag-velocity may be left out)");
+  arguments->body.add_to(command, "the largest --normal-amplitude, or 1um");
+  command.under(before);
   arguments->maps.add_to(command);
   arguments->premises.add_to(command);
   arguments->material.add_to(command);

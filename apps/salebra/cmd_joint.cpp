@@ -130,8 +130,7 @@ void add_joint_command(Program& program) {
                "u_z; without it the normal force is constant");
   add_quantity(command, "--phase", arguments->phase, Dimension::angle,
                "of the tangential motion against the normal one; default 0");
-  command
-      .add_option("--steps", arguments->steps, "in a cycle with a normal oscillation; default 2000")
+  add_steps(command, arguments->steps, "in a cycle with a normal oscillation; default 2000")
       ->range(16, 10000000);
   command
       .add_option("--direct-steps", arguments->direct_steps,

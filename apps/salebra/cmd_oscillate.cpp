@@ -323,7 +323,7 @@ void add_oscillate_command(Program& program) {
   add_choice(command, "--method", arguments->method, {"levels", "both"},
              "levels: contact sets at a few indentations; both: also step through the cycle; "
              "default both");
-  command.add_option("--steps", arguments->steps, "changes of the contact in a cycle; default 64");
+  add_steps(command, arguments->steps, "changes of the contact in a cycle; default 64");
   command.add_option("--levels", arguments->levels, "contact levels; default 16, 32 for drag");
   add_quantity(command, "--relative-error", arguments->relative_error, Dimension::dimensionless,
                "of the levels' loss, such as 1%: chooses levels and, for a shape, cells");

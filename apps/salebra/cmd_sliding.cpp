@@ -27,14 +27,13 @@ struct SlidingArguments {
   SlidingQuestion sliding;
   FrequencyOptions frequency;
   std::string hold = "indentation", start = "rest";
-  std::optional<double> mass, spring_stiffness, support_damping, falling_slope, largest_amplitude,
-      tolerance;
+  BodyOptions body;
+  std::optional<double> support_damping, tolerance;
   std::optional<int> steps, most_cycles;
   PremiseOptions premises;
 
   bool of_slider() const {
-    return mass || spring_stiffness || support_damping || falling_slope || largest_amplitude ||
-           tolerance || steps || most_cycles || start != "rest";
+    return body.given() || support_damping || tolerance || steps || most_cycles || start != "rest";
   }
 };
 
@@ -55,8 +54,8 @@ void check(const SlidingArguments& arguments) {
   const bool slider = arguments.of_slider();
   std::vector<std::string> missing;
   if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
-  if (slider && !arguments.mass) missing.emplace_back("--mass");
-  if (slider && !arguments.spring_stiffness) missing.emplace_back("--spring-stiffness");
+  if (slider && !arguments.body.mass) missing.emplace_back("--mass");
+  if (slider && !arguments.body.spring_stiffness) missing.emplace_back("--spring-stiffness");
   if (!slider && sliding.normal_amplitude.empty()) missing.emplace_back("--normal-amplitude");
   const bool oscillates =
       std::ranges::any_of(sliding.normal_amplitude, [](double u) { return u != 0; });
@@ -176,15 +175,15 @@ void slide(const SlidingArguments& arguments, Session& session) {
 SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
   const SlidingQuestion& sliding = arguments.sliding;
   SliderQuestion question{
-      .slider = {.mass = *arguments.mass,
-                 .spring_stiffness = *arguments.spring_stiffness,
+      .slider = {.mass = *arguments.body.mass,
+                 .spring_stiffness = *arguments.body.spring_stiffness,
                  .velocity = sliding.velocities.front(),
                  .support_damping = arguments.support_damping.value_or(0),
-                 .falling_slope = arguments.falling_slope.value_or(0)},
+                 .falling_slope = arguments.body.falling_slope.value_or(0)},
       .normal = {sliding.normal_amplitude.empty() ? 0 : sliding.normal_amplitude.front(),
                  arguments.frequency.given() ? arguments.frequency.angular().front() : 0},
       .friction_coefficient = *arguments.premises.friction_coefficient,
-      .largest_amplitude = arguments.largest_amplitude};
+      .largest_amplitude = arguments.body.largest_amplitude};
   SliderOptions& options = question.options;
   options.hold = *value_of<Hold>(arguments.hold);
   options.start = *value_of<SliderStart>(arguments.start);
@@ -232,23 +231,15 @@ void run(const SlidingArguments& arguments, Session& session) {
 }
 
 void add_slider(Command& command, SlidingArguments& arguments) {
-  const Heading under(command, "Slider on a spring");
-  add_quantity(command, "--mass", arguments.mass, Dimension::mass,
-               "m of a slider that a spring drags, in place of steady sliding");
-  add_quantity(command, "--spring-stiffness", arguments.spring_stiffness, Dimension::stiffness,
-               "k of the spring that drags it");
+  const Heading under(command, "Slider on a spring, in place of steady sliding");
+  arguments.body.add_to(command, "10 times that of the smallest effect");
   add_quantity(command, "--support-damping", arguments.support_damping, Dimension::damping,
                "c of a dashpot in parallel with the spring; default 0");
-  add_quantity(command, "--falling-slope", arguments.falling_slope, Dimension::damping,
-               "b of a friction force that falls by b per velocity; default 0");
   add_choice<SliderStart>(command, "--start", arguments.start,
                           "where the motion begins: at rest, on the point of slipping, or sliding "
                           "with a small disturbance; default rest");
-  add_quantity(command, "--largest-amplitude", arguments.largest_amplitude, Dimension::length,
-               "to look for the threshold in; default 10 times that of the smallest effect");
-  command
-      .add_option("--steps", arguments.steps,
-                  "in a period of the oscillation, doubled until the tolerance is met; default 32")
+  add_steps(command, arguments.steps,
+            "in a period of the oscillation, doubled until the tolerance is met; default 32")
       ->range(16, 100000);
   command
       .add_option("--most-cycles", arguments.most_cycles,

@@ -171,7 +171,7 @@ void add_viscoelastic_command(Program& program) {
       ->type_name("LIST");
   command.under("Options");
   arguments->motion.add_to(command);
-  command.add_option("--steps", arguments->steps, "straight steps of a cycle; default 512")
+  add_steps(command, arguments->steps, "straight steps of a cycle; default 512")
       ->range(16, 1000000);
   command
       .add_option("--springs", arguments->springs, "in the ring that opens and closes; default 200")

@@ -20,8 +20,7 @@ struct ContactArguments {
   MaterialOptions material;
   std::string model = "bem";
 
-  /// Positions; one of them has values.
-  std::vector<double> pressure, force, mean_gap, indentation;
+  PositionsOptions at;
 
   std::string boundary = "periodic", precision = "mixed";
   bool stiffness = false, stick = false;

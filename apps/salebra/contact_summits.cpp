@@ -68,8 +68,8 @@ ForceCurve curve_of(const ContactArguments& arguments, const AsperityModel& mode
   const std::vector<double> pressures = arguments.pressures_on(common.nominal_area);
   if (!pressures.empty()) return curve_at_pressures(model, pressures);
   std::vector<double> separations;
-  for (const double gap : arguments.mean_gap) separations.push_back(gap - common.mean_height);
-  for (const double depth : arguments.indentation)
+  for (const double gap : arguments.at.mean_gap) separations.push_back(gap - common.mean_height);
+  for (const double depth : arguments.at.indentation)
     separations.push_back(common.first_touch - depth);
   return curve_at_separations(model, separations);
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <salebra/base/error.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <utility>
@@ -13,33 +12,24 @@
 namespace salebra::cli {
 namespace {
 
-constexpr auto position_members =
-    std::to_array<std::pair<Standing, std::vector<double> LawOptions::*>>(
-        {{Standing::normal_force, &LawOptions::force},
-         {Standing::indentation, &LawOptions::indentation},
-         {Standing::mean_gap, &LawOptions::mean_gap},
-         {Standing::pressure, &LawOptions::pressure}});
-
 std::string option_named(Standing standing) { return "--" + option_word(standing); }
 
 /// The one position that was given, and its values.
 Standings position_of(const LawOptions& arguments, const std::vector<Standing>& allowed) {
-  std::optional<Standings> found;
-  for (const auto& [standing, values] : position_members) {
-    if ((arguments.*values).empty()) continue;
-    require_that(!found, option_named(standing),
-                 fmt::format("given together with {}; give one of them",
-                             found ? option_named(found->quantity) : ""));
-    found = {standing, arguments.*values};
-  }
+  const std::vector<Standings> given = arguments.at.given();
   std::vector<std::string> options;
   for (const Standing standing : allowed) options.push_back(option_named(standing));
-  if (!found)
+  if (given.empty())
     throw InvalidInput(fmt::format("{}", fmt::join(options, ", ")), "not given; give one of them");
-  require_that(std::ranges::find(allowed, found->quantity) != allowed.end(),
-               option_named(found->quantity),
+  const Standings& found = given.front();
+  if (given.size() > 1)
+    throw InvalidInput(
+        option_named(given[1].quantity),
+        fmt::format("given together with {}; give one of them", option_named(found.quantity)));
+  require_that(std::ranges::find(allowed, found.quantity) != allowed.end(),
+               option_named(found.quantity),
                fmt::format("given, but this contact stands at {}", fmt::join(options, " or ")));
-  return *found;
+  return found;
 }
 
 }  // namespace
@@ -64,15 +54,7 @@ void LawOptions::add_to(Command& command) {
       ->file(FileUse::input)
       ->group(group);
   surface.add_to(command, false, "--surface");
-  const std::string position = "Position (may be a range)";
-  add_values(command, "--normal-force", force, Dimension::force, "normal force")->group(position);
-  add_values(command, "--indentation", indentation, Dimension::length, "from first touch")
-      ->group(position);
-  add_values(command, "--pressure", pressure, Dimension::pressure,
-             "nominal pressure, of a curve or a surface")
-      ->group(position);
-  add_values(command, "--mean-gap", mean_gap, Dimension::length, "mean gap, of a curve")
-      ->group(position);
+  at.add_to(command, "Position (may be a range)");
 }
 
 ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_positions) const {
@@ -91,8 +73,8 @@ ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_posi
   if (indenter.law == "exponential") {
     standing({normal_force});
     const double length = required(decay_length, "--decay-length", "--law exponential needs it");
-    require_that(!force.empty(), "--normal-force", "not given, but --law exponential needs it");
-    return ExponentialContact{length, material.modulus_ratio(), force};
+    require_that(!at.force.empty(), "--normal-force", "not given, but --law exponential needs it");
+    return ExponentialContact{length, material.modulus_ratio(), at.force};
   }
   return IndenterContact{.profile = indenter.indenter(),
                          .material = material.material_with_tangential_modulus(),

@@ -17,7 +17,7 @@ struct LawOptions {
   IndenterOptions indenter;  ///< --law, exponential beside the shapes
   std::string curve;
   SurfaceOptions surface;
-  std::vector<double> force, indentation, pressure, mean_gap;
+  PositionsOptions at;
   std::optional<double> decay_length;
 
   void add_to(Command& command);
@@ -41,13 +41,5 @@ struct LawOptions {
   /// The question; without positions, where they are not needed, of what was given as one.
   ContactQuestion read(const MaterialOptions& material, bool positions) const;
 };
-
-constexpr void describe(auto&& visit, std::type_identity<LawOptions>) {
-  using S = LawOptions;
-  visit(&S::force, quantity::force);
-  visit(&S::indentation, quantity::indentation);
-  visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
-  visit(&S::mean_gap, Quantity{"mean_gap", Dimension::length, "mean gap"});
-}
 
 }  // namespace salebra::cli

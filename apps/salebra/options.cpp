@@ -283,6 +283,36 @@ void DryRunOptions::add_to(Command& command, bool of_processes) {
   command.add_option("--nodes", nodes, "with --dry-run: on so many machines")->range(1, 1 << 20);
 }
 
+void PositionsOptions::add_to(Command& app, const std::string& heading) {
+  const Heading under(app, heading);
+  add_values(app, "--normal-force", force, Dimension::force, "normal force");
+  add_values(app, "--indentation", indentation, Dimension::length, "from first touch");
+  add_values(app, "--pressure", pressure, Dimension::pressure,
+             "nominal pressure, of a surface or a curve");
+  add_values(app, "--mean-gap", mean_gap, Dimension::length,
+             "mean gap, of a surface or a curve; of summits, that of the undeformed surfaces");
+}
+
+std::vector<Standings> PositionsOptions::given() const {
+  std::vector<Standings> kinds{{Standing::normal_force, force},
+                               {Standing::indentation, indentation},
+                               {Standing::mean_gap, mean_gap},
+                               {Standing::pressure, pressure}};
+  std::erase_if(kinds, [](const Standings& kind) { return kind.values.empty(); });
+  return kinds;
+}
+
+void BodyOptions::add_to(Command& app, const std::string& largest) {
+  add_quantity(app, "--mass", mass, Dimension::mass,
+               "m of a body on the contact, which a spring holds or drags");
+  add_quantity(app, "--spring-stiffness", spring_stiffness, Dimension::stiffness,
+               "k of the spring, without the contact");
+  add_quantity(app, "--falling-slope", falling_slope, Dimension::damping,
+               "b of a friction force that falls by b per velocity");
+  add_quantity(app, "--largest-amplitude", largest_amplitude, Dimension::length,
+               "u_z up to which stable sliding is looked for; default " + largest);
+}
+
 void PositionOptions::add_to(Command& app) {
   const Heading under(app, "Position");
   add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure");

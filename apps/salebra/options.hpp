@@ -18,7 +18,8 @@
 
 namespace salebra {
 struct FirstLoading;
-}
+struct Standings;
+}  // namespace salebra
 
 /// Option groups that several commands share. Each is a plain struct that must outlive the parsing;
 /// add_to() declares the options, the other functions turn what was given into the library's types
@@ -48,6 +49,12 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
   std::vector<std::string> words;
   for (const auto& [value, word] : Words<Enum>::values) words.push_back(option_word(value));
   return add_choice(app, name, target, words, help);
+}
+
+/// --steps of a cycle.
+template <class Target>
+Option* add_steps(Command& app, Target& target, const std::string& help) {
+  return app.add_option("--steps", target, help);
 }
 
 /// --seed, any whole number.
@@ -132,6 +139,23 @@ struct DryRunOptions {
   void add_to(Command& command, bool of_processes = true);
 };
 
+/// Where contacts stand: one kind of position is given, with one value or several.
+struct PositionsOptions {
+  std::vector<double> force, indentation, mean_gap, pressure;
+
+  void add_to(Command& app, const std::string& heading);
+  /// The kinds that were given.
+  std::vector<Standings> given() const;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<PositionsOptions>) {
+  using S = PositionsOptions;
+  visit(&S::force, quantity::force);
+  visit(&S::indentation, quantity::indentation);
+  visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
+  visit(&S::mean_gap, Quantity{"mean_gap", Dimension::length, "mean gap"});
+}
+
 /// Where a contact stands. At most one is given.
 struct PositionOptions {
   std::optional<double> mean_gap, pressure, indentation, force;
@@ -141,6 +165,15 @@ struct PositionOptions {
   int count() const;
   /// Pa, where it or the force was given.
   std::optional<double> nominal_pressure(const Grid2D& grid) const;
+};
+
+/// A body on the contact, and what makes its steady sliding unstable.
+struct BodyOptions {
+  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude;
+
+  /// largest: the default of the last one.
+  void add_to(Command& app, const std::string& largest);
+  bool given() const { return mass || spring_stiffness || falling_slope || largest_amplitude; }
 };
 
 /// --frequency or --angular-frequency of the normal motion.
