@@ -47,7 +47,9 @@ print(f"from the curve {measured.damping_constant / ball.damping_constant:.3f} o
 # %%
 facts = salebra.ContactFacts(friction_coefficient=0.3, hardness=1e9, density=1200, excursion=1e-9)
 judged = salebra.relaxation_damping(indenter, motion, force=force, facts=facts)
-print(judged.premises.objections or "all premises that can be judged hold")
+print(judged.premises.validity)
+for one in judged.premises.conditions():
+    print(one.verdict, one.condition, one.here, one.remedy, sep="; ")
 if not (worn.converged and ball.converged and measured.converged):
     sys.exit(1)
 

@@ -52,7 +52,7 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
   return answer;
 }
 
-Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
+Json comparison_json(const StudyResult& result, const StudyAnswer& found) {
   Json models = Json::object();
   for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
   const StudyTheories theories = result.theories();
@@ -74,7 +74,8 @@ Json comparison_json(const StudyResult& result, const StudyPremises& premises) {
                  {"flags", flags_json(result)},
                  {"interval_method", result.interval_method()}};
   add_first_loading(answer, result);
-  add_premises(answer, premises);
+  answer["damping"] = damping_json(found);
+  premises_of(found, result).add_to(answer);
   return answer;
 }
 
@@ -148,14 +149,14 @@ std::string loads_table(const StudyResult& result) {
          to_table(rows);
 }
 
-std::string damping_table(const StudyResult& result, const StudyPremises& premises) {
+std::string damping_table(const StudyResult& result, const StudyAnswer& found) {
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   std::vector<std::vector<std::string>> rows{{"model", "route"}};
   const auto shown = shown_pressures(result, 5);
   for (const std::size_t k : shown)
     rows.front().push_back(number(result.pressures[k] / result.contact_scale, 2));
   const std::pair<const char*, double DampingPoint::*> routes[] = {
-      {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::work_per_cycle_eq16},
+      {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::work_per_cycle_closed_form},
       {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_amplitude_work},
       {"theorem", &DampingPoint::work_per_cycle}};
   for (const StudyModel& model : result.models()) {
@@ -171,18 +172,17 @@ std::string damping_table(const StudyResult& result, const StudyPremises& premis
     const auto reference = result.damping(&DampingPoint::work_per_cycle);
     std::vector<std::string> row{"boundary elements with slip", "springs"};
     for (const std::size_t k : shown)
-      row.push_back(number(premises.losses[k].work_per_cycle / reference[k].mean));
+      row.push_back(number(found.work_per_cycle[k].mean / reference[k].mean));
     rows.push_back(std::move(row));
   }
   return "Damping over that of the boundary-element curve (theorem), at p/(E* h') = …\n" +
          to_table(rows, 2, true);
 }
 
-std::string comparison_text(const StudyResult& result, const StudyPremises& premises) {
-  const PremiseReport judged{premises.premises, true, result.pressures};
-  return heading(result) + judged.above() + slopes_table(result) + law_verdict(result) + "\n" +
-         loads_table(result) + "\n" + damping_table(result, premises) + judged.open_points() +
-         "\n" + ensemble_remarks(result);
+std::string comparison_text(const StudyResult& result, const StudyAnswer& found) {
+  return heading(result) + slopes_table(result) + law_verdict(result) + "\n" + loads_table(result) +
+         "\n" + damping_table(result, found) + "\n" + premises_of(found, result).text() + "\n" +
+         ensemble_remarks(result);
 }
 
 struct CompareArguments {
@@ -205,18 +205,18 @@ void run(const CompareArguments& arguments, Session& session) {
   Json answer = Json::object();
   std::string text;
   if (configuration.ensemble.empty()) {
-    const StudyPremises premises = premises_of(results.front());
-    answer = comparison_json(results.front(), premises);
-    text = comparison_text(results.front(), premises);
+    const StudyAnswer found = answer_of(results.front());
+    answer = comparison_json(results.front(), found);
+    text = comparison_text(results.front(), found);
   } else {
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
       Json point = {{"point", name}};
-      const StudyPremises premises = premises_of(result);
-      const Json comparison = comparison_json(result, premises);
+      const StudyAnswer found = answer_of(result);
+      const Json comparison = comparison_json(result, found);
       for (const auto& [key, part] : comparison.items()) point[key] = part;
       answer["points"].push_back(std::move(point));
-      text += "== " + name + " ==\n" + comparison_text(result, premises) + "\n";
+      text += "== " + name + " ==\n" + comparison_text(result, found) + "\n";
     }
   }
   answer["files"] = files.json();

@@ -91,7 +91,9 @@ void follow_file(const DampingArguments& arguments, Session& session) {
     file.commit();
   }
   session.plot(cycle_figure(path, answer.loss));
-  PremiseReport{{answer.premises}}.answer(session, json_of(answer.loss));
+  PremiseReport{.cases = {answer.premises},
+                .slip_followed = arguments.premises.friction_coefficient.has_value()}
+      .answer(session, json_of(answer.loss));
 }
 
 // An indenter without a motion.

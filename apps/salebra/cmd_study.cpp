@@ -5,159 +5,235 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/study/study.hpp>
 
 #include "compare_figure.hpp"
+#include "option_words.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
 namespace {
 
-Json study_json(const StudyResult& result, const StudyPremises& premises, const StudyFiles& files) {
+Json study_json(const StudyResult& result, const StudyAnswer& answer, const StudyFiles& files) {
   Json comparison;
   for (const StudyModel& model : result.models()) {
     comparison[model.name] = {
         {"decay_length", to_json(result.decay_length(model.id))},
         {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model.id))}};
   }
-  Json damping =
-      columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); });
-  damping["deviation"] = to_json(result.deviation());
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
+  Json damping;
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
+  damping.add(damping_json(answer));
+  damping["deviation"] = to_json(result.deviation());
+  damping.add(
+      columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); }));
   damping.erase("damping_constant_error");
-  damping["damping_constant"] = to_json(result.stated_damping());
-  damping["damping_constant_eq16"]["error"] = std::vector<Json>(forces.size());
-  Json answer = {{"decay_length", to_json(result.decay_length())},
+  Json object = {{"decay_length", to_json(result.decay_length())},
                  {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
                  {"damping", damping},
                  {"comparison", comparison},
                  {"realisations", result.realisations.size()},
                  {"flags", flags_json(result)},
                  {"files", files.json()}};
-  add_first_loading(answer, result);
-  add_premises(answer, premises);
-  return answer;
+  add_first_loading(object, result);
+  premises_of(answer, result).add_to(object);
+  return object;
 }
 
-/// What the difference between the law and the curve amounts to, in one sentence.
-std::string verdict(const StudyResult& result, const std::string& law) {
-  const auto [low, high] = result.deviation_range();
-  if (std::isnan(low))
-    return law + " could not be compared: no damping constant is known at any force.";
-  return fmt::format(
-      "{} with the fitted decay length is between {:+.0f} % and {:+.0f} % off the damping constant "
-      "computed.",
-      law, 100 * low, 100 * high);
+/// The place of the last digit that an error leaves of a value, in units of `unit`: three digits, or
+/// fewer.
+double last_place(double value, double error, double unit) {
+  if (value == 0 || std::isnan(value)) return 1;
+  const double relative = std::isnan(error) ? 0 : error / std::abs(value);
+  const double digits =
+      relative > 0 ? std::clamp(std::ceil(-std::log10(relative)) + 1, 1.0, 3.0) : 3;
+  return std::pow(10, std::floor(std::log10(std::abs(value / unit))) + 1 - digits);
 }
 
-/// What one surface has in place of an interval: how l varies along its curve, and with the part of
-/// the window that is fitted.
-std::vector<std::string> one_surface_row(const std::string& title, const std::string& length,
-                                         const std::string& relative, const ModelResult& model) {
-  const auto range = [](double from, double to) {
-    return from > 0 && to > 0 ? fmt::format("{:.3f} … {:.3f}", from, to) : "n/a";
+std::string rounded(double value, double unit, double place) {
+  if (std::isnan(value)) return "n/a";
+  const int decimals = std::max(0, int(-std::floor(std::log10(place) + 1e-9)));
+  // Without the sign of a zero.
+  return fmt::format("{:.{}f}", std::round(value / unit / place) * place + 0.0, decimals);
+}
+
+std::string digits_of(double value, double error, double unit) {
+  return rounded(value, unit, last_place(value, error, unit));
+}
+
+/// "+25 %", and "x 48" beyond a factor of two.
+std::string off_by(double ratio) {
+  return std::isnan(ratio) ? "n/a"
+         : ratio > 2       ? fmt::format("x {:.2g}", ratio)
+                           : fmt::format("{:+.0f} %", 100 * (ratio - 1));
+}
+
+/// A unit in which the largest of a column has one to five digits before the point.
+std::pair<double, std::string> unit_of(const std::vector<StatedMean>& constants) {
+  double most = 0;
+  for (const StatedMean& one : constants) most = std::fmax(most, std::abs(one.mean));
+  return most > 2e4               ? std::pair(1e3, "kN s/m")
+         : most > 0 && most < 1 ? std::pair(1e-3, "mN s/m")
+                                  : std::pair(1.0, "N s/m");
+}
+
+std::string motion_text(const StudyConfiguration& configuration) {
+  const auto quantity = [](double value, Dimension dimension) {
+    return format_quantity(value, dimension, 3);
   };
-  return {
-      title, length, relative,
-      range(model.decay_length_closest_over_rms_height(),
-            model.decay_length_farthest_over_rms_height()),
-      range(model.decay_length_min_over_rms_height(), model.decay_length_max_over_rms_height())};
+  const auto frequency = [&](double omega) {
+    return quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
+  };
+  if (const auto* drag = std::get_if<Drag>(&configuration.motion))
+    return fmt::format("slow shear{} at {} under {} at {}",
+                       std::isnan(configuration.known.excursion)
+                           ? ""
+                           : " over " + quantity(configuration.known.excursion, Dimension::length),
+                       quantity(drag->drag_velocity, Dimension::velocity),
+                       quantity(drag->normal_amplitude, Dimension::length),
+                       frequency(drag->angular_frequency));
+  const auto& equal = std::get<EqualFrequency>(configuration.motion);
+  return fmt::format("{} along and {} across the surface, {} apart, at {}",
+                     quantity(equal.tangential_amplitude, Dimension::length),
+                     quantity(equal.normal_amplitude, Dimension::length),
+                     quantity(equal.phase, Dimension::angle), frequency(equal.angular_frequency));
 }
 
-/// With as many digits as the error leaves.
-std::string damping_text(const StatedMean& estimate) {
-  const double relative = estimate.error / std::abs(estimate.mean);
-  double value = estimate.mean;
-  if (relative > 0 && value != 0) {
-    const double digits = std::clamp(std::ceil(-std::log10(relative)) + 1, 1.0, 4.0);
-    const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) + 1 - digits);
-    value = std::round(value / unit) * unit;
-  }
-  return format_quantity(value, Dimension::damping);
-}
-
-std::string decay_length_table(const StudyResult& result) {
-  const bool sample = result.realisations.size() > 1;
-  std::vector<std::vector<std::string>> rows{
-      sample ? std::vector<std::string>{"model", "l", "95 % interval", "l/h_rms", "95 % interval"}
-             : std::vector<std::string>{"model", "l", "l/h_rms", "closest … farthest",
-                                        "parts of the window"}};
-  for (const StudyModel& model : result.models()) {
-    const EnsembleMean length = result.decay_length(model.id);
-    const EnsembleMean ratio = result.decay_length_over_rms_height(model.id);
-    const std::string l = format_quantity(length.mean, Dimension::length);
-    const std::string relative = std::isnan(ratio.mean) ? "n/a" : fmt::format("{:.3f}", ratio.mean);
+/// The table of loads: γ of the motion as described, beside it what the theorem says without slip
+/// and the closed form.
+std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
+  const bool sample = result.realisations.size() > 1, slip = answer.slip_followed;
+  const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
+  const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
+  const auto& without = answer.damping_constant_without_slip;
+  const auto by_law = result.damping(&DampingPoint::damping_constant_closed_form);
+  const auto [unit, name] =
+      unit_of(slip && answer.needs.empty() ? answer.damping_constant : without);
+  std::vector<std::string> head{"nominal p", "force", slip ? "γ, " + name : "γ no slip, " + name};
+  if (sample) head.push_back("95 % interval");
+  head.push_back("error");
+  if (slip) head.insert(head.end(), {"by slip", "no slip"});
+  head.push_back(law);
+  if (!slip) head.push_back("off by");
+  std::vector<std::vector<std::string>> rows{head};
+  for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+    const StatedMean& main = answer.damping_constant[k];
+    const double relative = main.error / std::abs(main.mean);
+    std::vector<std::string> row{
+        format_quantity(result.pressures[k], Dimension::pressure, 3),
+        format_quantity(result.pressures[k] * result.grid.area(), Dimension::force, 3),
+        digits_of(main.mean, main.error, unit)};
+    const double place = last_place(main.mean, main.error, unit);
     if (sample)
-      rows.push_back({model.title, l, interval(length, Dimension::length), relative,
-                      interval(ratio, Dimension::dimensionless)});
-    else
-      rows.push_back(
-          one_surface_row(model.title, l, relative, result.realisations.front().of(model.id)));
+      row.push_back(std::isnan(main.low)
+                        ? "n/a"
+                        : rounded(main.low, unit, place) + " … " + rounded(main.high, unit, place));
+    row.push_back(std::isfinite(relative) ? fmt::format("{:.2g} %", 100 * relative) : "n/a");
+    if (slip) {
+      row.push_back(std::isnan(answer.slip_share[k])
+                        ? "n/a"
+                        : fmt::format("{:.0f} %", 100 * answer.slip_share[k]));
+      row.push_back(digits_of(without[k].mean, without[k].error, unit));
+    }
+    row.push_back(digits_of(by_law[k].mean, ForceSample::unknown, unit));
+    if (!slip) row.push_back(off_by(by_law[k].mean / without[k].mean));
+    rows.push_back(std::move(row));
   }
-  return "Decay length l of pressure = p0 exp(-mean gap/l)\n" + to_table(rows, 2, true) +
-         (sample ? "  (" + result.interval_method() + ")\n"
-                 : "  (l/h_rms at the closest and the farthest gap of the window, and of fits to "
-                   "parts of it; an interval needs several surfaces)\n");
+  return to_table(rows);
 }
 
-std::string damping_table(const StudyResult& result, const StudyPremises& premises,
-                          const std::string& law) {
-  const bool sample = result.realisations.size() > 1,
-             slip = !std::isnan(result.configuration.known.friction_coefficient);
-  std::vector<std::vector<std::string>> rows{{"pressure", "force", law, "computed", "error"}};
-  if (sample) rows[0].push_back("95 % interval");
-  rows[0].push_back(law + " is off by");
-  if (slip) rows[0].push_back("with slip");
-  const auto by_law = result.damping(&DampingPoint::damping_constant_eq16);
-  const auto computed = result.stated_damping();
-  int unstated = 0;
-  const auto deviation = result.deviation();
-  for (std::size_t i = 0; i < result.pressures.size(); ++i) {
-    const double relative = computed[i].error / std::abs(computed[i].mean);
-    rows.push_back({format_quantity(result.pressures[i], Dimension::pressure),
-                    format_quantity(result.pressures[i] * result.grid.area(), Dimension::force),
-                    format_quantity(by_law[i].mean, Dimension::damping), damping_text(computed[i]),
-                    std::isfinite(relative) ? fmt::format("{:.2g} %", 100 * relative) : "n/a"});
-    unstated += std::isnan(computed[i].mean) && !std::isnan(computed[i].error);
-    if (sample) rows.back().push_back(interval(computed[i], Dimension::damping));
-    rows.back().push_back(
-        std::isnan(deviation[i].mean) ? "n/a" : fmt::format("{:+.1f} %", 100 * deviation[i].mean));
-    if (slip)
-      rows.back().push_back(
-          format_quantity(premises.damping_constant_with_slip[i], Dimension::damping));
-  }
-  std::string text = "Damping constant: " + describe_motion(result.configuration.motion) + "\n" +
-                     to_table(rows) + "\n";
+/// What a reader has to know before the numbers are of use, and after.
+std::string notes(const StudyResult& result, const StudyAnswer& answer) {
+  std::string text;
+  if (!answer.needs.empty())
+    text += in_options(
+        fmt::format("γ is n/a: with friction it depends on the `{}`; give it.\n", answer.needs));
+  const auto& without = answer.damping_constant_without_slip;
+  const auto unstated = std::ranges::count_if(without, [](const StatedMean& one) {
+    return std::isnan(one.mean) && !std::isnan(one.error);
+  });
   if (unstated > 0)
     text += fmt::format(
-        "n/a at {} of {} pressures: the error is larger than the number, because too few cells "
-        "touch and part in the oscillation; a finer grid or --relative-error may help.\n",
+        "n/a at {} of {} loads: the error exceeds the number, because too few cells\n"
+        "touch and part; a finer grid or --relative-error may help.\n",
         unstated, result.pressures.size());
   return text;
 }
 
-std::string study_text(const StudyResult& result, const StudyPremises& premises,
-                       const StudyFiles& files) {
-  const PremiseReport judged{premises.premises, true, result.pressures};
+/// The decay length with its interval, and whether one describes the curve.
+std::string law_line(const StudyResult& result) {
+  const EnsembleMean length = result.decay_length(), ratio = result.decay_length_over_rms_height();
+  if (std::isnan(length.mean)) return "Force law: no window to fit\n";
+  const std::optional<LawDescription> law = result.law_description();
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
-  std::string text = heading(result) + judged.above() + decay_length_table(result) +
-                     law_verdict(result) + "\n" + damping_table(result, premises, law) +
-                     verdict(result, law) + "\n";
-  if (const std::string slips = regimes(premises, result.pressures); !slips.empty())
-    text += "Regime: " + slips + "\n";
-  text += judged.open_points();
-  if (const std::string remarks = ensemble_remarks(result); !remarks.empty())
-    text += "\n" + remarks;
+  return fmt::format(
+      "Force law: l = {}{} = {:.2f} h_rms{}\n", format_quantity(length.mean, Dimension::length, 3),
+      std::isnan(length.low)
+          ? ""
+          : fmt::format(" ({} … {})", format_quantity(length.low, Dimension::length, 3),
+                        format_quantity(length.high, Dimension::length, 3)),
+      ratio.mean,
+      !law ? ""
+      : law->fair
+          ? ", exp(-gap/l) is fair"
+          : fmt::format("; exp(-gap/l) is poor, do not use {}", drag ? "Eq. (16)" : "Eq. (12)"));
+}
+
+std::string accuracy(const StudyResult& result) {
+  std::string text;
+  for (const StudyFlag& flag : result.flags) {
+    std::string item = wrapped(flag.text, 72);
+    for (std::size_t at = 0; (at = item.find('\n', at)) != item.npos; ++at)
+      if (at + 1 < item.size()) item.insert(at + 1, "      ");
+    text += "  !   " + item + (item.ends_with('\n') ? "" : "\n");
+  }
+  return text.empty() ? "" : "Accuracy\n" + text;
+}
+
+std::string study_text(const StudyResult& result, const StudyAnswer& answer,
+                       const StudyFiles& files) {
+  const auto count = result.realisations.size();
+  const double friction = result.configuration.known.friction_coefficient;
+  const bool flowed = std::ranges::any_of(
+      result.realisations, [](const Realisation& r) { return r.first_loading.yielded(); });
+  std::string text = fmt::format(
+      "{} of {} x {} points, {} x {}, h_rms {}{}\n\nDamping constant: {}{}\n",
+      count == 1 ? "1 surface" : fmt::format("{} surfaces", count), result.grid.nx, result.grid.ny,
+      format_quantity(result.grid.lx, Dimension::length, 3),
+      format_quantity(result.grid.ly, Dimension::length, 3),
+      format_quantity(result.mean([](const auto& r) { return r.heights.rms_height; }).mean,
+                      Dimension::length, 3),
+      flowed ? ",\nas the first loading left it" : "", motion_text(result.configuration),
+      std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
+  text += answer_table(result, answer) + notes(result, answer) + "\n" +
+          premises_of(answer, result).text() + accuracy(result) + law_line(result);
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   return text;
+}
+
+/// What --verbose adds: all models, how the law bends, how the mean settled.
+std::string details(const StudyResult& result) {
+  const bool sample = result.realisations.size() > 1;
+  std::string text = "\n" + heading(result) + "Decay length l of pressure = p0 exp(-mean gap/l)\n";
+  std::vector<std::vector<std::string>> rows{{"model", "l", "l/h_rms", "95 % interval"}};
+  for (const StudyModel& model : result.models()) {
+    const EnsembleMean ratio = result.decay_length_over_rms_height(model.id);
+    rows.push_back({model.title,
+                    format_quantity(result.decay_length(model.id).mean, Dimension::length),
+                    std::isnan(ratio.mean) ? "n/a" : fmt::format("{:.3f}", ratio.mean),
+                    sample ? interval(ratio, Dimension::dimensionless) : "n/a"});
+  }
+  return text + to_table(rows, 2, true) + "  (" + result.interval_method() + ")\n" +
+         law_verdict(result) + "\n" + ensemble_remarks(result);
 }
 
 Json with_processes(Json answer, const StudyArguments& arguments, const Session& session) {
@@ -181,20 +257,22 @@ void run(const StudyArguments& arguments, Session& session) {
   if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
   const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
   if (results.size() == 1 && configuration.ensemble.empty()) {
-    const StudyPremises premises = premises_of(results.front());
-    session.answer(with_processes(study_json(results.front(), premises, files), arguments, session),
-                   study_text(results.front(), premises, files));
+    const StudyAnswer answer = answer_of(results.front());
+    session.answer(with_processes(study_json(results.front(), answer, files), arguments, session),
+                   study_text(results.front(), answer, files) +
+                       (arguments.verbose ? details(results.front()) : ""));
   } else {
     Json points = Json::array();
     std::string text;
     for (const StudyResult& result : results) {
       const std::string name = describe_point(configuration.ensemble, result.configuration);
-      const StudyPremises premises = premises_of(result);
-      Json point = study_json(result, premises, files);
+      const StudyAnswer answer = answer_of(result);
+      Json point = study_json(result, answer, files);
       point.erase("files");
       point["point"] = name;
       points.push_back(std::move(point));
-      text += "== " + name + " ==\n" + study_text(result, premises, {}) + "\n";
+      text += "== " + name + " ==\n" + study_text(result, answer, {}) +
+              (arguments.verbose ? details(result) : "") + "\n";
     }
     session.answer(
         with_processes({{"points", points}, {"files", files.json()}}, arguments, session),
@@ -217,6 +295,8 @@ void add_study_command(Program& program) {
       [arguments](Session& session) { run(*arguments, session); },
       "force, area, stiffness and damping of all models", study_output);
   arguments->add_to(command, true);
+  command.add_flag("--verbose", arguments->verbose,
+                   "all models, how the law bends and how the mean settled, after the answer");
 }
 
 }  // namespace salebra::cli

@@ -45,7 +45,7 @@ void add_references(const StudyResult& result, const std::vector<double>& loads,
   areas.curves.push_back(std::move(edge));
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
-                       result.damping(&DampingPoint::damping_constant_eq16));
+                       result.damping(&DampingPoint::damping_constant_closed_form));
   law.low = law.high = {};
   law.style = PlotStyle::dashed;
   law.color = 7;

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/damping/validity.hpp>
 
 #include "option_words.hpp"
 #include "results/columns.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -80,6 +82,15 @@ ContactFacts PremiseOptions::facts(const MaterialOptions& material,
 }
 
 void PremiseReport::add_to(Json& answer) const {
+  const std::vector<Condition> judged_conditions = conditions_of(cases, slip_followed, pressures);
+  answer["validity"] = std::string(word_of(validity_of(judged_conditions)));
+  Json& conditions = answer["conditions"] = Json::array();
+  for (const Condition& one : judged_conditions)
+    conditions.push_back({{"name", one.name},
+                          {"verdict", std::string(word_of(one.verdict))},
+                          {"condition", one.condition},
+                          {"here", in_options(one.here)},
+                          {"remedy", in_options(one.remedy)}});
   const auto column = [&](const auto& value_of) -> Json {
     if (!list) return value_of(cases.front());
     Json all = Json::array();
@@ -113,22 +124,26 @@ void PremiseReport::add_to(Json& answer) const {
   }
 }
 
-std::string PremiseReport::above() const {
-  const std::string text = objections(cases, pressures);
-  return text.empty() ? "" : text + "\n";
-}
-
-std::string PremiseReport::open_points() const {
-  std::string open = in_options(salebra::open_points(cases));
+std::string PremiseReport::text() const {
+  const std::vector<Condition> conditions = conditions_of(cases, slip_followed, pressures);
+  std::string text;
+  const std::string largest = motion_without_slip(cases);
+  const bool judged = std::ranges::any_of(conditions, [](const Condition& one) {
+    return one.name == "slip_of_opening_levels" && one.verdict != Verdict::unknown;
+  });
+  if (!slip_followed && !judged && !largest.empty())
+    text = wrapped("Without slip up to " + largest + "\n", text_width());
+  text += fmt::format("Validity: {}\n{}", word_of(validity_of(conditions)),
+                      in_options(in_words(conditions)));
   if (!list && cases.front().regime != Regime::unknown)
-    open += "Regime: " + std::string(word_of(cases.front().regime)) + "\n";
-  if (!body.empty()) open += "The premises are those of the " + body + "\n";
-  return open.empty() ? "" : "\n" + open;
+    text += "Regime: " + std::string(word_of(cases.front().regime)) + "\n";
+  if (!body.empty()) text += "The conditions are those of the " + body + "\n";
+  return text;
 }
 
 void PremiseReport::answer(Session& session, Json object, const std::string& text) const {
   add_to(object);
-  session.answer(object, above() + text + open_points());
+  session.answer(object, text + "\n" + this->text());
 }
 
 void PremiseReport::answer(Session& session, Json object) const {

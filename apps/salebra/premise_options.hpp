@@ -27,15 +27,13 @@ struct PremiseReport {
   bool list = false;
   std::vector<double> pressures = {};  ///< of the cases of a study, Pa
   std::string body = {};               ///< that was judged, where it is not the one of the answer
+  bool slip_followed = false;          ///< the loss is that with slip
 
-  /// Adds the keys `premises`, `largest_motion` and, unless slip is computed, `regime`; of another
-  /// body `premises_of`.
+  /// Adds the keys `validity`, `conditions`, `premises`, `largest_motion` and, unless slip is
+  /// computed, `regime`; of another body `premises_of`.
   void add_to(Json& answer) const;
-  /// What is broken or doubtful, to stand above a table, with a blank line after it; empty if
-  /// nothing is.
-  std::string above() const;
-  /// What could not be judged, and the largest motion without slip, to stand below the table.
-  std::string open_points() const;
+  /// The verdict and the conditions behind it, to stand below the answer.
+  std::string text() const;
   /// The answer with its premises, as JSON or text.
   void answer(Session& session, Json object, const std::string& text) const;
   void answer(Session& session, Json object) const;

@@ -686,13 +686,26 @@ Json flags_json(const StudyResult& result) {
   return flags;
 }
 
-void add_premises(Json& answer, const StudyPremises& found) {
-  PremiseReport{found.premises, true}.add_to(answer);
-  const bool slip = std::ranges::any_of(
-      found.losses, [](const LossWithSlip& loss) { return !std::isnan(loss.work_per_cycle); });
-  if (!slip) return;
-  Json& with_slip = answer["with_slip"] = json_of(found.losses);
-  with_slip["damping_constant"] = found.damping_constant_with_slip;
+PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result) {
+  return {.cases = answer.premises,
+          .list = true,
+          .pressures = result.pressures,
+          .slip_followed = answer.slip_followed && answer.needs.empty()};
+}
+
+Json damping_json(const StudyAnswer& answer) {
+  Json regimes = Json::array();
+  for (const Premises& one : answer.premises)
+    regimes.push_back(one.regime == Regime::unknown ? Json(nullptr)
+                                                    : Json(std::string(word_of(one.regime))));
+  Json object;
+  object["damping_constant"] = to_json(answer.damping_constant);
+  object["work_per_cycle"] = to_json(answer.work_per_cycle);
+  object["damping_constant_without_slip"] = to_json(answer.damping_constant_without_slip);
+  object["relaxation_share"] = answer.relaxation_share;
+  object["slip_share"] = answer.slip_share;
+  object["regime"] = regimes;
+  return object;
 }
 
 }  // namespace salebra::cli

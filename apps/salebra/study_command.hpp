@@ -5,6 +5,7 @@
 #include <optional>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
+#include <salebra/study/study_answer.hpp>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,6 @@
 #include "results/answer_json.hpp"
 #include "results/describe.hpp"
 #include "session.hpp"
-#include "study/study_premises.hpp"
 
 /// What `study` and `compare` have in common.
 namespace salebra::cli {
@@ -35,6 +35,7 @@ struct StudyArguments {
   std::optional<Shard> shard;
   bool merge = false;
   bool no_report = false;
+  bool verbose = false;  ///< of study
   int groups = 0;  ///< of processes; 0: one
 
   /// over_processes: those of salebra-mpi may share the work.
@@ -124,8 +125,9 @@ Json flags_json(const StudyResult& result);
 
 /// Adds `first_loading`, where a hardness is known.
 void add_first_loading(Json& answer, const StudyResult& result);
-/// Adds `premises`, `largest_motion` and, with a coefficient of friction, `with_slip` to an answer
-/// with a list of pressures.
-void add_premises(Json& answer, const StudyPremises& found);
+/// The premises of an answer with a list of pressures.
+PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result);
+/// γ and work of the motion as described, with the shares of slip and the regime.
+Json damping_json(const StudyAnswer& answer);
 
 }  // namespace salebra::cli

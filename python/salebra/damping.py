@@ -3,6 +3,7 @@
 
 from ._core import (
     AsperityDamping as AsperityDamping,
+    Condition as Condition,
     ContactFacts as ContactFacts,
     ContactSetAt as ContactSetAt,
     ContactLevels as ContactLevels,

@@ -10,6 +10,7 @@
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
+#include <salebra/damping/validity.hpp>
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"
@@ -43,16 +44,25 @@ void bind_facts(nb::module_& m) {
 
 void bind_premise_classes(nb::module_& m) {
   described_class<Premise>(m, "Premise", "One premise: its value, its limits, and what follows.");
+  described_class<Condition>(m, "Condition", "A premise in words, with what to do where it fails.");
   described_class<LargestMotion>(m, "LargestMotion",
                                  "The largest motion that keeps the premises of slip to 5 %.");
   described_class<Premises>(
       m, "Premises", "What a damping constant without slip takes for granted, each with a verdict.")
-      .def_prop_ro(
-          "objections",
-          [](const Premises& self) {
-            return objections({&self, 1});
+      .def(
+          "conditions",
+          [](const Premises& self, bool slip_followed) {
+            return conditions_of({&self, 1}, slip_followed);
           },
-          "What is broken or doubtful, a line each; '' where nothing is.")
+          nb::arg("slip_followed") = false,
+          "The conditions in words, worst first. slip_followed: the loss is that with slip, which "
+          "then is no condition.")
+      .def_prop_ro(
+          "validity",
+          [](const Premises& self) {
+            return std::string(word_of(validity_of(conditions_of({&self, 1}, false))));
+          },
+          "'valid', 'valid with care', 'not valid' or 'not checked', of a loss without slip.")
       .def("__repr__", [](const Premises& self) { return "Premises(" + verdicts(self) + ")"; });
   m.def(
       "premises_of",

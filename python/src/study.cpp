@@ -176,9 +176,9 @@ void bind_result(nb::module_& m) {
           },
           nb::arg("quantity") = "damping_constant", nb::arg("model") = "bem",
           "Mean at each pressure of a quantity of :class:`DampingPoint`, such as "
-          "damping_constant_eq16 (Eq. (16)). damping_constant is NaN where its error is not "
+          "damping_constant_closed_form (Eq. (16)). damping_constant is NaN where its error is not "
           "smaller; "
-          "deviation is the ratio of the means of damping_constant_eq16 and damping_constant, less "
+          "deviation is the ratio of the means of damping_constant_closed_form and damping_constant, less "
           "1.")
       .def(
           "deviation_range",

@@ -48,6 +48,7 @@ function conclusion(main, point) {
   const f = facts(point), fit = point.fit?.models?.bem, damping = point.damping;
   section(main, "conclusion", "What came out", null, (body, element) => {
     body.className = "findings";
+    if (point.validity) body.append(finding("Validity", point.validity, "the conditions stand below, worst first"));
     if (fit?.decay_length && known(fit.decay_length.mean)) {
       body.append(finding("Force law", `‹F› ∝ exp(−‹ū›/‹l›)`, `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`, interval(fit.decay_length, "m") ? `95 %: ${interval(fit.decay_length, "m")}` : ""));
       body.append(finding("Decay length", `${number(fit.decay_length_over_rms_height?.mean ?? fit.decay_length.mean / f.rms, 3)} ‹h›_{rms}`, fit.decay_length_over_rms_height && interval(fit.decay_length_over_rms_height, "1") ? `95 %: ${interval(fit.decay_length_over_rms_height, "1")}` : "", `‹h›_{rms} = ${quantity(f.rms, "m", 3)}`));
@@ -57,17 +58,18 @@ function conclusion(main, point) {
     const i = damping ? representative(point) : -1;
     if (i >= 0) {
       const curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem;
-      const shown = known(curve?.mean[i]) ? curve : law;
+      const answer = point.answer?.damping_constant, slip = point.slip_followed === "yes" && known(answer?.mean[i]);
+      const shown = slip ? answer : known(curve?.mean[i]) ? curve : law;
       const limits = interval({low: shown.low?.[i], high: shown.high?.[i]}, "N s/m");
       const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
-      body.append(finding("Damping constant", quantity(shown.mean[i], "N s/m", 3), [limits ? `95 %: ${limits}` : "", known(shown.error?.[i]) ? `numerical error ${errorPercent(shown.error[i] / Math.abs(shown.mean[i]))}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}${point.picture && i === shownLoad(point) ? ", as the maps and the profile below" : ""}`],
+      body.append(finding(slip ? "Damping constant" : "Damping constant without slip", quantity(shown.mean[i], "N s/m", 3), [slip ? `${percent(point.answer.slip_share[i]).replace("+", "")} of the loss by slip` : "", limits ? `95 %: ${limits}` : "", known(shown.error?.[i]) ? `numerical error ${errorPercent(shown.error[i] / Math.abs(shown.mean[i]))}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}${point.picture && i === shownLoad(point) ? ", as the maps and the profile below" : ""}`],
         known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
     }
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
-    for (const line of [point.objections, point.regimes, point.open_points].filter(Boolean).join("\n").split("\n").filter(Boolean)) {
-      const [, head, rest] = line.match(/^((?:Premises|Regime)[^:]*): (.*)$/) ?? [null, null, line];
-      element.append(h("p", {class: "verdict"}, head ? h("strong", {}, `${head}. `) : null, coded(rest), "."));
+    if (point.conditions) {
+      element.append(h("p", {class: "verdict"}, h("strong", {}, "Validity. "), `${point.validity[0].toUpperCase()}${point.validity.slice(1)}.`));
+      element.append(h("pre", {class: "conditions", tabindex: "0", role: "region", "aria-label": "Conditions"}, point.conditions.replaceAll("`", "")));
     }
     if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));

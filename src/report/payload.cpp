@@ -91,14 +91,13 @@ class Point {
     add(json, "fit", fit());
     add(json, "local", local());
     add(json, "damping", damping());
-    if (has("premises/pressure")) {
-      if (const auto text = file_.text_attribute(where_ + "premises", "objections"))
-        json["objections"] = *text;
-      if (const auto text = file_.text_attribute(where_ + "premises", "regimes");
-          text && !text->empty())
-        json["regimes"] = "Regime: " + *text;
-      if (const auto text = file_.text_attribute(where_ + "premises", "open_points"))
-        json["open_points"] = *text;
+    if (has("answer/pressure")) {
+      for (const char* name : {"validity", "conditions", "slip_followed"})
+        if (const auto text = file_.text_attribute(where_ + "answer", name)) json[name] = *text;
+      json["answer"] = {
+          {"damping_constant", estimate("answer/damping_constant", 0, pressures_.size())}};
+      json["answer"]["damping_constant"]["error"] = list(*column("answer/damping_constant_error"));
+      json["answer"]["slip_share"] = list(*column("answer/slip_share"));
     }
     add(json, "spots", spots());
     add(json, "over_bem",
@@ -310,7 +309,7 @@ class Point {
       const char *name, *work, *constant;  // the columns of a study
     };
     for (const Route& route :
-         {Route{"law", "work_per_cycle_eq16", "damping_constant_eq16"},
+         {Route{"law", "work_per_cycle_closed_form", "damping_constant_closed_form"},
           Route{"small", "small_amplitude_work", "small_amplitude_damping_constant"},
           Route{"curve", "work_per_cycle", "damping_constant"}}) {
       Json found;

@@ -62,17 +62,16 @@ std::string law(const Json& point) {
                        "here; use the computed curve.</p>");
 }
 
-/// A paragraph for each line on the premises.
-std::string premises(const Json& point) {
-  std::string text;
-  for (const char* lines : {"objections", "regimes", "open_points"}) {
-    const Json* found = find(point, {lines});
-    if (found == nullptr) continue;
-    std::istringstream stream(found->text());
-    for (std::string line; std::getline(stream, line);) {
-      std::erase(line, '`');
-      if (!line.empty()) text += "<p>" + escaped(line) + ".</p>";
-    }
+/// The verdict, and a paragraph for each line on the conditions.
+std::string validity(const Json& point) {
+  const Json* word = find(point, {"validity"});
+  const Json* conditions = find(point, {"conditions"});
+  if (word == nullptr || conditions == nullptr) return "";
+  std::string text = "<p><strong>Validity: " + escaped(word->text()) + ".</strong></p>";
+  std::istringstream stream(conditions->text());
+  for (std::string line; std::getline(stream, line);) {
+    std::erase(line, '`');
+    if (!line.empty()) text += "<p>" + escaped(line) + "</p>";
   }
   return text;
 }
@@ -131,7 +130,7 @@ std::string summary_of(const Json& payload) {
     const bool several = payload["points"].size() > 1;
     text += fmt::format("<section><h2>What came out{}</h2>",
                         several ? fmt::format(", point {}", ++i) : "");
-    text += law(point) + premises(point) + damping(point) + "</section>";
+    text += law(point) + validity(point) + damping(point) + "</section>";
   }
   return text;
 }

@@ -151,8 +151,8 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     const AtForce position{sample.force};
     if (fitted_law) {
       const auto by_law = relaxation_damping(*fitted_law, position, configuration.motion, small);
-      point.work_per_cycle_eq16 = by_law.work_per_cycle;
-      point.damping_constant_eq16 = by_law.damping_constant;
+      point.work_per_cycle_closed_form = by_law.work_per_cycle;
+      point.damping_constant_closed_form = by_law.damping_constant;
     }
     if (curve_law) {
       try {

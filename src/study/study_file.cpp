@@ -11,13 +11,13 @@
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/study/study_answer.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
 
 #include "realisation_record.hpp"
 #include "results/describe.hpp"
 #include "results/quantity_group.hpp"
-#include "study_premises.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -246,14 +246,31 @@ void write_damping(Table table, const StudyResult& result) {
   group.attribute("contact_modulus", configuration.material.contact_modulus);
 }
 
-void write_premises(ResultGroup group, const StudyResult& result) {
+void write_answer(Table table, const StudyResult& result, const StudyAnswer& answer) {
+  table.pressures(result);
+  for_each_column<StudyAnswer>([&](const auto& access, const Quantity& quantity) {
+    const std::vector<StatedMean>& stated = access(answer);
+    table.put(std::string(quantity.name), quantity, Means(stated.begin(), stated.end()),
+              {"pressure"});
+  });
+  std::vector<double> errors, regimes;
+  for (const StatedMean& stated : answer.damping_constant) errors.push_back(stated.error);
+  for (const Premises& one : answer.premises) regimes.push_back(double(one.regime));
+  table.put(
+      {"damping_constant_error", Dimension::damping, "numerical error of the damping constant"},
+      errors, {"pressure"});
+  for (const auto& [name, values] : {std::pair("relaxation_share", &answer.relaxation_share),
+                                     {"slip_share", &answer.slip_share},
+                                     {"regime", &regimes}})
+    table.put(find_quantity(name), *values, {"pressure"});
+  ResultGroup& group = table.group();
+  group.attribute("validity", std::string(word_of(answer.validity)));
+  group.attribute("conditions", in_words(answer.conditions));
+  group.attribute("slip_followed", answer.slip_followed ? "yes" : "no");
+}
+
+void write_premises(ResultGroup group, const StudyResult& result, const StudyAnswer& answer) {
   group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
-  const StudyPremises found = premises_of(result);
-  const auto column_of = [](const auto& items, const auto& of) {
-    std::vector<double> values;
-    for (const auto& one : items) values.push_back(double(std::invoke(of, one)));
-    return values;
-  };
   for (const PremiseName& name : premise_names())
     for_each_column<Premise>([&](const auto& column, const Quantity& quantity) {
       // Flow has an onset, the other premises have limits.
@@ -270,23 +287,11 @@ void write_premises(ResultGroup group, const StudyResult& result) {
         unit = "1";
         meaning = "0 holds, 1 doubtful, 2 broken, 3 unknown";
       }
-      const auto of = [&](const Premises& one) { return column(one.*name.premise); };
-      group.dataset(dataset, column_of(found.premises, of), {"pressure"}, unit, meaning);
+      std::vector<double> values;
+      for (const Premises& one : answer.premises)
+        values.push_back(double(column(one.*name.premise)));
+      group.dataset(dataset, values, {"pressure"}, unit, meaning);
     });
-  QuantityGroup slip(group);
-  const auto put = [&](const char* name, const auto& items, const auto& of) {
-    slip.dataset(name, column_of(items, of), {"pressure"});
-  };
-  for_each_column<StudyPremises>([&](const auto& access, const Quantity& quantity) {
-    group.dataset(std::string(quantity.name), access(found), {"pressure"},
-                  std::string(si_unit(quantity.dimension)), std::string(quantity.long_name));
-  });
-  put("relaxation_work", found.losses, &LossWithSlip::relaxation_work);
-  put("slip_work", found.losses, &LossWithSlip::slip_work);
-  put("regime", found.premises, &Premises::regime);
-  group.attribute("objections", objections(found.premises, result.pressures));
-  group.attribute("open_points", open_points(found.premises));
-  group.attribute("regimes", regimes(found, result.pressures));
 }
 
 void write_spots(Table table, const StudyResult& result) {
@@ -377,7 +382,9 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_local_decay_lengths(table("local"), result);
   write_fits(table("fit"), result);
   write_damping(table("damping"), result);
-  write_premises(output.group(where + "premises"), result);
+  const StudyAnswer answer = answer_of(result);
+  write_answer(table("answer"), result, answer);
+  write_premises(output.group(where + "premises"), result, answer);
   write_spots(table("spots"), result);
   write_comparison(table("comparison"), result);
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);

@@ -86,7 +86,7 @@ std::vector<EnsembleMean> StudyResult::damping(std::string_view quantity,
 }
 
 std::vector<EnsembleMean> StudyResult::deviation(ContactModel model) const {
-  const auto law = damping(&DampingPoint::damping_constant_eq16, model);
+  const auto law = damping(&DampingPoint::damping_constant_closed_form, model);
   const auto computed = stated_damping(model);
   std::vector<EnsembleMean> deviations;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
@@ -94,7 +94,7 @@ std::vector<EnsembleMean> StudyResult::deviation(ContactModel model) const {
     const EnsembleMean scatter = mean([&](const Realisation& r) {
       const auto& points = r.of(model).damping;
       if (k >= points.size()) return ForceSample::unknown;
-      return (points[k].damping_constant_eq16 - ratio * points[k].damping_constant) / constant;
+      return (points[k].damping_constant_closed_form - ratio * points[k].damping_constant) / constant;
     });
     // Where both are known on all surfaces, the mean of the scatter is 0.
     deviations.push_back({ratio - 1, ratio - 1 + (scatter.low - scatter.mean),
@@ -131,7 +131,7 @@ std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comp
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
   for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
     ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
-  for (const char* name : {"work_per_cycle_eq16", "small_amplitude_work", "work_per_cycle"})
+  for (const char* name : {"work_per_cycle_closed_form", "small_amplitude_work", "work_per_cycle"})
     ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
   return ratios;
 }

@@ -22,7 +22,8 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
       test.answer("damping --law exponential --normal-force 1 --decay-length 1e-7 --poisson 0.3 " +
                   drag + "--amplitude small");
   CHECK(keys(answer) ==
-        "premises largest_motion regime work_per_cycle power damping_constant normal_stiffness "
+        "validity conditions premises largest_motion regime work_per_cycle power damping_constant "
+        "normal_stiffness "
         "force_curvature force mean_force indentation small_amplitude_work ratio");
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);

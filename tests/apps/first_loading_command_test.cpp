@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <regex>
 #include <string>
 
 #include "run_program.hpp"
@@ -83,8 +84,8 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
     CHECK(premise["value"] > 0.9);
     CHECK(plain["premises"]["plasticity"]["verdict"] == "unknown");
     for (json* answer : {&same, &plain, &flowed}) {
-      answer->erase("first_loading");
-      answer->erase("premises");
+      for (const char* key : {"first_loading", "premises", "conditions", "validity"})
+        answer->erase(key);
     }
     CHECK(same == plain);
     CHECK(flowed != plain);
@@ -122,8 +123,9 @@ TEST_CASE("A study with a hardness is that of the surface that its largest load 
   const json& premise = soft["premises"]["plasticity"];
   for (const json& verdict : premise["verdict"]) CHECK(verdict == "holds");
   CHECK(premise["value"].back() > 0.9);
-  const auto text = test.run(study + hardness).out;
-  CHECK_THAT(text, Contains(", as the first loading left it\n") &&
+  const std::string text =
+      std::regex_replace(test.run(study + hardness).out, std::regex("\\s+"), " ");
+  CHECK_THAT(text, Contains(", as the first loading left it ") &&
                        Contains("all numbers are of the surface that unloading left"));
   CHECK_THAT(test.run(study + "--hardness 1TPa").out, !Contains("first load"));
   CHECK(keys(soft["flags"]).contains("first_loading"));

@@ -23,7 +23,8 @@ TEST_CASE("sliding gives the friction of a sliding contact over velocity", "[sli
   const ProgramTest test;
   const auto answer = test.answer(law + motion + "--velocities 1nm/s,1mm/s,1m/s");
   CHECK(keys(answer) ==
-        "premises largest_motion mean_force critical_velocity static_friction_coefficient "
+        "validity conditions premises largest_motion mean_force critical_velocity "
+        "static_friction_coefficient "
         "low_speed_damping relaxation_damping velocity mean_tangential_force friction_coefficient "
         "sliding_damping relaxation_work slip_work");
   // ⟨F⟩ = F I_0(u_z/l), v_c = (μE*/G*)u_z ω, G*/E* = 2(1 − ν)/(2 − ν), F(δ_min) = F exp(−u_z/l).

@@ -19,7 +19,8 @@ TEST_CASE("joint gives the loss over tangential amplitudes and forces", "[joint]
   const ProgramTest test;
   const auto answer = test.answer(law + "--tangential-amplitudes 3.838133nm,58.629524nm");
   CHECK(keys(answer) ==
-        "premises largest_motion force indentation normal_stiffness tangential_stiffness "
+        "validity conditions premises largest_motion force indentation normal_stiffness "
+        "tangential_stiffness "
         "tangential_force tangential_amplitude work_per_cycle relaxation_work slip_work "
         "secant_stiffness loss_factor exponent storage_stiffness loss_stiffness");
   // x = −(μE*/G*) l ln(1 − q) and W = 8(μ²E*/G*) l F [−(1 − q/2) ln(1 − q) − q] for q = T/(μF) = 0.1

@@ -12,13 +12,13 @@
 #include <salebra/questions/damping.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
+#include <salebra/study/study_answer.hpp>
 
 #include "../../apps/salebra/answers.hpp"
 #include "../../apps/salebra/options.hpp"
 #include "results/columns.hpp"
 #include "run_program.hpp"
 #include "study/cost.hpp"
-#include "study/study_premises.hpp"
 #include "study/study_text.hpp"
 
 using namespace salebra;
@@ -48,14 +48,16 @@ const std::map<std::string, Meanings> groups{
     {"local", meanings_of<LocalDecayLength>()},
     {"fit", meanings_of<ModelResult, LawDescription>()},
     {"damping", meanings_of<DampingPoint, DeviationRange>()},
+    {"answer", meanings_of<DampingPoint, LossWithSlip, StudyAnswer>()},
     {"spots", meanings_of<SpotStatistics>()},
     {"convergence", meanings_of<ModelResult>()},
     {"comparison", meanings_of<ForceSample, DampingPoint>()},
     {"ensemble", meanings_of<SelfAffineParameters, Grid2D, ModelResult>()}};
 
 /// Axes and verdicts, which belong to no struct.
-const std::set<std::string> beside{"model",     "realisation", "pressure", "midpoint",
-                                   "min_cells", "surfaces",    "point",    "realisations"};
+const std::set<std::string> beside{"model",    "realisation",  "pressure",
+                                   "midpoint", "min_cells",    "surfaces",
+                                   "point",    "realisations", "regime"};
 
 void check_group(const ResultReader& reader, const std::string& path, const std::string& group) {
   const Meanings& columns = groups.at(group);
@@ -103,7 +105,7 @@ const Meanings& other_columns() {
   static const Meanings all = [] {
     Meanings found = columns_of_program();
     found.merge(meanings_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture,
-                            DeviationRange, StudyPremises, StudyTheories>());
+                            DeviationRange, StudyTheories, StudyAnswer>());
     return found;
   }();
   return all;

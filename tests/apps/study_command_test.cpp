@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "run_program.hpp"
 #include "study/study_text.hpp"
@@ -19,10 +20,10 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   test.write("study.toml", study);
   const auto result = test.done("study study.toml --json -o result.h5");
   const auto answer = result.json();
-  CHECK(keys(answer) == std::set<std::string>{"premises", "largest_motion", "regime",
-                                              "decay_length", "decay_length_over_rms_height",
-                                              "damping", "comparison", "realisations", "flags",
-                                              "files"});
+  CHECK(keys(answer) == std::set<std::string>{"validity", "conditions", "premises",
+                                              "largest_motion", "regime", "decay_length",
+                                              "decay_length_over_rms_height", "damping",
+                                              "comparison", "realisations", "flags", "files"});
   CHECK(answer["realisations"] == 3);
   CHECK(keys(answer["flags"]) == std::set<std::string>{"finite_size", "few_spots"});
   CHECK(keys(answer["decay_length"]) == std::set<std::string>{"mean", "low", "high"});
@@ -42,16 +43,35 @@ TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
   CHECK(test.files() == files);
 }
 
-TEST_CASE("A study's summary puts Eq. (16) beside the damping computed", "[study]") {
+TEST_CASE("A study's answer fits a screen: numbers, validity, accuracy, law and files", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study);
-  const auto result = test.done("study study.toml -o result.h5 --progress always");
-  CHECK_THAT(result.out, Contains("boundary elements") &&
-                             Contains("GW, summits from spectral moments") && Contains("l/h_rms") &&
-                             Contains("Eq. (16)") && Contains("computed  error") &&
-                             Contains("% off the damping") && Contains("results: result.h5"));
-  CHECK_THAT(result.err, Contains("study"));
-  CHECK(test.run("study study.toml -o other.h5 --no-report --quiet --progress never").err.empty());
+  const std::string known =
+      " --friction-coefficient 0.3 --hardness 1TPa --density 7800 --excursion 1nm";
+  for (const std::string options : {"", known.c_str()}) {
+    INFO(options);
+    const auto result = test.done("study study.toml -o result.h5 --overwrite --quiet" + options);
+    std::size_t place = 0;
+    for (const std::string part : {"Damping constant: slow shear", "γ", "Eq. (16)", "Validity: ",
+                                   "Accuracy\n", "Force law: l = ", "results: result.h5"}) {
+      INFO(part);
+      CHECK(result.out.find(part, place) != std::string::npos);
+      place = std::min(result.out.find(part, place), result.out.size());
+    }
+    std::istringstream lines(result.out);
+    int count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+      INFO(line);
+      // Of a letter of several bytes all but the first begin with the bits 10.
+      CHECK(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }) <= 80);
+    }
+    CHECK(count <= 40);
+  }
+  CHECK_THAT(test.run("study study.toml --quiet --verbose").out,
+             Contains("boundary elements") && Contains("GW, summits from spectral moments") &&
+                 Contains("l/h_rms"));
+  CHECK_THAT(test.run("study study.toml --progress always").err, Contains("study"));
+  CHECK(test.run("study study.toml --quiet --progress never").err.empty());
 }
 
 TEST_CASE("Options of the motion override single entries of a study file", "[study]") {
@@ -62,13 +82,13 @@ TEST_CASE("Options of the motion override single entries of a study file", "[stu
     return result.status == 0 ? result.out : result.err;
   };
   CHECK_THAT(printed("study.toml --drag-velocity 0.5mm/s"),
-             Contains("drag at 500 µm/s, normal oscillation of 100 pm at 20 kHz"));
+             Contains("slow shear at 500 µm/s under 100 pm at 20 kHz"));
   // Another mode keeps what both have.
   CHECK_THAT(printed("study.toml --mode equal-frequency"),
              Contains("--tangential-amplitude, --phase: not given"));
   const auto both = " --mode equal-frequency --tangential-amplitude 0.2nm --phase 90deg";
   CHECK_THAT(printed(std::string("study.toml") + both),
-             Contains("normal 100 pm, tangential 200 pm"));
+             Contains("200 pm along and 100 pm across the surface"));
 
   const std::string drag = "drag_velocity = \"1mm/s\"";
   std::string equal = study;
@@ -76,9 +96,9 @@ TEST_CASE("Options of the motion override single entries of a study file", "[stu
                 "mode = \"equal-frequency\"\ntangential_amplitude = \"0.2nm\"\nphase = \"90deg\"");
   test.write("equal.toml", equal);
   CHECK_THAT(printed("equal.toml --normal-amplitude 0.3nm"),
-             Contains("normal 300 pm, tangential 200 pm"));
+             Contains("200 pm along and 300 pm across the surface"));
   CHECK_THAT(printed("equal.toml --drag-velocity 1mm/s"),
-             Contains("drag at 1 mm/s, normal oscillation of 100 pm at 20 kHz"));
+             Contains("slow shear at 1 mm/s under 100 pm at 20 kHz"));
   CHECK_THAT(printed("equal.toml --mode drag"), Contains("--drag-velocity: not given"));
 }
 
@@ -89,7 +109,7 @@ TEST_CASE("A damping constant of a study has its error, and none is printed that
   const auto result = test.done("study study.toml --json --quiet");
   const auto damping = result.json()["damping"];
   CHECK(keys(damping["damping_constant"]) == std::set<std::string>{"mean", "low", "high", "error"});
-  CHECK(keys(damping["damping_constant_eq16"]) ==
+  CHECK(keys(damping["damping_constant_without_slip"]) ==
         std::set<std::string>{"mean", "low", "high", "error"});
   int stated = 0;
   for (std::size_t k = 0; k < 10; ++k) {

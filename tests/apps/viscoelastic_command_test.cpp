@@ -25,7 +25,8 @@ TEST_CASE("viscoelastic tells the losses of material and relaxation apart over f
   const auto answer =
       test.answer(cone + shear + "--prony 3MPa:20ms --angular-frequency 5e-3,50,5e6");
   CHECK(keys(answer) ==
-        "premises premises_of largest_motion regime indentation force normal_stiffness "
+        "validity conditions premises premises_of largest_motion regime indentation force "
+        "normal_stiffness "
         "tangential_stiffness relaxed_modulus unrelaxed_modulus angular_frequency storage_modulus "
         "loss_modulus work_per_cycle normal_material_work tangential_material_work relaxation_work "
         "elastic_work power damping_constant mean_force min_contact_radius max_contact_radius");

@@ -11,6 +11,7 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/validity.hpp>
 
 using namespace salebra;
 using std::numbers::pi;
@@ -630,37 +631,47 @@ TEST_CASE("Bad input of a map of regimes is refused", "[regimes][input]") {
   CHECK(regime_map(paraboloid, 1e-6, normal, {}, {}, 0.3).sliding_excursion > 0);
 }
 
-TEST_CASE("Objections name the loads that they are of, open points what they need", "[premises]") {
+TEST_CASE(
+    "Conditions name their limit, what holds, at which loads, and what to do; the worst decides",
+    "[premises][validity]") {
   Premises fine;
-  for (const PremiseName& name : premise_names()) (fine.*name.premise).verdict = Verdict::holds;
+  for (const PremiseName& name : premise_names())
+    fine.*name.premise = {
+        .value = 0.5, .limit_5_percent = 1, .limit_20_percent = 2, .verdict = Verdict::holds};
   std::vector<Premises> cases(5, fine);
   const std::vector<double> pressures{1e6, 2e6, 3e6, 4e6, 5e6};
-  CHECK(objections(cases, pressures).empty());
-  CHECK(open_points(cases).empty());
+  const auto validity = [&](bool slip_followed = false) {
+    return validity_of(conditions_of(cases, slip_followed, pressures));
+  };
+  CHECK(validity() == Validity::valid);
+  // The amplitude is a condition of the closed forms alone.
+  cases[0].amplitude.verdict = Verdict::broken;
+  CHECK(validity() == Validity::valid);
+  CHECK(closed_form_condition(cases).verdict == Verdict::broken);
+  // Something not known leaves the whole open, and is less than what fails.
+  cases[1].inertia = {.verdict = Verdict::unknown, .needs = "angular_frequency"};
+  CHECK(validity() == Validity::not_checked);
+  CHECK(conditions_of(cases, false)[0].here == "`frequency` not given");
   for (const std::size_t k : {0u, 2u, 3u})
-    cases[k].amplitude = {.value = 5e-9, .limit_5_percent = 4e-9, .verdict = Verdict::doubtful};
-  CHECK_THAT(objections(cases, pressures),
-             Catch::StartsWith("Premises doubtful: small amplitude") &&
-                 Catch::EndsWith("(5 % of the loss at 4 nm) at 1 MPa, 3 MPa to 4 MPa\n"));
-  CHECK_THAT(objections(cases), Catch::EndsWith(" in 3 of 5\n"));
-  for (Premises& one : cases)
-    one.inertia = {.value = 2, .limit_5_percent = 0.5, .verdict = Verdict::broken};
-  CHECK_THAT(objections(cases, pressures), Catch::Contains(" at all pressures\n"));
-  cases[1].plasticity = {.verdict = Verdict::unknown, .needs = "hardness"};
-  cases[4].inertia = {.verdict = Verdict::unknown, .needs = "angular_frequency"};
-  CHECK(open_points(cases) ==
-        "Premises not judged: plasticity (`hardness`), inertia (`frequency`)\n");
-  // Of the case that bears least. In case (b) the limit is that of the opening levels alone.
-  cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6}};
-  cases[3].largest = {{.friction_coefficient = 0.3, .drag_velocity = 2e-6}};
-  CHECK_THAT(
-      open_points(cases),
-      Catch::EndsWith("\nSlip where the contact opens and closes changes the loss by less than "
-                      "5 % up to 2 \u00b5m/s with friction 0.3\n"));
+    cases[k].slow_motion = {.value = k + 2., .limit_5_percent = 9, .verdict = Verdict::doubtful};
+  CHECK(validity() == Validity::valid_with_care);
+  const Condition slow = conditions_of(cases, false, pressures)[0];
+  CHECK(slow.name == "slow_motion");
+  CHECK(slow.condition == "slow: at least 9 normal cycles in an excursion");
+  CHECK(slow.here == "2, at 1 MPa, 3 MPa to 4 MPa");
+  CHECK(!slow.remedy.empty());
+  CHECK_THAT(conditions_of(cases, false)[0].here, Catch::EndsWith(", in 3 of 5"));
+  // Slip that is followed is no condition.
+  for (Premises& one : cases) one.slip_of_opening_levels.verdict = Verdict::broken;
+  CHECK(validity() == Validity::not_valid);
+  CHECK_THAT(conditions_of(cases, false, pressures)[0].here, Catch::EndsWith(", at all loads"));
+  CHECK(validity(true) == Validity::valid_with_care);
+  // Of the case that bears least.
+  cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6, .excursion = 2e-9}};
+  cases[3].largest = {{.friction_coefficient = 0.3, .drag_velocity = 2e-6, .excursion = 3e-9}};
+  CHECK(motion_without_slip(cases) == "2 \u00b5m/s over 2 nm (\u00b5 = 0.3)");
   cases[0].largest =
       cases[3].largest = {{.friction_coefficient = 0.1, .tangential_amplitude = 1e-9},
                           {.friction_coefficient = 0.3, .tangential_amplitude = 3e-9}};
-  CHECK_THAT(open_points(cases),
-             Catch::EndsWith("\nSlip changes the loss by less than 5 % up to 1 nm "
-                             "with friction 0.1, 3 nm with friction 0.3\n"));
+  CHECK(motion_without_slip(cases) == "1 nm (\u00b5 = 0.1), 3 nm (\u00b5 = 0.3)");
 }

@@ -26,7 +26,7 @@ def test_a_study_from_text_writes_what_it_computed(result: salebra.StudyResult, 
     decay_length = result.decay_length()
     fitted = [realisation.bem.fit.decay_length for realisation in result.realisations]
     assert decay_length.mean == pytest.approx(np.mean(fitted), rel=1e-12)
-    assert len(result.damping("damping_constant_eq16")) == 10
+    assert len(result.damping("damping_constant_closed_form")) == 10
     with pytest.raises(salebra.InvalidInput, match=r"did you mean small_amplitude_work\?"):
         result.damping("small_work_per_cycle")
     result.write(tmp_path / "study.h5")

@@ -590,13 +590,13 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   for (const Realisation& r : result.realisations) {
     stiffness += r.of(ContactModel::persson).curve.samples[3].normal_stiffness /
                  r.of(ContactModel::bem).curve.samples[3].normal_stiffness / 2;
-    work += r.of(ContactModel::gw_deterministic).damping[5].work_per_cycle_eq16 /
+    work += r.of(ContactModel::gw_deterministic).damping[5].work_per_cycle_closed_form /
             r.of(ContactModel::bem).damping[5].work_per_cycle / 2;
   }
   CHECK(result.over_bem(&ForceSample::normal_stiffness, ContactModel::persson)[3].mean ==
         Approx(stiffness).epsilon(1e-14));
   CHECK(
-      result.damping_over_bem(&DampingPoint::work_per_cycle_eq16, ContactModel::gw_deterministic)[5]
+      result.damping_over_bem(&DampingPoint::work_per_cycle_closed_form, ContactModel::gw_deterministic)[5]
           .mean == Approx(work).epsilon(1e-14));
   // Spots by size are all spots, and their area is the contact area.
   const Realisation& first = result.realisations.front();

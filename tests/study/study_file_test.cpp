@@ -214,10 +214,10 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
   const FileCheck file(reader, result);
 
   const std::pair<const char*, double DampingPoint::*> damping[] = {
-      {"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
+      {"work_per_cycle_closed_form", &DampingPoint::work_per_cycle_closed_form},
       {"small_amplitude_work", &DampingPoint::small_amplitude_work},
       {"work_per_cycle", &DampingPoint::work_per_cycle},
-      {"damping_constant_eq16", &DampingPoint::damping_constant_eq16},
+      {"damping_constant_closed_form", &DampingPoint::damping_constant_closed_form},
       {"small_amplitude_damping_constant", &DampingPoint::small_amplitude_damping_constant},
       {"damping_constant", &DampingPoint::damping_constant}};
   for (const auto& [name, quantity] : damping) {
@@ -278,7 +278,7 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
     file.interval_of_loads(std::string("comparison/") + name,
                            [&, of = quantity](auto model) { return result.over_bem(of, model); });
   for (const auto& [name, quantity] :
-       {std::pair{"work_per_cycle_eq16", &DampingPoint::work_per_cycle_eq16},
+       {std::pair{"work_per_cycle_closed_form", &DampingPoint::work_per_cycle_closed_form},
         {"small_amplitude_work", &DampingPoint::small_amplitude_work},
         {"work_per_cycle", &DampingPoint::work_per_cycle}})
     file.interval_of_loads(std::string("comparison/") + name, [&, of = quantity](auto model) {

@@ -47,7 +47,7 @@ TEST_CASE(
   for (const Realisation& realisation : result.realisations) {
     REQUIRE(realisation.of(ContactModel::bem).damping.size() == 12);
     const DampingPoint& point = realisation.of(ContactModel::bem).damping[5];
-    CHECK(point.work_per_cycle_eq16 ==
+    CHECK(point.work_per_cycle_closed_form ==
           Approx(closed_form::work_per_cycle_rough(
                      ratio, point.force, realisation.of(ContactModel::bem).fit.decay_length, drag))
               .epsilon(1e-12));
@@ -72,7 +72,7 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
   const std::array law{3.0, 2.0, 5.0}, computed{1.0, 2.0, 4.0};
   for (std::size_t i = 0; i < 3; ++i) {
     DampingPoint& point = result.realisations[i].of(ContactModel::bem).damping[5];
-    point.damping_constant_eq16 = law[i];
+    point.damping_constant_closed_form = law[i];
     point.damping_constant = computed[i];
     point.damping_constant_error = ForceSample::unknown;
   }
@@ -88,7 +88,7 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
   CHECK(deviation[5].low == Approx(ratio - 1 - student * std::sqrt(variance)).epsilon(1e-10));
   CHECK(deviation[5].high == Approx(ratio - 1 + student * std::sqrt(variance)).epsilon(1e-10));
   // Of every load, as it came out.
-  const auto by_law = result.damping("damping_constant_eq16"),
+  const auto by_law = result.damping("damping_constant_closed_form"),
              stated = result.damping("damping_constant");
   for (std::size_t k = 0; k < deviation.size(); ++k)
     if (!std::isnan(deviation[k].mean))
@@ -169,7 +169,7 @@ TEST_CASE("Curves without a decay length keep their damping, and the study says 
     CHECK(std::isnan(realisation.of(ContactModel::bem).test.decay_length_closest));
     CHECK(realisation.of(ContactModel::bem).damping.size() == 5);
     for (const DampingPoint& point : realisation.of(ContactModel::bem).damping)
-      CHECK(std::isnan(point.work_per_cycle_eq16));
+      CHECK(std::isnan(point.work_per_cycle_closed_form));
     CHECK(std::ranges::any_of(realisation.of(ContactModel::bem).damping,
                               [](const DampingPoint& point) { return point.work_per_cycle > 0; }));
   }

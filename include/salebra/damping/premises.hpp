@@ -209,9 +209,10 @@ struct Premises {
   std::vector<LargestMotion> largest;
 };
 
-/// Of a premise its words for people, what its value is, and the dimension of value and limits.
+/// Of a premise what stands behind its name: the condition and the value in the words of a user,
+/// with {} for the limit of 5 % and the value, what to do where it fails, and the dimension of both.
 struct PremiseWords : Kept {
-  std::string_view value;
+  std::string_view condition, here, remedy;
   Dimension value_dimension = Dimension::dimensionless;
 };
 
@@ -219,15 +220,37 @@ constexpr void describe(auto&& visit, std::type_identity<Premises>) {
   using enum Dimension;
   using S = Premises;
   visit(&S::slip_of_opening_levels,
-        PremiseWords{{"slip_of_opening_levels", "slip where the contact opens and closes"}, "M ="});
+        PremiseWords{{"slip_of_opening_levels", "slip where the contact opens and closes"},
+                     "no slip where it opens and closes: M above {}",
+                     "M = {}",
+                     "`friction_coefficient` computes the slip"});
   visit(&S::slip_of_closed_levels,
-        PremiseWords{{"slip_of_closed_levels", "slip where it stays closed"}, "excursion", length});
-  visit(&S::slow_motion, PremiseWords{{"slow_motion", "slow tangential motion"}, "X/w ="});
-  visit(&S::amplitude,
-        PremiseWords{{"amplitude", "small amplitude of Eqs (12), (15) and (16)"}, "u_z =", length});
-  visit(&S::plasticity, PremiseWords{{"plasticity", "plasticity"}, "pressure over hardness"});
-  visit(&S::inertia, PremiseWords{{"inertia", "inertia"}, "ωa/c_s ="});
-  visit(&S::coupling, PremiseWords{{"coupling", "coupling"}, "share of the loss"});
+        PremiseWords{{"slip_of_closed_levels", "slip where it stays closed"},
+                     "no slip where it stays closed: excursion below {}",
+                     "{}",
+                     "`friction_coefficient` computes the slip",
+                     length});
+  visit(&S::slow_motion, PremiseWords{{"slow_motion", "slow tangential motion"},
+                                      "slow: at least {} normal cycles in an excursion",
+                                      "{}",
+                                      "a longer `excursion`, or the two frequencies as they are"});
+  visit(&S::amplitude, PremiseWords{{"amplitude", "small amplitude of Eqs (12), (15) and (16)"},
+                                    "Eqs (12), (15) and (16): amplitude below {}",
+                                    "{}",
+                                    "the damping constant itself has no such limit",
+                                    length});
+  visit(&S::plasticity, PremiseWords{{"plasticity", "plasticity"},
+                                     "elastic: largest pressure below {} of the hardness",
+                                     "{}",
+                                     "less load; a surface with `hardness` is loaded first"});
+  visit(&S::inertia, PremiseWords{{"inertia", "inertia"},
+                                  "quasi-static: ωa/c_s below {}",
+                                  "{}",
+                                  "a lower `frequency`, or a smaller part of the contact"});
+  visit(&S::coupling, PremiseWords{{"coupling", "coupling"},
+                                   "pressure and traction uncoupled: {} of the loss",
+                                   "{}",
+                                   "the coupled cycle in three dimensions computes it"});
   visit(&S::regime, Kept{"regime", "no slip, partial slip, sliding or unknown"});
   visit(&S::largest, Kept{"largest",
                           "largest motions that keep the premises of slip to 5 %, of the "
@@ -238,14 +261,6 @@ struct PremiseName : PremiseWords {
   Premise Premises::*premise;
 };
 std::span<const PremiseName> premise_names();
-
-/// What is broken and what is doubtful in any of the cases, a line each, with the worst value;
-/// empty where nothing is. pressures: of the cases, Pa, to be named; empty: they are counted.
-std::string objections(std::span<const Premises> cases, std::span<const double> pressures = {});
-
-/// What is not judged, with what it needs, and up to which motion the opening levels do not slip,
-/// of the case that bears least: a line each, empty where there is neither.
-std::string open_points(std::span<const Premises> cases);
 
 /// mean_indentation: δ0, m, as DampingResult::indentation. A table is continued beyond its ends by
 /// exponentials with the F/K there. Drag::drag_velocity NaN: not known; the largest is found.
@@ -268,6 +283,9 @@ struct LossWithSlip {
   double relaxation_work = ContactFacts::unknown;  ///< of it, by levels that open and close
   double slip_work = ContactFacts::unknown;        ///< of it, by levels that stay closed
   double full_stick_work = ContactFacts::unknown;  ///< of the same springs without slip
+
+  double relaxation_share() const { return relaxation_work / work_per_cycle; }
+  double slip_share() const { return slip_work / work_per_cycle; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
@@ -276,6 +294,11 @@ constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
   visit(&S::full_stick_work, quantity::full_stick_work);
+  visit(&S::relaxation_share,
+        Quantity{"relaxation_share", Dimension::dimensionless,
+                 "part of the energy dissipated by levels that open and close"});
+  visit(&S::slip_share, Quantity{"slip_share", Dimension::dimensionless,
+                                 "part of the energy dissipated by slip in permanent contact"});
 }
 
 /// Takes the same springs with friction. Case (b) without an excursion: sliding that goes on, all

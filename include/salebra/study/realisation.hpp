@@ -24,8 +24,8 @@ struct DampingPoint {
   double pressure = 0;  ///< Pa
   double force = 0;     ///< F = pA0, N
   /// Eq. (16), or (12) with F'' = F/l², with the l fitted to the curve.
-  double work_per_cycle_eq16 = ForceSample::unknown;    ///< J
-  double damping_constant_eq16 = ForceSample::unknown;  ///< N s/m
+  double work_per_cycle_closed_form = ForceSample::unknown;    ///< J
+  double damping_constant_closed_form = ForceSample::unknown;  ///< N s/m
   /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
   double small_amplitude_work = ForceSample::unknown;              ///< J
   double small_amplitude_damping_constant = ForceSample::unknown;  ///< N s/m
@@ -43,7 +43,7 @@ struct DampingPoint {
   double ratio_error = ForceSample::unknown;
   double seam_error = ForceSample::unknown;
 
-  double deviation() const { return work_per_cycle_eq16 / work_per_cycle - 1; }
+  double deviation() const { return work_per_cycle_closed_form / work_per_cycle - 1; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
@@ -51,11 +51,11 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   using S = DampingPoint;
   visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
   visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
-  visit(&S::work_per_cycle_eq16,
-        Quantity{"work_per_cycle_eq16", energy,
+  visit(&S::work_per_cycle_closed_form,
+        Quantity{"work_per_cycle_closed_form", energy,
                  "energy dissipated in a cycle, Eq. (16) or (12) with the fitted law"});
-  visit(&S::damping_constant_eq16,
-        Quantity{"damping_constant_eq16", damping, "damping constant P/v^2, by the fitted law"});
+  visit(&S::damping_constant_closed_form,
+        Quantity{"damping_constant_closed_form", damping, "damping constant P/v^2, by the fitted law"});
   visit(&S::small_amplitude_work, quantity::small_amplitude_work);
   visit(&S::small_amplitude_damping_constant,
         Quantity{"small_amplitude_damping_constant", damping,

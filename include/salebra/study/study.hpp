@@ -151,7 +151,7 @@ struct StudyResult {
   /// InvalidInput for another name.
   std::vector<EnsembleMean> damping(std::string_view quantity,
                                     ContactModel model = ContactModel::bem) const;
-  /// The mean of damping_constant_eq16 over the mean of damping_constant, less 1: what the two
+  /// The mean of damping_constant_closed_form over the mean of damping_constant, less 1: what the two
   /// columns say, which is not the mean of the ratios of single surfaces. Its interval is that of
   /// the mean of γ16/⟨γ⟩ − r(γ/⟨γ⟩ − 1) over the surfaces, r the ratio of the means: the ratio to
   /// first order in the scatter.

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/damping/validity.hpp>
+#include <salebra/study/study.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra {
+
+/// What a study says of the motion that was described, at each of its pressures, and whether it may
+/// be used. Premises and slip are those of the mean curve of the boundary elements: gap, area and
+/// stiffnesses averaged over the surfaces at each pressure.
+struct StudyAnswer {
+  /// γ = P/⟨ẋ²⟩, N s/m, of the contact as described: with slip where the coefficient of friction is
+  /// known, else without. The curve is interpolated between pressures and gives the ratio of the
+  /// losses with slip and without; times stated_damping() it is the loss. Its error is that of
+  /// stated_damping() and, of the part that slip makes, what the curve is off the contacts within
+  /// the oscillation. Unknown where a fact is missing that decides (`needs`), and where the motion
+  /// is not slow at all.
+  std::vector<StatedMean> damping_constant = {};
+  std::vector<StatedMean> work_per_cycle = {};                 ///< J, of a normal cycle
+  std::vector<StatedMean> damping_constant_without_slip = {};  ///< stated_damping()
+  /// Parts of the work by levels that open and close, and by slip of those that stay closed; unknown
+  /// where slip is not followed.
+  std::vector<double> relaxation_share = {}, slip_share = {};
+  bool slip_followed = false;  ///< the coefficient of friction is known
+  std::string needs = {};      ///< the fact that decides and is missing: "excursion"; empty: none
+  std::vector<Premises> premises = {};
+  std::vector<Condition> conditions = {};  ///< worst first
+  Validity validity = Validity::not_checked;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
+  using enum Dimension;
+  using S = StudyAnswer;
+  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
+  visit(&S::work_per_cycle, quantity::work_per_cycle);
+  visit(&S::damping_constant_without_slip,
+        Quantity{"damping_constant_without_slip", damping, "damping constant P/v^2 without slip"});
+  visit(&S::relaxation_share, Kept{"relaxation_share", "parts by levels that open and close"});
+  visit(&S::slip_share, Kept{"slip_share", "parts by slip in permanent contact"});
+  visit(&S::slip_followed, Kept{"slip_followed", "whether the coefficient of friction is known"});
+  visit(&S::needs, Kept{"needs", "the fact that decides and is missing"});
+  visit(&S::premises, Kept{"premises", "premises at each pressure"});
+  visit(&S::conditions, Kept{"conditions", "premises in words, worst first"});
+  visit(&S::validity, Kept{"validity", "one word for all conditions"});
+}
+
+/// Facts: those of the configuration, and of the surfaces their side, mean contact pressure and rms
+/// slope. Where no contact converged, and everywhere where fewer than four pressures make no curve,
+/// the premises are unknown.
+/// Throws InvalidInput for a hardness below the largest pressure.
+/// Cost: 10 ms for each pressure.
+StudyAnswer answer_of(const StudyResult& result);
+
+}  // namespace salebra

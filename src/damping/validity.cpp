@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Conditions of a damping constant in words, and the one word for all of them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <salebra/damping/validity.hpp>
+
+namespace salebra {
+namespace {
+
+/// "at 1 MPa to 5 MPa, 20 MPa", one for each run of pressures.
+std::string runs_of(const std::vector<bool>& chosen, std::span<const double> pressures) {
+  const auto at = [&](std::size_t k) {
+    return format_quantity(pressures[k], Dimension::pressure, 3);
+  };
+  std::string text;
+  for (std::size_t first = 0; first < pressures.size(); ++first) {
+    if (!chosen[first]) continue;
+    std::size_t last = first;
+    while (last + 1 < pressures.size() && chosen[last + 1]) ++last;
+    text += (text.empty() ? "at " : ", ") + at(first) + (last > first ? " to " + at(last) : "");
+    first = last;
+  }
+  return text;
+}
+
+/// Worst first; what could not be judged comes between what fails and what holds.
+int rank_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::broken:
+      return 0;
+    case Verdict::doubtful:
+      return 1;
+    case Verdict::unknown:
+      return 2;
+    case Verdict::holds:
+      return 3;
+  }
+  return 3;
+}
+
+/// The option or key that gives a fact.
+std::string given_as(const std::string& fact) {
+  // A law given by its formula has neither size nor pressure.
+  if (fact == "loaded_size" || fact == "largest_pressure") return "curve";
+  return fact == "angular_frequency" ? "frequency" : fact;
+}
+
+double first_limit(const Premise& premise) {
+  return std::isnan(premise.onset) ? premise.limit_5_percent : premise.onset;
+}
+
+/// How far beyond its limit, either way.
+double distance(const Premise& premise) {
+  return std::abs(std::log(premise.value / first_limit(premise)));
+}
+
+/// The case that decides: of the worst verdict the one farthest from its limit, of those that hold
+/// the nearest.
+const Premise& worst_of(const PremiseName& name, std::span<const Premises> cases) {
+  const auto worse = [&](const Premises& one, const Premises& other) {
+    const Premise &a = one.*name.premise, &b = other.*name.premise;
+    if (rank_of(a.verdict) != rank_of(b.verdict)) return rank_of(a.verdict) < rank_of(b.verdict);
+    if (std::isnan(distance(a)) || std::isnan(distance(b))) return std::isnan(distance(b));
+    return a.verdict == Verdict::holds ? distance(a) < distance(b) : distance(a) > distance(b);
+  };
+  return (*std::ranges::min_element(cases, worse)).*name.premise;
+}
+
+std::string condition_text(const PremiseName& name, const Premise& premise) {
+  // Where load and first load are compared, flow begins at 1.
+  if (premise.onset == 1) return "elastic again: loads below that of the first loading";
+  // No motion at this velocity, none at all, keeps it.
+  if (premise.limit_20_percent == 0) return std::string(name.meaning) + " at any motion";
+  if (!std::isfinite(first_limit(premise))) return std::string(name.meaning);
+  return fmt::format(fmt::runtime(name.condition),
+                     format_quantity(first_limit(premise), name.value_dimension, 3));
+}
+
+Condition condition_of(const PremiseName& name, std::span<const Premises> cases,
+                       std::span<const double> pressures) {
+  const Premise& worst = worst_of(name, cases);
+  Condition one{.name = std::string(name.name),
+                .verdict = worst.verdict,
+                .condition = condition_text(name, worst)};
+  if (worst.verdict == Verdict::unknown) {
+    one.here =
+        worst.needs.empty() ? "not known" : fmt::format("`{}` not given", given_as(worst.needs));
+    return one;
+  }
+  if (!std::isnan(worst.value))
+    one.here =
+        fmt::format(fmt::runtime(name.here), format_quantity(worst.value, name.value_dimension, 3));
+  if (worst.verdict == Verdict::holds) return one;
+  one.remedy = name.remedy;
+  std::vector<bool> objected;
+  for (const Premises& premises : cases)
+    objected.push_back((premises.*name.premise).verdict == worst.verdict);
+  const auto count = std::size_t(std::ranges::count(objected, true));
+  if (cases.size() == 1) return one;
+  one.here += count == cases.size() ? ", at all loads"
+              : pressures.empty()   ? fmt::format(", in {} of {}", count, cases.size())
+                                    : ", " + runs_of(objected, pressures);
+  return one;
+}
+
+}  // namespace
+
+std::span<const PremiseName> premise_names() {
+  static const auto names = [] {
+    std::vector<PremiseName> all;
+    describe(
+        [&]<class Line>(auto member, const Line& line) {
+          if constexpr (std::is_same_v<Line, PremiseWords>) all.push_back({line, member});
+        },
+        std::type_identity<Premises>{});
+    return all;
+  }();
+  return names;
+}
+
+std::vector<Condition> conditions_of(std::span<const Premises> cases, bool slip_followed,
+                                     std::span<const double> pressures) {
+  std::vector<Condition> conditions;
+  for (const PremiseName& name : premise_names()) {
+    const bool slip = name.premise == &Premises::slip_of_opening_levels ||
+                      name.premise == &Premises::slip_of_closed_levels;
+    if ((slip && slip_followed) || name.premise == &Premises::amplitude) continue;
+    // A motion that is not slow by kind has no such condition.
+    Condition one = condition_of(name, cases, pressures);
+    if (one.verdict == Verdict::holds && one.here.empty()) continue;
+    conditions.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(conditions, {},
+                           [](const Condition& one) { return rank_of(one.verdict); });
+  return conditions;
+}
+
+Condition closed_form_condition(std::span<const Premises> cases,
+                                std::span<const double> pressures) {
+  const auto name = std::ranges::find_if(
+      premise_names(), [](const PremiseName& one) { return one.premise == &Premises::amplitude; });
+  return condition_of(*name, cases, pressures);
+}
+
+Validity validity_of(std::span<const Condition> conditions) {
+  int worst = rank_of(Verdict::holds);
+  for (const Condition& one : conditions) worst = std::min(worst, rank_of(one.verdict));
+  return worst == rank_of(Verdict::broken)     ? Validity::not_valid
+         : worst == rank_of(Verdict::doubtful) ? Validity::valid_with_care
+         : worst == rank_of(Verdict::unknown)  ? Validity::not_checked
+                                               : Validity::valid;
+}
+
+std::string in_words(std::span<const Condition> conditions) {
+  constexpr std::size_t width = 78, margin = 6;
+  std::string text;
+  for (const Condition& one : conditions) {
+    const char* mark = one.verdict == Verdict::broken     ? "no"
+                       : one.verdict == Verdict::doubtful ? "!"
+                       : one.verdict == Verdict::unknown  ? "?"
+                                                          : "ok";
+    const std::string here =
+        one.verdict == Verdict::unknown || one.here.empty() ? one.here : "here " + one.here;
+    const std::string line = fmt::format("  {:<2}  {}", mark, one.condition);
+    // The widths count bytes: of "µ" and "ω" one too many, which is too early by a column.
+    if (here.empty())
+      text += line + "\n";
+    else if (line.size() + 2 + here.size() <= width)
+      text += fmt::format("{:<{}}  {}\n", line, std::min<std::size_t>(50, width - 2 - here.size()),
+                          here);
+    else
+      text += fmt::format("{}\n{:{}}{}\n", line, "", margin, here);
+    if (!one.remedy.empty()) text += fmt::format("{:{}}-> {}\n", "", margin, one.remedy);
+  }
+  return text;
+}
+
+std::string motion_without_slip(std::span<const Premises> cases) {
+  const auto judged =
+      std::ranges::find_if(cases, [](const Premises& p) { return !p.largest.empty(); });
+  if (judged == cases.end()) return "";
+  const auto quantity = [](double value, Dimension dimension) {
+    return format_quantity(value, dimension, 3);
+  };
+  std::string none, text;
+  for (std::size_t i = 0; i < judged->largest.size(); ++i) {
+    double velocity = HUGE_VAL, amplitude = HUGE_VAL, excursion = HUGE_VAL;
+    for (const Premises& p : cases) {
+      if (p.largest.empty()) continue;
+      velocity = std::fmin(velocity, p.largest[i].drag_velocity);
+      amplitude = std::fmin(amplitude, p.largest[i].tangential_amplitude);
+      excursion = std::fmin(excursion, p.largest[i].excursion);
+    }
+    const double friction = judged->largest[i].friction_coefficient;
+    std::string motion;
+    if (excursion == 0) {
+      // What slips with much friction slips with less.
+      none = fmt::format("no excursion (µ up to {:g})", friction);
+      continue;
+    }
+    if (std::isfinite(velocity))
+      motion = (std::isfinite(excursion) ? quantity(excursion, Dimension::length) + " at " : "") +
+               quantity(velocity, Dimension::velocity);
+    else if (std::isfinite(amplitude))
+      motion = quantity(amplitude, Dimension::length);
+    else
+      continue;
+    text += fmt::format(", {} (µ = {:g})", motion, friction);
+  }
+  return none.empty() && !text.empty() ? text.substr(2) : none + text;
+}
+
+}  // namespace salebra

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Answer of a study: the loss of the motion as described, and its conditions.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/study/study_answer.hpp>
+
+namespace salebra {
+namespace {
+
+ForceCurve mean_curve(const StudyResult& result) {
+  const auto mean_gap = result.curve(&ForceSample::mean_gap);
+  const auto normal = result.curve(&ForceSample::normal_stiffness);
+  const auto tangential = result.curve(&ForceSample::tangential_stiffness);
+  const auto area = result.curve(&ForceSample::contact_area_fraction);
+  ForceCurve curve;
+  double least_gap = HUGE_VAL;
+  for (std::size_t k = 0; k < result.pressures.size(); ++k) {
+    ForceSample& sample = curve.samples.emplace_back();
+    sample.mean_gap = mean_gap[k].mean;
+    sample.pressure = result.pressures[k];
+    sample.force = sample.pressure * result.grid.area();
+    sample.normal_stiffness = normal[k].mean;
+    sample.tangential_stiffness = tangential[k].mean;
+    sample.contact_area_fraction = area[k].mean;
+    // Means over different surfaces, where some did not converge, need not fall.
+    sample.converged = sample.mean_gap < least_gap;
+    if (sample.converged) least_gap = sample.mean_gap;
+  }
+  return curve;
+}
+
+/// Facts of the configuration, with what the surfaces say.
+ContactFacts facts_of(const StudyResult& result) {
+  ContactFacts facts = result.configuration.known;
+  facts.contact_modulus = result.configuration.material.contact_modulus;
+  facts.loaded_size = std::max(result.grid.lx, result.grid.ly);
+  facts.rms_slope = result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
+  for (const Realisation& realisation : result.realisations)
+    if (realisation.first_loading.yielded())
+      facts.first_load =
+          std::fmin(facts.first_load, realisation.first_loading.pressure * result.grid.area());
+  return facts;
+}
+
+StatedMean scaled(StatedMean mean, double factor) {
+  for (double* number : {&mean.mean, &mean.low, &mean.high, &mean.error}) *number *= factor;
+  return mean;
+}
+
+/// Puts the loss with slip of one pressure in the place of that without.
+void follow_slip(StudyAnswer& answer, std::size_t k, const LossWithSlip& loss,
+                 const Oscillation& motion) {
+  StatedMean& constant = answer.damping_constant[k];
+  const double by_curve = closed_form::damping_constant(loss.full_stick_work, motion);
+  const double off = std::abs(by_curve / constant.mean - 1);
+  answer.relaxation_share[k] = loss.relaxation_share();
+  answer.slip_share[k] = loss.slip_share();
+  constant = scaled(constant, loss.work_per_cycle / loss.full_stick_work);
+  constant.error = std::hypot(constant.error, answer.slip_share[k] * off * constant.mean);
+}
+
+}  // namespace
+
+StudyAnswer answer_of(const StudyResult& result) {
+  const StudyConfiguration& configuration = result.configuration;
+  const std::size_t count = result.pressures.size();
+  const std::vector<StatedMean> without_slip = result.stated_damping();
+  StudyAnswer answer{.damping_constant = without_slip,
+                     .damping_constant_without_slip = without_slip,
+                     .relaxation_share = std::vector<double>(count, ContactFacts::unknown),
+                     .slip_share = std::vector<double>(count, ContactFacts::unknown),
+                     .slip_followed = !std::isnan(configuration.known.friction_coefficient),
+                     .premises = std::vector<Premises>(count)};
+  const auto* drag = std::get_if<Drag>(&configuration.motion);
+  if (drag != nullptr && answer.slip_followed && std::isnan(configuration.known.excursion))
+    answer.needs = "excursion";
+  const ForceCurve curve = mean_curve(result);
+  if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
+    const TabulatedLaw law(curve, configuration.material.modulus_ratio());
+    ContactFacts facts = facts_of(result);
+    for (std::size_t k = 0; k < count; ++k) {
+      const ForceSample& sample = curve.samples[k];
+      if (!sample.converged) continue;
+      facts.nominal_pressure = sample.pressure;
+      facts.mean_contact_pressure = sample.pressure / sample.contact_area_fraction;
+      answer.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
+      if (answer.slip_followed && answer.needs.empty())
+        follow_slip(answer, k,
+                    loss_with_slip(law, -sample.mean_gap, configuration.motion,
+                                   facts.friction_coefficient, facts.excursion),
+                    configuration.motion);
+    }
+  }
+  // An excursion that one normal cycle covers is no slow motion.
+  const double way =
+      drag ? 2 * std::numbers::pi * drag->drag_velocity / drag->angular_frequency : 0;
+  if (!answer.needs.empty() || configuration.known.excursion < way)
+    answer.damping_constant.assign(count, StatedMean());
+  // γ of a loss of 1 J.
+  const double per_work = closed_form::damping_constant(1, configuration.motion);
+  for (const StatedMean& constant : answer.damping_constant)
+    answer.work_per_cycle.push_back(scaled(constant, 1 / per_work));
+  answer.conditions = conditions_of(answer.premises, answer.slip_followed && answer.needs.empty(),
+                                    result.pressures);
+  answer.validity = validity_of(answer.conditions);
+  return answer;
+}
+
+}  // namespace salebra
