@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stated errors of the damping of diverse surfaces against what contacts on cells of a quarter of
 // the size give: the mean of two such grids that lie half a cell apart.
-//   damping_errors [surfaces [points [first seed]]]
+//   damping_errors [surfaces [points [first seed [slip]]]]
 // One line per surface: kind, pressure over E*h', amplitude over rms height, W, its error and the
 // parts of it (cells, scatter, levels, ratio, solver), all over W; then W by contacts, less W, over
 // W; levels, window over u_z. The last lines are the table of docs/surface_damping.md.
+// With slip: the loss with friction, at excursions of 0.1 to 100 mu u_z, against forces of contacts
+// on cells of a quarter of the size, with K_t = (G*/E*)K. One line per surface: kind, mu, excursion
+// over mu u_z, W, its error over W, part by slip, what the reference is off, over W.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "damping/slip_by_contacts.hpp"
 #include "damping/work_by_contacts.hpp"
 #include "surface/refine.hpp"
 
@@ -133,6 +137,7 @@ int main(int count, char** words) {
   const int surfaces = count > 1 ? std::atoi(words[1]) : 210;
   const Index points = count > 2 ? std::atoi(words[2]) : 64;
   const int seed = count > 3 ? std::atoi(words[3]) : 1;
+  const bool slip = count > 4;
   Cases all;
   std::array<Cases, kinds.size()> by_kind;
   constexpr std::array amplitudes{0.003, 0.01, 0.03, 0.1, 0.3};
@@ -144,8 +149,38 @@ int main(int count, char** words) {
                  pressure = load * slope * material.contact_modulus,
                  amplitude = between(amplitudes.front(), amplitudes.back(), chance(i, 2));
     const Drag motion{amplitude * height_statistics(surface).rms_height, 1e-3, 2 * pi * 20e3};
+    const auto count_case = [&](double error, double actual) {
+      all.add(error, actual);
+      by_kind[kind].add(error, actual);
+      const auto above = std::ranges::upper_bound(amplitudes, amplitude) - amplitudes.begin();
+      by_amplitude[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
+                       above - 1, 0, static_cast<std::ptrdiff_t>(by_amplitude.size()) - 1))]
+          .add(error, actual);
+    };
     SweepOptions sweep;
     sweep.contact.tolerance = 1e-8;
+    if (slip) {
+      SurfaceDampingOptions options;
+      options.friction_coefficient = between(0.1, 0.5, chance(i, 6));
+      const double steps = between(0.1, 100, chance(i, 7));
+      options.excursion = steps * options.friction_coefficient * motion.normal_amplitude;
+      const Drag slow{motion.normal_amplitude,
+                      options.excursion / 20 * motion.angular_frequency / (2 * pi),
+                      motion.angular_frequency};
+      const SurfaceDamping r =
+          surface_damping(surface, material, slow,
+                          sweep_pressures(surface, material, {pressure}, sweep), options)[0];
+      const double w = r.relaxation_work + r.slip_work;
+      const double converged = work_with_slip_by_contacts(
+          dense_forces(refined(surface, 4), material, pressure, slow.normal_amplitude, 24),
+          material, slow, options.friction_coefficient, options.excursion);
+      const double actual = (converged - w) / w;
+      std::printf("%zu %.2f %.3g %.5g %.4f %.3f %+.4f\n", kind, options.friction_coefficient, steps,
+                  w, r.work_with_slip_error / w, r.slip_work / w, actual);
+      std::fflush(stdout);
+      if (r.converged) count_case(r.work_with_slip_error / w, actual);
+      continue;
+    }
     sweep.stick = true;
     const SurfaceDamping r = surface_damping(
         surface, material, motion, sweep_pressures(surface, material, {pressure}, sweep))[0];
@@ -161,12 +196,7 @@ int main(int count, char** words) {
                 r.window / motion.normal_amplitude);
     std::fflush(stdout);
     if (!r.converged || !std::isfinite(converged)) continue;
-    all.add(r.error / w, actual);
-    by_kind[kind].add(r.error / w, actual);
-    const auto above = std::ranges::upper_bound(amplitudes, amplitude) - amplitudes.begin();
-    by_amplitude[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-                     above - 1, 0, static_cast<std::ptrdiff_t>(by_amplitude.size()) - 1))]
-        .add(r.error / w, actual);
+    count_case(r.error / w, actual);
   }
   std::puts(
       "| surfaces | cases | n/a | error holds | missed by over 1.6 times | largest ratio | "

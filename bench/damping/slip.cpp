@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The damping constant with slip that a study states, against the three-dimensional simulation with
-// friction: the first surface of data/quickstart.toml on 128 x 128 points, a slow shear to and fro,
-// each way over twenty normal cycles.
+// friction: the first surface of a study's configuration, a slow shear to and fro, each way over
+// twenty normal cycles.
 //   damping_slip CONFIG [points [steps in a normal cycle]]
-// One line per motion: excursion, friction, gamma of the study with its error and the share of slip,
-// gamma and share of the simulation, and their difference over gamma. The simulation turns back: by
-// docs/theory.md, section 8, this alone makes 0.44 w/X = 2.2 % of the relaxation loss.
+// A table, one row a motion: excursion, friction, gamma of the study with its error and its part by
+// slip; gamma and part by slip of the simulation; gamma of springs by 150 contacts on the cells of
+// the simulation, twice as wide as the study's finest, and how far it is off the simulation. The
+// simulation turns back: by docs/theory.md, section 8, this alone makes 0.44 w/X = 2.2 % of the
+// relaxation loss.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
 #include <salebra/contact/normal/normal.hpp>
-#include <salebra/contact/sweep.hpp>
+#include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/generators/filtered_noise.hpp>
 #include <salebra/study/study_answer.hpp>
+
+#include "damping/slip_by_contacts.hpp"
 
 using namespace salebra;
 
@@ -28,13 +31,19 @@ int main(int count, char** arguments) {
   auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   surfaces.grid = Grid2D(points, points, surfaces.grid.lx, surfaces.grid.ly);
   surfaces.seeds.resize(1);
-  const Surface surface =
-      filtered_noise(surfaces.grid, SelfAffineSpectrum(surfaces.spectrum), surfaces.seeds.front());
+  const Surface surface = study_surface(configuration, surfaces.seeds.front());
   const double modulus = configuration.material.contact_modulus;
   const Drag described = std::get<Drag>(configuration.motion);
   const double omega = described.angular_frequency;
-  std::printf("X/nm   mu   gamma, N s/m   error  by slip   simulated  by slip  difference\n");
-  for (const double excursion : {0.5e-9, 5e-9, 50e-9})
+  const StudyLoads loads = study_loads(configuration);
+  const DenseForces dense =
+      dense_forces(surface, configuration.material, loads.pressures[loads.pressures.size() / 2],
+                   described.normal_amplitude, 48);
+  std::puts(
+      "| excursion | $\\mu$ | $\\gamma$, N s/m | error | by slip | simulated, N s/m | by slip | "
+      "same "
+      "cells, N s/m | off by |\n|---|---|---|---|---|---|---|---|---|");
+  for (const double excursion : {0.05e-9, 0.5e-9, 5e-9, 50e-9, 500e-9})
     for (const double friction : {0.1, 0.3}) {
       const Drag motion{.normal_amplitude = described.normal_amplitude,
                         .drag_velocity = excursion * omega / (2 * pi) / (normal_cycles / 2),
@@ -45,7 +54,11 @@ int main(int count, char** arguments) {
       const StudyResult result = run_study(configuration);
       const StudyAnswer answer = answer_of(result);
       const std::size_t k = answer.damping_constant.size() / 2;
-      const NormalContactState state = press(surface, modulus, Pressure{result.pressures[k]});
+      const StatedMean& stated = answer.damping_constant[k];
+      std::printf("| %g nm | %.1f | %.3g | %.1f %% | %.1f %% | ", excursion / 1e-9, friction,
+                  stated.mean, 100 * stated.error / stated.mean, 100 * answer.slip_share[k]);
+      std::fflush(stdout);
+      const NormalContactState state = press(surface, modulus, {.pressure = result.pressures[k]});
       // The turning points lie a quarter of a normal cycle after its least indentation.
       const Trajectory path{[&](double t) {
                               return state.indentation -
@@ -63,28 +76,15 @@ int main(int count, char** arguments) {
                                      .max_periods = 3,
                                      .steady_tolerance = 1e-3,
                                      .stick = {.tolerance = 1e-5}});
-      const double simulated = cycle.work_per_cycle / normal_cycles * omega / (2 * pi) /
-                               (motion.drag_velocity * motion.drag_velocity);
-      std::vector<double> dense;
-      for (int i = 0; i <= 150; ++i)
-        dense.push_back(result.pressures[k] / 20 * std::pow(40.0, i / 150.0));
-      static const TabulatedLaw law(
-          sweep_pressures(surface, configuration.material, dense, {.stick = true}),
-          configuration.material.modulus_ratio());
-      const LossWithSlip by_law =
-          loss_with_slip(law, law.indentation_of(result.pressures[k] * surface.grid.area()), motion,
-                         friction, excursion);
-      std::printf(
-          "dense %g %g %g\n",
-          by_law.work_per_cycle * omega / 2 / pi / motion.drag_velocity / motion.drag_velocity,
-          by_law.slip_share(),
-          by_law.full_stick_work * omega / 2 / pi / motion.drag_velocity / motion.drag_velocity);
-      const StatedMean& stated = answer.damping_constant[k];
-      std::printf("%4.1f  %4.1f  %12.5g  %5.1f %%  %5.1f %%  %10.5g  %5.1f %%  %+.1f %% %d %d %g\n",
-                  excursion / 1e-9, friction, stated.mean, 100 * stated.error / stated.mean,
-                  100 * answer.slip_share[k], simulated, 100 * cycle.slip_work / cycle.dissipated,
-                  100 * (stated.mean / simulated - 1), cycle.steady, cycle.converged,
-                  answer.damping_constant_without_slip[k].mean);
+      const double simulated =
+          closed_form::damping_constant(cycle.work_per_cycle / normal_cycles, motion);
+      const double on_its_cells = closed_form::damping_constant(
+          work_with_slip_by_contacts(dense, configuration.material, motion, friction, excursion),
+          motion);
+      std::printf("%.3g | %.1f %% | %.3g | %+.1f %%%s |\n", simulated,
+                  100 * cycle.slip_work / cycle.dissipated, on_its_cells,
+                  100 * (on_its_cells / simulated - 1),
+                  cycle.steady && cycle.converged ? "" : ", not steady");
       std::fflush(stdout);
     }
 }

@@ -26,12 +26,15 @@ void bind_surface_damping(nb::module_& m) {
          const std::variant<EqualFrequency, Drag>& motion, const ForceCurve& curve,
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
          const Choice<Boundary>& boundary, double relative_error,
-         const std::optional<Choice<SeamCheck>>& seam, const ProgressArgument& progress) {
+         const std::optional<Choice<SeamCheck>>& seam, double friction_coefficient,
+         double excursion, const ProgressArgument& progress) {
         cite({"popov2015"});
         SurfaceDampingOptions options{.hold = hold.value("hold"),
                                       .amplitude = amplitude.value("amplitude"),
                                       .boundary = boundary.value("boundary"),
-                                      .relative_error = relative_error};
+                                      .relative_error = relative_error,
+                                      .friction_coefficient = friction_coefficient,
+                                      .excursion = excursion};
         if (seam) options.seam = seam->value("seam");
         return interruptible(
             progress,
@@ -45,7 +48,8 @@ void bind_surface_damping(nb::module_& m) {
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve"), nb::kw_only(),
       nb::arg("hold") = "indentation", nb::arg("amplitude") = "finite",
       nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
-      nb::arg("seam") = nb::none(), nb::arg("progress") = false,
+      nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = SurfaceDamping::unknown,
+      nb::arg("excursion") = SurfaceDamping::unknown, nb::arg("progress") = false,
       R"(Relaxation damping of one surface at each load of its curve, from contacts inside the oscillation, with its error.
 
 Nothing is interpolated between loads. The cells are halved once, which gives their error; relative_error > 0 halves them further
@@ -65,6 +69,10 @@ relative_error : float
     0, or the part of W that the error is to be below.
 seam : {"window", "free"}, optional
     Solves once more without the seam of a surface that is not periodic, and counts the change as an error.
+friction_coefficient : float
+    With it relaxation_work and slip_work are the loss with slip, and work_with_slip_error is their error; NaN: they are unknown.
+excursion : float
+    Between the turning points of a Drag; without it its slip is not followed.
 
 Returns
 -------

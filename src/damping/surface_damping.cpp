@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -17,6 +18,7 @@
 #include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
+#include "level_loss.hpp"
 #include "phase_quadrature.hpp"
 #include "surface/refine.hpp"
 #include "surface_levels.hpp"
@@ -25,6 +27,7 @@ namespace salebra {
 namespace {
 
 using detail::KrigedStiffness;
+using detail::LevelLoss;
 using detail::Levels;
 using detail::ratio_on;
 using detail::StiffnessRatio;
@@ -33,17 +36,28 @@ using detail::VarianceScales;
 using std::numbers::pi;
 
 constexpr int most_levels = 32;
+constexpr Index piece_parts = 64;
 // The finest grid has at least so many: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
 constexpr double widest_window = 0.25;  // of F/K
 // In standard deviations: 93 % of normal deviates are smaller.
 constexpr double coverage = 1.8;
+// F/K that one parabola and its random function span below the oscillation.
+constexpr double widest_piece = 1.5;
+// Part of the loss with slip that is left to levels below the deepest contact.
+constexpr double least_rest = 3e-3;
+
+/// A loss, J.
+struct KrigedLoss {
+  double work = SurfaceDamping::unknown;
+  double deviation = std::numeric_limits<double>::infinity();  // standard
+  double ratio_error = 0, solver_error = 0;
+};
 
 /// What one grid says of one load.
-struct GridValue {
-  double work = SurfaceDamping::unknown;
-  double deviation = std::numeric_limits<double>::infinity();  // standard, of `work`, J
-  double ratio_error = 0, solver_error = 0;                    // J
+struct GridValue : KrigedLoss {
+  KrigedLoss with_slip;
+  double relaxation_work = SurfaceDamping::unknown;  // of the loss with slip, J
   Index points = 0;
   bool converged = false;
 };
@@ -64,6 +78,16 @@ class Load {
         ratio_(ratio_on(curve, k, material.modulus_ratio())),
         amplitude_(detail::normal_amplitude(motion)) {
     levels_ = options.levels;
+    // A drag without turning points is followed by no slow motion.
+    if (!std::isnan(options.friction_coefficient) &&
+        (std::holds_alternative<EqualFrequency>(motion) || !std::isnan(options.excursion)))
+      slip_.emplace(motion, options.friction_coefficient / material.modulus_ratio(),
+                    options.excursion);
+    for (const ForceSample& sample : curve.samples) {
+      const auto point = point_of(sample, material.modulus_ratio());
+      if (slip_ && point.force > 0 && std::isfinite(point.ratio)) of_curve_.push_back(point);
+    }
+    std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);
     half_ = amplitude_;
     if (options.hold == Hold::force && options.amplitude == Amplitude::finite)
       // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
@@ -77,6 +101,8 @@ class Load {
   double window() const { return half_; }
   int levels() const { return levels_; }
   double level_error() const { return level_error_; }
+  double level_error_with_slip() const { return level_error_with_slip_; }
+  bool follows_slip() const { return slip_.has_value(); }
   bool usable() const {
     return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.middle()) &&
            (values_.empty() || values_.back().converged);
@@ -149,18 +175,160 @@ class Load {
       const KrigedStiffness kriged(contacts, places(center));
       VarianceScales scales = scales_;
       scales.add(kriged.log_likelihood());
-      const GridValue value = evaluate(kriged, center, scales);
+      GridValue value = evaluate(kriged, center, scales);
       if (chooses) {
         levels_ = n;
-        std::vector<StiffnessSample> half;
-        for (std::size_t k = 0; k < contacts.size(); k += 2) half.push_back(contacts[k]);
-        const GridValue by_half = evaluate(KrigedStiffness(half, places(center)), center, scales);
+        const GridValue by_half =
+            evaluate(KrigedStiffness(every_other(contacts), places(center)), center, scales);
         level_error_ = std::abs(value.work - by_half.work);
         if (options_.choose_levels && n < most_levels && level_error_ > value.deviation) continue;
       }
       scales_ = scales;
+      const double mean = mean_position(kriged, center);
+      if (slip_ && std::isfinite(mean)) add_slip(value, levels, contacts, kriged, mean, center, n);
       return value;
     }
+  }
+
+  static std::vector<StiffnessSample> every_other(const std::vector<StiffnessSample>& samples) {
+    std::vector<StiffnessSample> half;
+    for (std::size_t k = 0; k < samples.size(); k += 2) half.push_back(samples[k]);
+    return half;
+  }
+
+  /// W with friction, −∫K_t w' dζ (level_loss.hpp): over the window by its contacts, and below it
+  /// by further ones, in pieces of no more than 1.5 F/K. No parabola with a random function of one
+  /// variance describes K over more, since both fall with the load. The pieces share the contact
+  /// at their border, and w is continuous, so that nothing of K at a border enters. Levels that
+  /// carry F below the last piece add less than F times the largest |w'|: pieces go on until this
+  /// is 0.3 % of W, which counts as an error of the levels.
+  void add_slip(GridValue& value, Levels& levels, const std::vector<StiffnessSample>& contacts,
+                const KrigedStiffness& kriged, double mean, double center, int intervals) {
+    const bool first = values_.empty(), chooses = intervals == levels_;
+    const double least = mean - amplitude_;
+    KrigedLoss sum{0, 0, 0, 0};
+    double by_half = 0, rest = 0;
+    const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
+                         const KrigedStiffness& between, const VarianceScales& scales) {
+      const Eigen::VectorXd of_level =
+          weights_of_levels(at, [&](double place) { return (*slip_)(place - mean); });
+      const Eigen::VectorXd weights = tangential(of_level, at, between, ratio_);
+      const auto [work, deviation] = between.estimate(weights, scales);
+      const Eigen::VectorXd straight = tangential(of_level, at, between, ratio_.straight(), false);
+      sum.work += work;
+      sum.deviation = std::hypot(sum.deviation, deviation);
+      sum.ratio_error += std::abs(work - between.estimate(straight, scales).value);
+      sum.solver_error += tolerance() * sample_.force * between.change_by_force(weights);
+      if (!chooses) return;
+      const KrigedStiffness half(every_other(samples), at);
+      by_half += half.estimate(tangential(of_level, at, half, ratio_), scales).value;
+    };
+    const double lowest = (*slip_)(-amplitude_);
+    const auto add_window = [&](const std::vector<StiffnessSample>& samples,
+                                const Eigen::VectorXd& at, const KrigedStiffness& between) {
+      add(samples, at, between, scales_);
+      const Eigen::VectorXd opening = weights_of_levels(
+          at, [&](double place) { return (*slip_)(std::max(place, least) - mean); });
+      value.relaxation_work = between
+                                  .estimate(tangential(opening - lowest * between.weights_at(least),
+                                                       at, between, ratio_),
+                                            scales_)
+                                  .value;
+    };
+    const Eigen::VectorXd window = places(center);
+    add_window(contacts, window, kriged);
+
+    // Below first touch there is nothing.
+    const double bottom = std::max(0.0, least - slip_->depth());
+    double top = center - half_;
+    for (std::size_t piece = 0; top > bottom; ++piece) {
+      if (first) {
+        const StiffnessSample highest = levels.at(top);
+        rest = material_.modulus_ratio() * ratio_.middle() * highest.force * slip_->steepest();
+        if (!levels.usable() || rest <= least_rest * std::abs(sum.work)) break;
+        const double width = widest_piece * highest.force / highest.stiffness;
+        // No piece is so narrow that no cells enter, or that forces must be known to more digits
+        // than in the window.
+        const double end = std::min(bottom, top - half_);
+        pieces_.push_back(mean - (top - end < 1.2 * width ? end : top - width));
+        rest = 0;
+      } else if (piece == pieces_.size()) {
+        break;
+      }
+      const double end = std::max(0.0, mean - pieces_[piece]);
+      const double half = (top - end) / 2, middle = (top + end) / 2;
+      if (!(half > 1e-9 * amplitude_)) break;
+      std::vector<StiffnessSample> inside;
+      for (int k = 0; k <= intervals; ++k)
+        inside.push_back(levels.at(k == 0 ? top
+                                   : k == intervals
+                                       ? end
+                                       : middle + half * std::cos(pi * k / intervals)));
+      if (!levels.usable()) break;
+      const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
+        return k == 0             ? top
+               : k == piece_parts ? end
+                                  : middle + half * std::cos(pi * double(k) / piece_parts);
+      });
+      if (first && piece == 0)
+        joined_ = center + half_ - end < widest_piece * sample_.force / sample_.normal_stiffness;
+      if (joined_ && piece == 0) {
+        std::vector<StiffnessSample> samples = contacts;
+        samples.insert(samples.end(), inside.begin() + 1, inside.end());
+        Eigen::VectorXd all(window.size() + piece_parts);
+        all << window, at.tail(piece_parts);
+        sum = {0, 0, 0, 0};
+        by_half = 0;
+        add_window(samples, all, KrigedStiffness(samples, all));
+      } else {
+        const KrigedStiffness between(inside, at);
+        VarianceScales scales = scales_;
+        scales.add(between.log_likelihood());
+        add(inside, at, between, scales);
+      }
+      top = end;
+    }
+    if (chooses) level_error_with_slip_ = std::hypot(sum.work - by_half, rest);
+    value.with_slip = sum;
+  }
+
+  /// −∫K w' dζ = Σ weights × K(places), for K linear between places.
+  static Eigen::VectorXd weights_of_levels(const Eigen::VectorXd& places, const auto& loss) {
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(places.size());
+    double above = loss(places(0));
+    for (Index i = 0; i + 1 < places.size(); ++i) {
+      const double below = loss(places(i + 1));
+      const double mean = (above + 4 * loss((places(i) + places(i + 1)) / 2) + below) / 6;
+      weights(i) += mean - above;
+      weights(i + 1) += below - mean;
+      above = below;
+    }
+    return weights;
+  }
+
+  /// Weights of K from those of K_t. Below the contacts that ρ is known of it goes on as on the
+  /// curve; flat: it does not.
+  Eigen::VectorXd tangential(const Eigen::VectorXd& weights, const Eigen::VectorXd& places,
+                             const KrigedStiffness& kriged, const StiffnessRatio& ratio,
+                             bool follow_curve = true) const {
+    return Eigen::VectorXd::NullaryExpr(weights.size(), [&](Index i) {
+      const double force = kriged.force(places(i)), lowest = ratio.lowest_force();
+      double value = ratio.at(force);
+      if (follow_curve && force < lowest) value += ratio_of_curve(force) - ratio_of_curve(lowest);
+      return material_.modulus_ratio() * value * weights(i);
+    });
+  }
+
+  /// Linear in ln F between loads.
+  double ratio_of_curve(double force) const {
+    if (of_curve_.empty()) return 0;
+    const auto above =
+        std::ranges::upper_bound(of_curve_, force, {}, &StiffnessRatio::Point::force);
+    if (above == of_curve_.begin()) return above->ratio;
+    const auto below = std::prev(above);
+    if (above == of_curve_.end()) return below->ratio;
+    return std::lerp(below->ratio, above->ratio,
+                     std::log(force / below->force) / std::log(above->force / below->force));
   }
 
   /// Indentations at which K is kriged: at equal angles of the window and of the oscillation, which
@@ -250,17 +418,24 @@ class Load {
   const double amplitude_;
   double half_ = 0;  // of the window
   int levels_ = 4;
-  double level_error_ = 0;  // J
+  double level_error_ = 0, level_error_with_slip_ = 0;  // J
+  std::optional<LevelLoss> slip_ = {};
+  std::vector<StiffnessRatio::Point> of_curve_ = {};
+  std::vector<double> pieces_ = {};  // below the mean indentation, their lower ends
+  bool joined_ = false;              // the first of them with the window
   VarianceScales scales_;
   std::vector<GridValue> values_;
 };
 
-void add_up(SurfaceDamping& result) {
+double root_of_squares(std::initializer_list<double> parts) {
   double sum = 0;
-  for (const double part : {result.cell_error, result.scatter, result.level_error,
-                            result.ratio_error, result.seam_error, result.solver_error})
-    sum += part * part;
-  result.error = std::sqrt(sum);
+  for (const double part : parts) sum += part * part;
+  return std::sqrt(sum);
+}
+
+void add_up(SurfaceDamping& result) {
+  result.error = root_of_squares({result.cell_error, result.scatter, result.level_error,
+                                  result.ratio_error, result.seam_error, result.solver_error});
 }
 
 SurfaceDamping result_of(const Load& load, const Oscillation& motion,
@@ -282,12 +457,19 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.window = load.window();
   result.levels = load.levels();
   result.points = value.points;
+  result.relaxation_work = value.relaxation_work;
+  result.slip_work = value.with_slip.work - value.relaxation_work;
   if (values.size() < 2) return result;
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // Forces converge at second order: of a halving a third remains on the finer cells.
-  const double change = std::abs(value.work - other.work);
-  result.cell_error = value.points < other.points ? 4 * change / 3 : change / 3;
+  const double part = value.points < other.points ? 4.0 / 3 : 1.0 / 3;
+  result.cell_error = part * std::abs(value.work - other.work);
   add_up(result);
+  if (!load.follows_slip()) return result;
+  const KrigedLoss& slip = value.with_slip;
+  result.work_with_slip_error =
+      root_of_squares({part * std::abs(slip.work - other.with_slip.work), coverage * slip.deviation,
+                       load.level_error_with_slip(), slip.ratio_error, slip.solver_error});
   return result;
 }
 
@@ -342,6 +524,10 @@ void validate(const Surface& surface, const ForceCurve& curve,
           "must lie in 0 … 4");
   require(!options.coarsen || (surface.grid.nx % 2 == 0 && surface.grid.ny % 2 == 0), "coarsen",
           surface.grid.nx, "points cannot be halved; use an even number");
+  for (const auto& [value, field] :
+       {std::pair{options.friction_coefficient, "friction_coefficient"},
+        {options.excursion, "excursion"}})
+    if (!std::isnan(value)) require_positive(value, field);
   require(options.relative_error >= 0 && options.relative_error < 1, "relative_error",
           options.relative_error, "must lie between 0 and 1");
 }
@@ -423,6 +609,11 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     result.seam_error =
         beyond_scatter(unseamed[k].work_per_cycle - own.work, own.deviation, own.deviation);
     add_up(result);
+    const double with_slip = unseamed[k].relaxation_work + unseamed[k].slip_work;
+    result.work_with_slip_error =
+        std::hypot(result.work_with_slip_error,
+                   beyond_scatter(with_slip - own.with_slip.work, own.with_slip.deviation,
+                                  own.with_slip.deviation));
   }
   return results;
 }

@@ -55,6 +55,7 @@ class StiffnessRatio {
     return value_ + way * (slope_ + way * bend_);
   }
   double middle() const { return value_; }
+  double lowest_force() const { return force_ * std::exp(low_); }
   StiffnessRatio scaled(double factor) const {
     StiffnessRatio other = *this;
     other.value_ *= factor;

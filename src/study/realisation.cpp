@@ -181,6 +181,8 @@ void resolve_damping(ModelResult& result, const Surface& surface,
                      const Progress& progress) {
   SurfaceDampingOptions options = surface_damping_options(configuration, surface.grid, seed);
   options.on_progress = progress;
+  options.friction_coefficient = configuration.known.friction_coefficient;
+  options.excursion = configuration.known.excursion;
   const std::vector<SurfaceDamping> resolved =
       surface_damping(surface, configuration.material, configuration.motion, result.curve, options);
   for (std::size_t k = 0; k < resolved.size(); ++k) {
@@ -195,6 +197,9 @@ void resolve_damping(ModelResult& result, const Surface& surface,
     point.level_error = one.level_error * per_work;
     point.ratio_error = one.ratio_error * per_work;
     if (options.seam) point.seam_error = one.seam_error * per_work;
+    point.relaxation_work = one.relaxation_work;
+    point.slip_work = one.slip_work;
+    point.work_with_slip_error = one.work_with_slip_error;
     // One surface has no other number to average with.
     if (detail::seeds_of(configuration).size() == 1 &&
         point.damping_constant_error >= std::abs(point.damping_constant))

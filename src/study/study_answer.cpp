@@ -49,16 +49,27 @@ StatedMean scaled(StatedMean mean, double factor) {
   return mean;
 }
 
-/// Puts the loss with slip of one pressure in the place of that without.
-void follow_slip(StudyAnswer& answer, std::size_t k, const LossWithSlip& loss,
-                 const Oscillation& motion) {
-  StatedMean& constant = answer.damping_constant[k];
-  const double by_curve = closed_form::damping_constant(loss.full_stick_work, motion);
-  const double off = std::abs(by_curve / constant.mean - 1);
+/// Puts the loss with slip in the place of that without: of contacts where levels slip.
+void follow_slip(StudyAnswer& answer, const StudyResult& result) {
+  const auto relaxation = result.damping(&DampingPoint::relaxation_work);
+  const auto slip = result.damping(&DampingPoint::slip_work);
+  answer.damping_constant = result.stated_work_with_slip();
+  for (std::size_t k = 0; k < slip.size(); ++k) {
+    StatedMean& constant = answer.damping_constant[k];
+    constant = scaled(constant, closed_form::damping_constant(1, result.configuration.motion));
+    if (std::isnan(constant.mean)) continue;
+    answer.slip_share[k] = slip[k].mean / (relaxation[k].mean + slip[k].mean);
+    answer.relaxation_share[k] = 1 - answer.slip_share[k];
+  }
+}
+
+/// Of one pressure, by the mean curve between pressures, whose error is not known.
+void follow_slip(StudyAnswer& answer, std::size_t k, const LossWithSlip& loss) {
+  answer.damping_constant[k] =
+      scaled(answer.damping_constant[k], loss.work_per_cycle / loss.full_stick_work);
+  answer.damping_constant[k].error = ForceSample::unknown;
   answer.relaxation_share[k] = loss.relaxation_share();
   answer.slip_share[k] = loss.slip_share();
-  constant = scaled(constant, loss.work_per_cycle / loss.full_stick_work);
-  constant.error = std::hypot(constant.error, answer.slip_share[k] * off * constant.mean);
 }
 
 }  // namespace
@@ -76,6 +87,9 @@ StudyAnswer answer_of(const StudyResult& result) {
   const auto* drag = std::get_if<Drag>(&configuration.motion);
   if (drag != nullptr && answer.slip_followed && std::isnan(configuration.known.excursion))
     answer.needs = "excursion";
+  const bool slips = answer.slip_followed && answer.needs.empty();
+  const bool by_contacts = configuration.levels != 0;
+  if (slips && by_contacts) follow_slip(answer, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
@@ -86,11 +100,10 @@ StudyAnswer answer_of(const StudyResult& result) {
       facts.nominal_pressure = sample.pressure;
       facts.mean_contact_pressure = sample.pressure / sample.contact_area_fraction;
       answer.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
-      if (answer.slip_followed && answer.needs.empty())
+      if (slips && !by_contacts)
         follow_slip(answer, k,
                     loss_with_slip(law, -sample.mean_gap, configuration.motion,
-                                   facts.friction_coefficient, facts.excursion),
-                    configuration.motion);
+                                   facts.friction_coefficient, facts.excursion));
     }
   }
   // An excursion that one normal cycle covers is no slow motion.
@@ -102,8 +115,7 @@ StudyAnswer answer_of(const StudyResult& result) {
   const double per_work = closed_form::damping_constant(1, configuration.motion);
   for (const StatedMean& constant : answer.damping_constant)
     answer.work_per_cycle.push_back(scaled(constant, 1 / per_work));
-  answer.conditions = conditions_of(answer.premises, answer.slip_followed && answer.needs.empty(),
-                                    result.pressures);
+  answer.conditions = conditions_of(answer.premises, slips, result.pressures);
   answer.validity = validity_of(answer.conditions);
   return answer;
 }

@@ -163,6 +163,22 @@ std::vector<StatedMean> StudyResult::stated_damping(ContactModel model) const {
   return stated;
 }
 
+std::vector<StatedMean> StudyResult::stated_work_with_slip() const {
+  std::vector<StatedMean> stated;
+  for (const EnsembleMean& work : damping(&DampingPoint::work_with_slip)) {
+    StatedMean& mean = stated.emplace_back(StatedMean{work});
+    const std::size_t k = stated.size() - 1;
+    const EnsembleMean relative = this->mean([&](const Realisation& r) {
+      const auto& points = r.of(ContactModel::bem).damping;
+      return k < points.size() ? points[k].work_with_slip_error / points[k].work_with_slip()
+                               : ForceSample::unknown;
+    });
+    mean.error = std::abs(relative.mean * mean.mean);
+    if (mean.error >= std::abs(mean.mean)) mean.mean = mean.low = mean.high = ForceSample::unknown;
+  }
+  return stated;
+}
+
 DeviationRange StudyResult::deviation_range(ContactModel model) const {
   double low = ForceSample::unknown, high = ForceSample::unknown;
   for (const EnsembleMean& ratio : deviation(model)) {

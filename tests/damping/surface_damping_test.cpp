@@ -10,12 +10,14 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/joint.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "slip_by_contacts.hpp"
 #include "surface/refine.hpp"
 #include "work_by_contacts.hpp"
 
@@ -174,6 +176,44 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("The loss of a paraboloid with slip is that of Hertz' law, from no slip to sliding") {
+  constexpr double radius = 4e-3, size = 1e-3, mean_indentation = 20e-6, amplitude = 2e-6;
+  const double coefficient = 4.0 / 3 * material.contact_modulus * std::sqrt(radius);
+  const PowerLaw law(coefficient, 1.5, material.modulus_ratio());
+  const Grid2D grid{64, 64, size, size};
+  const Surface surface = paraboloid_surface(grid, radius, off_grid_center(grid));
+  const double force = coefficient * std::pow(mean_indentation, 1.5);
+  const ForceCurve curve = curve_of(surface, {force / grid.area()}, Boundary::free);
+  SurfaceDampingOptions options;
+  options.boundary = Boundary::free;
+  options.friction_coefficient = 0.3;
+  const auto compare = [&](const Oscillation& motion, double excursion) {
+    options.excursion = excursion;
+    const SurfaceDamping result = surface_damping(surface, material, motion, curve, options)[0];
+    const LossWithSlip exact =
+        loss_with_slip(law, mean_indentation, motion, options.friction_coefficient, excursion);
+    const double found = result.relaxation_work + result.slip_work;
+    INFO(motion.index() << ' ' << excursion << ' ' << found / exact.work_per_cycle << ' '
+                        << result.work_with_slip_error / exact.work_per_cycle << ' '
+                        << result.slip_work / found << ' ' << exact.slip_share());
+    REQUIRE(result.converged);
+    CHECK(std::abs(found - exact.work_per_cycle) < result.work_with_slip_error);
+    // Some 200 cells enter within the oscillation on the finer grid: two standard deviations are
+    // 14 %. Where slip makes most of W it is an integral of forces, which hardly feel the cells.
+    CHECK(result.work_with_slip_error < 0.2 * exact.work_per_cycle);
+    if (exact.slip_share() > 0.5) CHECK(result.work_with_slip_error < 0.05 * exact.work_per_cycle);
+    CHECK(std::abs(result.slip_work / found - exact.slip_share()) <
+          result.work_with_slip_error / found);
+  };
+  // The contact slides from x = (μ/g)δ on, 7 µm.
+  for (const double excursion : {0.1e-6, 1e-6, 100e-6})
+    compare(Drag{amplitude, excursion / 20 * angular_frequency / (2 * pi), angular_frequency},
+            excursion);
+  for (const double displacement : {1e-6, 10e-6})
+    compare(EqualFrequency{amplitude, displacement, pi / 3, angular_frequency},
+            SurfaceDamping::unknown);
+}
+
 TEST_CASE("What holds a mean force shifts the mean indentation of a paraboloid as the law says") {
   // Where u_z is as large as the indentation the two losses differ by far more than the error.
   constexpr double radius = 4e-3, size = 1e-3;
@@ -248,6 +288,69 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
   // 12 % for all 120 seeds.
   std::ranges::sort(stated);
   CHECK(stated[stated.size() / 2] < 0.2);
+}
+
+TEST_CASE("Errors of the loss with slip hold, over three decades of the excursion") {
+  // Of 80 losses of the seeds 0 to 19 92 % hold, and the largest ratio is 2.0. Cells of half the
+  // size stand for the surface, cells of twice the size give the error.
+  int held = 0, cases = 0;
+  std::vector<double> stated;
+  for (const int seed : {0, 1, 2, 3, 4, 5}) {
+    const Surface surface = other_surface(seed);
+    const double pressure =
+        std::array{0.004, 0.02, 0.08}[std::size_t(seed % 3)] * 0.1 * material.contact_modulus;
+    const double amplitude = std::array{0.01, 0.03, 0.1, 0.2}[std::size_t(seed % 4)] *
+                             height_statistics(surface).rms_height;
+    const ForceCurve curve = curve_of(surface, {pressure}, Boundary::periodic, false);
+    const DenseForces dense = dense_forces(refined(surface, 2), material, pressure, amplitude, 24);
+    for (const auto& [friction, steps] :
+         {std::pair{0.1, 0.1}, {0.5, 1.}, {0.1, 10.}, {0.5, 100.}}) {
+      SurfaceDampingOptions options;
+      options.coarsen = true;
+      options.friction_coefficient = friction;
+      options.excursion = steps * friction * amplitude;
+      const Drag motion{amplitude, options.excursion / 20 * angular_frequency / (2 * pi),
+                        angular_frequency};
+      const SurfaceDamping result = surface_damping(surface, material, motion, curve, options)[0];
+      const double found = result.relaxation_work + result.slip_work;
+      const double converged =
+          work_with_slip_by_contacts(dense, material, motion, friction, options.excursion);
+      const double ratio =
+          std::abs(found - converged) / std::hypot(result.work_with_slip_error, 0.005 * converged);
+      INFO(seed << ' ' << friction << ' ' << steps << ": " << found / converged << ' '
+                << result.work_with_slip_error / converged << ' ' << result.slip_work / found);
+      REQUIRE(result.converged);
+      CHECK(ratio < 2.5);
+      held += ratio <= 1;
+      ++cases;
+      stated.push_back(result.work_with_slip_error / found);
+    }
+  }
+  // Fewer of 24, of which 92 % hold, by chance one time in 100.
+  CHECK(held >= 19);
+  // 8 % for the 80.
+  std::ranges::sort(stated);
+  CHECK(stated[stated.size() / 2] < 0.25);
+}
+
+TEST_CASE("Friction leaves the loss without slip as it is, to the bit") {
+  const Surface surface = rough(32, 7);
+  const Drag motion = drag(surface, 0.05);
+  const ForceCurve curve = curve_of(surface, loads(3), Boundary::periodic, false);
+  SurfaceDampingOptions options;
+  const std::vector<SurfaceDamping> without =
+      surface_damping(surface, material, motion, curve, options);
+  options.friction_coefficient = 0.3;
+  options.excursion = 20 * motion.normal_amplitude;
+  const std::vector<SurfaceDamping> with =
+      surface_damping(surface, material, motion, curve, options);
+  for (std::size_t k = 0; k < with.size(); ++k) {
+    CHECK(with[k].work_per_cycle == without[k].work_per_cycle);
+    CHECK(with[k].error == without[k].error);
+    CHECK(std::isnan(without[k].slip_work));
+    CHECK(std::isnan(without[k].work_with_slip_error));
+    CHECK(with[k].slip_work > 0);
+  }
 }
 
 TEST_CASE("The loss of a joint of a surface has an error that holds, at small forces too") {

@@ -43,6 +43,8 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
                          "amplitude of the tangential oscillation"},
     tangential_force{"tangential_force", Dimension::force, "tangential force"},
     time{"time", Dimension::time, "time"},
-    work_per_cycle{"work_per_cycle", Dimension::energy, "energy dissipated in a cycle"};
+    work_per_cycle{"work_per_cycle", Dimension::energy, "energy dissipated in a cycle"},
+    work_with_slip_error{"work_with_slip_error", Dimension::energy,
+                         "error of relaxation_work and slip_work together"};
 
 }  // namespace salebra::quantity

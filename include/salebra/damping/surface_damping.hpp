@@ -62,13 +62,17 @@ struct SurfaceDampingOptions {
   /// Solves once more, on the cells as they are, and takes the change of W for the error of the
   /// seam.
   std::optional<SeamCheck> seam = {};
+  /// μ, with which the loss is computed a second time, with slip; NaN: it is not.
+  double friction_coefficient = std::numeric_limits<double>::quiet_NaN();
+  /// Between the turning points of a drag, m; NaN: without them its slip is not followed.
+  double excursion = std::numeric_limits<double>::quiet_NaN();
   Index most_refined =
       8;  ///< times as many points along each side, at the most, that relative_error may ask for
   Progress on_progress = {};
 };
 
-/// Damping of one surface at one load, with its error. All errors are of work_per_cycle, J; NaN
-/// where not known.
+/// Damping of one surface at one load, with its error. All errors but one are of work_per_cycle, J;
+/// NaN where not known.
 struct SurfaceDamping {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double work_per_cycle = unknown;    ///< W, J
@@ -84,6 +88,9 @@ struct SurfaceDamping {
   double solver_error = unknown;     ///< tolerance of the forces, as it enters W
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
   double window = unknown;  ///< half the range of indentations that were solved, m; at least u_z
+  double relaxation_work = unknown;       ///< with slip, by levels that open and close, J
+  double slip_work = unknown;             ///< by levels that stay closed, J
+  double work_with_slip_error = unknown;  ///< of the sum of both, J
   int levels = 0;
   Index points = 0;  ///< along x, of the grid that W belongs to
   bool converged =
@@ -112,6 +119,9 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   visit(&S::solver_error, Kept{"solver_error", "error by the solver's tolerance", energy});
   visit(&S::stiffness_ratio, Kept{"stiffness_ratio", "K_t/((G*/E*)K)"});
   visit(&S::window, Kept{"window", "half the range of indentations that were solved", length});
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
+  visit(&S::work_with_slip_error, quantity::work_with_slip_error);
   visit(&S::levels, Kept{"levels", "intervals between contact levels"});
   visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
@@ -140,6 +150,13 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// n/2 and n, nested, on the first grid. Of ρ: what W changes by where ρ is a straight line. Of the
 /// solver: its tolerance, relative to F, times the weights of the forces in W.
 ///
+/// With a coefficient of friction, besides: the loss of the same springs with slip, as
+/// loss_with_slip() of a law, W = −∫K_t w' dζ with the loss w of one spring at each level. Where
+/// levels slip that stay closed, down to δ0 − u_z − gX/(2μ) in a drag or to first touch, further
+/// contacts give K, in pieces over which F falls by e^1.5. The loss is that at finite amplitude.
+/// Its error has the same parts; ρ below the oscillation follows the curve, and counts as an error
+/// there. W without slip has the same bits as without friction.
+///
 /// curve   of this surface and material, by sweep_pressures(); samples that did not converge are
 ///         left out (converged = false)
 /// throws  InvalidInput for a curve without loads, levels that are none of the four, relative_error
@@ -148,7 +165,8 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 ///         have the same bits as in one process, but for those of isolated surfaces, as K of
 ///         sweep_pressures()
 /// cost    for each load levels + 1 to 5 normal contacts and stiffnesses on the first grid, three
-///         on others, in parallel over loads; a halving of the cells costs five times the grid
+///         on others, in parallel over loads; with slip up to 4 levels more on the first grid, half
+///         as many on others; a halving of the cells costs five times the grid
 ///         before it
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,

@@ -42,7 +42,13 @@ struct DampingPoint {
   double level_error = ForceSample::unknown;
   double ratio_error = ForceSample::unknown;
   double seam_error = ForceSample::unknown;
+  /// With slip, where a coefficient of friction and, of a drag, an excursion are known; of boundary
+  /// elements, J.
+  double relaxation_work = ForceSample::unknown;
+  double slip_work = ForceSample::unknown;
+  double work_with_slip_error = ForceSample::unknown;
 
+  double work_with_slip() const { return relaxation_work + slip_work; }
   double deviation() const { return work_per_cycle_closed_form / work_per_cycle - 1; }
 };
 
@@ -74,6 +80,9 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
                                   "error of the damping constant by the ratio of the stiffnesses"});
   visit(&S::seam_error,
         Quantity{"seam_error", damping, "error of the damping constant by the seam of a scan"});
+  visit(&S::relaxation_work, quantity::relaxation_work);
+  visit(&S::slip_work, quantity::slip_work);
+  visit(&S::work_with_slip_error, quantity::work_with_slip_error);
   visit(&S::deviation, Quantity{"deviation", dimensionless,
                                 "damping by the fitted law over the damping computed, less 1"});
 }

@@ -13,11 +13,10 @@ namespace salebra {
 /// stiffnesses averaged over the surfaces at each pressure.
 struct StudyAnswer {
   /// γ = P/⟨ẋ²⟩, N s/m, of the contact as described: with slip where the coefficient of friction is
-  /// known, else without. The curve is interpolated between pressures and gives the ratio of the
-  /// losses with slip and without; times stated_damping() it is the loss. Its error is that of
-  /// stated_damping() and, of the part that slip makes, what the curve is off the contacts within
-  /// the oscillation. Unknown where a fact is missing that decides (`needs`), and where the motion
-  /// is not slow at all.
+  /// known, by contacts where levels slip (stated_work_with_slip()), else without. A study without
+  /// levels has stated_damping() times the ratio of both losses on the mean curve, interpolated
+  /// between pressures, and no error. Unknown where a fact is missing that decides (`needs`), and
+  /// where the motion is not slow at all.
   std::vector<StatedMean> damping_constant = {};
   std::vector<StatedMean> work_per_cycle = {};                 ///< J, of a normal cycle
   std::vector<StatedMean> damping_constant_without_slip = {};  ///< stated_damping()

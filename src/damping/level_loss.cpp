@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loss of one spring of a contact with friction.
+#include "level_loss.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "mean_rise.hpp"
+#include "phase_quadrature.hpp"
+
+namespace salebra::detail {
+namespace {
+
+using std::numbers::pi;
+
+constexpr int steps = 360;  // the loss is then good to 1e-4
+
+}  // namespace
+
+LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion)
+    : motion_(motion),
+      amplitude_(normal_amplitude(motion)),
+      stretch_(stretch),
+      excursion_(excursion) {
+  if (const auto* drag = std::get_if<Drag>(&motion)) {
+    const double speed = std::abs(drag->drag_velocity) / drag->angular_frequency;
+    way_ = 2 * pi * speed;
+    rise_ = stretch * amplitude_ * mean_rise(speed / (stretch * amplitude_));
+    depth_ = excursion / (2 * stretch);
+  } else {
+    // A level sticks where one anchor is within its limit of x at all times.
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int i = 0; i < steps; ++i) {
+      const double angle = 2 * pi * i / steps, x = displacement(angle),
+                   limit = stretch * amplitude_ * std::cos(angle);
+      low = std::min(low, x + limit);
+      high = std::max(high, x - limit);
+    }
+    depth_ = std::max(0.0, (high - low) / (2 * stretch) - amplitude_);
+  }
+  constexpr int parts = 32;
+  for (int i = 0; i < parts && depth_ > 0; ++i) {
+    const double from = -amplitude_ - depth_ * i / parts, width = depth_ / parts;
+    steepest_ = std::max(steepest_, std::abs((*this)(from) - (*this)(from - width)) / width);
+  }
+}
+
+double LevelLoss::displacement(double angle) const {
+  if (const auto* drag = std::get_if<Drag>(&motion_))
+    return drag->drag_velocity / drag->angular_frequency * angle;
+  const auto& equal = std::get<EqualFrequency>(motion_);
+  return equal.tangential_amplitude * std::cos(angle + equal.phase);
+}
+
+double LevelLoss::operator()(double level) const {
+  if (level >= amplitude_) return 0;
+  if (level > -amplitude_) return followed(level, std::acos(level / amplitude_), 1);
+  if (std::holds_alternative<EqualFrequency>(motion_)) return followed(level, pi, 2);
+  // It slides but for twice its stretch after each turning point.
+  const double limit = stretch_ * (-amplitude_ - level);
+  return (limit + rise_) * std::max(0.0, excursion_ - 2 * limit) * way_ / excursion_;
+}
+
+// ∮s dx of a spring that touches from −half to half, in the last of the periods: exact for straight
+// steps. What is stored at both ends is the same.
+double LevelLoss::followed(double level, double half, int periods) const {
+  const auto limit_at = [&](double angle) {
+    return std::max(0.0, stretch_ * (amplitude_ * std::cos(angle) - level));
+  };
+  double work = 0, stretch = 0;
+  for (int period = 0; period < periods; ++period) {
+    work = 0;
+    double x = displacement(-half), limit = limit_at(-half);
+    for (int i = 1; i <= steps; ++i) {
+      const double angle = half * (2.0 * i / steps - 1);
+      const double next_x = displacement(angle), next_limit = limit_at(angle);
+      const double way = next_x - x, stuck = stretch + way;
+      if (std::abs(stuck) <= next_limit) {
+        work += (stretch + stuck) / 2 * way;
+        stretch = stuck;
+      } else {
+        const double side = stuck > 0 ? 1 : -1;
+        const double share = (limit - side * stretch) / (side * way - (next_limit - limit));
+        const double slips = stretch + share * way, end = side * next_limit;
+        work += way * (share * (stretch + slips) + (1 - share) * (slips + end)) / 2;
+        stretch = end;
+      }
+      x = next_x, limit = next_limit;
+    }
+  }
+  return work;
+}
+
+}  // namespace salebra::detail
