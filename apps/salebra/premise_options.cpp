@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/validity.hpp>
 
 #include "option_words.hpp"
 #include "results/columns.hpp"

@@ -521,14 +521,17 @@ Premise plasticity_of(const ContactFacts& facts, double mean_force) {
   return premise;
 }
 
-Premise coupling_of(const ContactLaw& law, const ContactFacts& facts) {
+// drag: what the coupling changes of a slow motion was never computed.
+Premise coupling_of(const ContactLaw& law, bool indenter, bool drag, const ContactFacts& facts) {
   Premise premise{.limit_5_percent = 0.05, .limit_20_percent = 0.2};
+  if (drag) return premise;
   const double poisson = poisson_of(law.modulus_ratio());
   const double dundurs =
       std::isnan(facts.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : facts.dundurs;
-  // Direct simulations of a rough surface at 45° and a paraboloid at 90°: 3 % at ν = 0.3 (β =
-  // 0.286), 17 % at ν = 0 (β = 0.5).
-  premise.value = 1.3 * std::pow(std::abs(dundurs), 3);
+  // The largest of direct simulations at ν = 0.3 (β = 0.286) and 0 (β = 0.5): 12 and 52 % of a
+  // paraboloid at 45°, 4 and 18 % of rough surfaces (docs/direct_simulation.md).
+  premise.value =
+      indenter ? 3.2 * std::pow(std::abs(dundurs), 2.62) : 1.16 * std::pow(std::abs(dundurs), 2.69);
   judge(premise);
   return premise;
 }
@@ -647,7 +650,8 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   const double length = length_of(law, motion.mean, amplitude);
   Premises premises;
   premises.plasticity = plasticity_of(facts, law.force(motion.mean));
-  premises.coupling = coupling_of(law, facts);
+  premises.coupling =
+      coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr, motion.drag, facts);
   premises.slow_motion = slow_motion_of(law, motion, facts);
   Premise& opening = premises.slip_of_opening_levels;
   Premise& closed = premises.slip_of_closed_levels;

@@ -84,7 +84,7 @@ class Load {
       slip_.emplace(motion, options.friction_coefficient / material.modulus_ratio(),
                     options.excursion);
     for (const ForceSample& sample : curve.samples) {
-      const auto point = point_of(sample, material.modulus_ratio());
+      const auto point = detail::point_of(sample, material.modulus_ratio());
       if (slip_ && point.force > 0 && std::isfinite(point.ratio)) of_curve_.push_back(point);
     }
     std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);

@@ -73,7 +73,9 @@ std::string condition_text(const PremiseName& name, const Premise& premise) {
   if (premise.onset == 1) return "elastic again: loads below that of the first loading";
   // No motion at this velocity, none at all, keeps it.
   if (premise.limit_20_percent == 0) return std::string(name.meaning) + " at any motion";
-  if (!std::isfinite(first_limit(premise))) return std::string(name.meaning);
+  if (!std::isfinite(first_limit(premise)) ||
+      (premise.verdict == Verdict::unknown && premise.needs.empty()))
+    return std::string(name.meaning);
   return fmt::format(fmt::runtime(name.condition),
                      format_quantity(first_limit(premise), name.value_dimension, 3));
 }
@@ -146,7 +148,11 @@ Condition closed_form_condition(std::span<const Premises> cases,
 
 Validity validity_of(std::span<const Condition> conditions) {
   int worst = rank_of(Verdict::holds);
-  for (const Condition& one : conditions) worst = std::min(worst, rank_of(one.verdict));
+  for (const Condition& one : conditions) {
+    // No fact settles it: what is not modelled (docs/limits.md) is said once, in its line.
+    if (one.name == "coupling" && one.verdict == Verdict::unknown) continue;
+    worst = std::min(worst, rank_of(one.verdict));
+  }
   return worst == rank_of(Verdict::broken)     ? Validity::not_valid
          : worst == rank_of(Verdict::doubtful) ? Validity::valid_with_care
          : worst == rank_of(Verdict::unknown)  ? Validity::not_checked

@@ -130,6 +130,19 @@ TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Case& one, doub
       .loss;
 }
 
+/// Of a surface, from contacts where levels slip.
+TrajectoryDamping loss_with_slip_of(const SurfaceDamping& load, const Oscillation& motion) {
+  TrajectoryDamping damping = unknown_loss();
+  if (!(load.work_with_slip_error < load.relaxation_work + load.slip_work)) return damping;
+  damping.relaxation_work = load.relaxation_work;
+  damping.slip_work = load.slip_work;
+  damping.work_per_cycle = load.relaxation_work + load.slip_work;
+  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, motion);
+  if (omega > 0) damping.power = damping.work_per_cycle * omega / (2 * std::numbers::pi);
+  damping.damping_constant = closed_form::damping_constant(damping.work_per_cycle, motion);
+  return damping;
+}
+
 /// The place of a load, whose pressure came back with round-off.
 std::size_t place_of(const ForceCurve& curve, double pressure) {
   const auto nearest = std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
@@ -158,12 +171,21 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
   const Oscillation one = *oscillation_of(question.motions.front());
   const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
   const ForceCurve loads = loads_with_neighbours(*answer.contact.curve, pressures);
-  const std::vector<SurfaceDamping> found = surface_damping(
-      *answer.contact.surface, material, one, loads,
-      {.hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress});
+  const std::vector<SurfaceDamping> found =
+      surface_damping(*answer.contact.surface, material, one, loads,
+                      {.hold = question.hold,
+                       .amplitude = question.amplitude,
+                       .friction_coefficient = question.facts.friction_coefficient,
+                       .excursion = question.facts.excursion,
+                       .on_progress = context.on_progress});
+  const bool slips = !std::isnan(question.facts.friction_coefficient);
   for (std::size_t i = 0; i < answer.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = answer.results[i];
+    if (slips) {
+      answer.with_slip.push_back(loss_with_slip_of(load, one));
+      answer.work_with_slip_error.push_back(load.work_with_slip_error);
+    }
     answer.damping_constant_error.push_back(load.damping_constant_error());
     result.work_per_cycle = load.work_per_cycle;
     result.damping_constant = load.damping_constant;
@@ -313,7 +335,7 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
       answer.periods.push_back(common_period(*two));
       answer.slow_limit_power.push_back(slow_limit_power(law, one, options));
     }
-    if (!std::isnan(question.facts.friction_coefficient))
+    if (!surface && !std::isnan(question.facts.friction_coefficient))
       answer.with_slip.push_back(
           loss_with_slip_of(law, one, result.indentation, question, context));
     const auto* drag = std::get_if<Drag>(&one.motion);

@@ -197,9 +197,9 @@ struct Premises {
   /// change |K| by 5 and 20 %; in case (a)
   ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
   Premise inertia;
-  /// value  share of the loss that the coupling of pressure and traction changes, 1.3|β|³:
-  ///        interpolates direct simulations of a rough surface at 45° and a paraboloid at 90°, 3 %
-  ///        at ν = 0.3, 17 % at ν = 0, none at ν = 0.5; a paraboloid at 45° has 12 and 52 %.
+  /// value  share of the loss that the coupling of pressure and traction changes, the largest of
+  ///        direct simulations, for β of ν = 0.3 and 0: 3.2|β|^2.62 of an indenter, 12 and 52 %, and
+  ///        1.16|β|^2.69 of other contacts, 4 and 18 %. Case (b) was never computed: unknown.
   /// limits 0.05 and 0.2.
   Premise coupling;
 

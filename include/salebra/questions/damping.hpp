@@ -8,7 +8,7 @@
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/validity.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/questions/contact.hpp>
@@ -50,6 +50,7 @@ struct DampingAnswer {
   /// With friction: followed step by step, a slow motion with an excursion by its turning points.
   /// NaN for a motion that never repeats, or whose force is given.
   std::vector<TrajectoryDamping> with_slip = {};
+  std::vector<double> work_with_slip_error = {};  ///< of a surface, J
   std::vector<Premises> premises = {};
   std::vector<std::string> doubts = {};  ///< beside those of the contact
 
@@ -66,6 +67,8 @@ constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
   visit(&S::ratio,
         Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
   visit(&S::with_slip, Part{"with_slip", "losses with the coefficient of friction"});
+  visit(&S::work_with_slip_error,
+        Quantity{"work_with_slip_error", energy, "error of the work of with_slip"});
   visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
   visit(&S::periods, Table{"periods", "common periods of two frequencies"});
   visit(&S::slow_limit_power, Quantity{"slow_limit_power", Dimension::power,
