@@ -81,9 +81,9 @@ std::string off_by(double ratio) {
 std::pair<double, std::string> unit_of(const std::vector<StatedMean>& constants) {
   double most = 0;
   for (const StatedMean& one : constants) most = std::fmax(most, std::abs(one.mean));
-  return most > 2e4               ? std::pair(1e3, "kN s/m")
+  return most > 2e4             ? std::pair(1e3, "kN s/m")
          : most > 0 && most < 1 ? std::pair(1e-3, "mN s/m")
-                                  : std::pair(1.0, "N s/m");
+                                : std::pair(1.0, "N s/m");
 }
 
 std::string motion_text(const StudyConfiguration& configuration) {

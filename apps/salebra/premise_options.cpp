@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/questions/damping.hpp>
 
 #include "option_words.hpp"
 #include "results/columns.hpp"

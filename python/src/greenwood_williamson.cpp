@@ -9,7 +9,6 @@
 #include <memory>
 #include <salebra/base/spectral_moments.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
-#include <salebra/contact/asperity/greenwood_tripp.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
 

@@ -10,7 +10,6 @@
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
-#include <salebra/damping/validity.hpp>
 
 #include "bindings.hpp"
 #include "interop/citations.hpp"

@@ -178,7 +178,8 @@ void bind_result(nb::module_& m) {
           "Mean at each pressure of a quantity of :class:`DampingPoint`, such as "
           "damping_constant_closed_form (Eq. (16)). damping_constant is NaN where its error is not "
           "smaller; "
-          "deviation is the ratio of the means of damping_constant_closed_form and damping_constant, less "
+          "deviation is the ratio of the means of damping_constant_closed_form and "
+          "damping_constant, less "
           "1.")
       .def(
           "deviation_range",

@@ -201,7 +201,8 @@ class Load {
   /// variance describes K over more, since both fall with the load. The pieces share the contact
   /// at their border, and w is continuous, so that nothing of K at a border enters. Levels that
   /// carry F below the last piece add less than F times the largest |w'|: pieces go on until this
-  /// is 0.3 % of W, which counts as an error of the levels.
+  /// is 0.3 % of W, which counts as an error of the levels. None is needed where levels slip only
+  /// so little below the window that K_t does not change there.
   void add_slip(GridValue& value, Levels& levels, const std::vector<StiffnessSample>& contacts,
                 const KrigedStiffness& kriged, double mean, double center, int intervals) {
     const bool first = values_.empty(), chooses = intervals == levels_;
@@ -210,8 +211,10 @@ class Load {
     double by_half = 0, rest = 0;
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
-      const Eigen::VectorXd of_level =
-          weights_of_levels(at, [&](double place) { return (*slip_)(place - mean); });
+      Eigen::VectorXd of_level =
+          weights_of_levels(at, least, [&](double place) { return (*slip_)(place - mean); });
+      // w falls to 0 at once.
+      if (shallow_) of_level(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
       const Eigen::VectorXd weights = tangential(of_level, at, between, ratio_);
       const auto [work, deviation] = between.estimate(weights, scales);
       const Eigen::VectorXd straight = tangential(of_level, at, between, ratio_.straight(), false);
@@ -228,20 +231,28 @@ class Load {
                                 const Eigen::VectorXd& at, const KrigedStiffness& between) {
       add(samples, at, between, scales_);
       const Eigen::VectorXd opening = weights_of_levels(
-          at, [&](double place) { return (*slip_)(std::max(place, least) - mean); });
+          at, least, [&](double place) { return (*slip_)(std::max(place, least) - mean); });
       value.relaxation_work = between
                                   .estimate(tangential(opening - lowest * between.weights_at(least),
                                                        at, between, ratio_),
                                             scales_)
                                   .value;
     };
-    const Eigen::VectorXd window = places(center);
-    add_window(contacts, window, kriged);
-
     // Below first touch there is nothing.
     const double bottom = std::max(0.0, least - slip_->depth());
     double top = center - half_;
-    for (std::size_t piece = 0; top > bottom; ++piece) {
+    if (first && top > bottom) {
+      // K' is K²/F of an exponential contact, of a few spots up to some times that.
+      const StiffnessSample& lowest_contact = contacts.back();
+      const double bend =
+          3 * lowest_contact.stiffness * lowest_contact.stiffness / lowest_contact.force;
+      rest = material_.modulus_ratio() * ratio_.middle() * (*slip_)(top - mean) * bend *
+             (top - bottom);
+      shallow_ = rest <= least_rest * std::abs(value.work);
+    }
+    const Eigen::VectorXd window = places(center);
+    add_window(contacts, window, kriged);
+    for (std::size_t piece = 0; top > bottom && !shallow_; ++piece) {
       if (first) {
         const StiffnessSample highest = levels.at(top);
         rest = material_.modulus_ratio() * ratio_.middle() * highest.force * slip_->steepest();
@@ -292,16 +303,24 @@ class Load {
     value.with_slip = sum;
   }
 
-  /// −∫K w' dζ = Σ weights × K(places), for K linear between places.
-  static Eigen::VectorXd weights_of_levels(const Eigen::VectorXd& places, const auto& loss) {
+  /// −∫K w' dζ = Σ weights × K(places), for K linear between places. w bends at the least
+  /// indentation and at the deepest level that slips, which may lie much closer than two places.
+  Eigen::VectorXd weights_of_levels(const Eigen::VectorXd& places, double least,
+                                    const auto& loss) const {
+    const auto integral = [&](double from, double to) {
+      return (to - from) * (loss(from) + 4 * loss((from + to) / 2) + loss(to)) / 6;
+    };
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(places.size());
-    double above = loss(places(0));
     for (Index i = 0; i + 1 < places.size(); ++i) {
-      const double below = loss(places(i + 1));
-      const double mean = (above + 4 * loss((places(i) + places(i + 1)) / 2) + below) / 6;
-      weights(i) += mean - above;
-      weights(i + 1) += below - mean;
-      above = below;
+      double sum = 0, from = places(i);
+      for (const double bend : {least, least - slip_->depth(), places(i + 1)}) {
+        if (bend >= from || bend < places(i + 1)) continue;
+        sum += integral(from, bend);
+        from = bend;
+      }
+      const double mean = sum / (places(i + 1) - places(i));
+      weights(i) += mean - loss(places(i));
+      weights(i + 1) += loss(places(i + 1)) - mean;
     }
     return weights;
   }
@@ -422,6 +441,7 @@ class Load {
   std::optional<LevelLoss> slip_ = {};
   std::vector<StiffnessRatio::Point> of_curve_ = {};
   std::vector<double> pieces_ = {};  // below the mean indentation, their lower ends
+  bool shallow_ = false;             // levels below the window slip only next to it
   bool joined_ = false;              // the first of them with the window
   VarianceScales scales_;
   std::vector<GridValue> values_;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/damping/validity.hpp>
+#include <salebra/damping/premises.hpp>
 
 namespace salebra {
 namespace {
@@ -73,9 +73,10 @@ std::string condition_text(const PremiseName& name, const Premise& premise) {
   if (premise.onset == 1) return "elastic again: loads below that of the first loading";
   // No motion at this velocity, none at all, keeps it.
   if (premise.limit_20_percent == 0) return std::string(name.meaning) + " at any motion";
+  // Without a limit, what comes before it.
   if (!std::isfinite(first_limit(premise)) ||
       (premise.verdict == Verdict::unknown && premise.needs.empty()))
-    return std::string(name.meaning);
+    return std::string(name.condition.substr(0, name.condition.find(": ")));
   return fmt::format(fmt::runtime(name.condition),
                      format_quantity(first_limit(premise), name.value_dimension, 3));
 }
@@ -87,8 +88,8 @@ Condition condition_of(const PremiseName& name, std::span<const Premises> cases,
                 .verdict = worst.verdict,
                 .condition = condition_text(name, worst)};
   if (worst.verdict == Verdict::unknown) {
-    one.here =
-        worst.needs.empty() ? "not known" : fmt::format("`{}` not given", given_as(worst.needs));
+    one.here = worst.needs.empty() ? "not known for such a motion"
+                                   : fmt::format("`{}` not given", given_as(worst.needs));
     return one;
   }
   if (!std::isnan(worst.value))

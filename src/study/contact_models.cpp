@@ -13,7 +13,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
-#include <salebra/contact/asperity/greenwood_tripp.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/contact/sweep.hpp>

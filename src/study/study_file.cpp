@@ -11,6 +11,7 @@
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/results/quantity.hpp>
 #include <salebra/study/study_answer.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>

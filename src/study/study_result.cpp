@@ -94,7 +94,8 @@ std::vector<EnsembleMean> StudyResult::deviation(ContactModel model) const {
     const EnsembleMean scatter = mean([&](const Realisation& r) {
       const auto& points = r.of(model).damping;
       if (k >= points.size()) return ForceSample::unknown;
-      return (points[k].damping_constant_closed_form - ratio * points[k].damping_constant) / constant;
+      return (points[k].damping_constant_closed_form - ratio * points[k].damping_constant) /
+             constant;
     });
     // Where both are known on all surfaces, the mean of the scatter is 0.
     deviations.push_back({ratio - 1, ratio - 1 + (scatter.low - scatter.mean),

@@ -110,9 +110,9 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   const Values corrected = numbers(answer["spots"]["corrected_area_fraction"]["mean"]);
   check_alike(drawing.column(2, curve, 1),
               each([&](auto k) { return corrected[k] * scale / pressure[k]; }));
-  check_parallel(
-      drawing.column(4, curve, 1),
-      logarithms(numbers(answer["models"]["bem"]["damping"]["damping_constant_closed_form"]["mean"])));
+  check_parallel(drawing.column(4, curve, 1),
+                 logarithms(numbers(
+                     answer["models"]["bem"]["damping"]["damping_constant_closed_form"]["mean"])));
   // The window of the fit, from one to two and a half rms heights.
   CHECK_THAT(drawing.script(), Contains("graph 0,first 1 to") && Contains("graph 0,first 2.5 to"));
 
@@ -161,7 +161,8 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
                   row_of(file, "curve/ensemble_" + name + "_mean", row, loads), 1e-14);
     }
     for (const auto& [constant, work] :
-         {std::pair<std::string, std::string>{"damping_constant_closed_form", "work_per_cycle_closed_form"},
+         {std::pair<std::string, std::string>{"damping_constant_closed_form",
+                                              "work_per_cycle_closed_form"},
           {"small_amplitude_damping_constant", "small_amplitude_work"},
           {"damping_constant", "work_per_cycle"}}) {
       INFO(constant);

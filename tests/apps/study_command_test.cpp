@@ -234,11 +234,13 @@ TEST_CASE("An interrupted study keeps the surfaces that it has finished and says
   many.replace(many.find("seeds = [1, 2, 3]"), 17, "seed_count = 100000");
   test.write("study.toml", many);
   const std::string signal = GENERATE("INT", "TERM", "HUP");
-  // The signal goes to the program itself, once something is finished and the first second is over:
-  // the remaining time is told from then on.
+  // The signal goes to the program itself, once something is finished after the first second: the
+  // remaining time is told from then on.
   const auto result = test.run("study study.toml -o result.h5 --json",
                                "(while ! ls result.h5.parts/*.realisation >/dev/null 2>&1; do "
-                               "sleep 0.1; done; sleep 2; kill -" +
+                               "sleep 0.1; done; sleep 2; n=$(ls result.h5.parts | wc -l); "
+                               "while [ $(ls result.h5.parts | wc -l) -lt $((n + 3)) ]; do "
+                               "sleep 0.1; done; kill -" +
                                    signal + " $$) &");
   INFO(signal << ": " << result.err);
   CHECK(result.status == 130);

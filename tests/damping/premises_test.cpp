@@ -11,7 +11,6 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
-#include <salebra/damping/validity.hpp>
 
 using namespace salebra;
 using std::numbers::pi;

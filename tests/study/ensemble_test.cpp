@@ -595,9 +595,10 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   }
   CHECK(result.over_bem(&ForceSample::normal_stiffness, ContactModel::persson)[3].mean ==
         Approx(stiffness).epsilon(1e-14));
-  CHECK(
-      result.damping_over_bem(&DampingPoint::work_per_cycle_closed_form, ContactModel::gw_deterministic)[5]
-          .mean == Approx(work).epsilon(1e-14));
+  CHECK(result
+            .damping_over_bem(&DampingPoint::work_per_cycle_closed_form,
+                              ContactModel::gw_deterministic)[5]
+            .mean == Approx(work).epsilon(1e-14));
   // Spots by size are all spots, and their area is the contact area.
   const Realisation& first = result.realisations.front();
   double spots = 0;

@@ -8,7 +8,7 @@
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/validity.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/questions/contact.hpp>

@@ -60,8 +60,8 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   visit(&S::work_per_cycle_closed_form,
         Quantity{"work_per_cycle_closed_form", energy,
                  "energy dissipated in a cycle, Eq. (16) or (12) with the fitted law"});
-  visit(&S::damping_constant_closed_form,
-        Quantity{"damping_constant_closed_form", damping, "damping constant P/v^2, by the fitted law"});
+  visit(&S::damping_constant_closed_form, Quantity{"damping_constant_closed_form", damping,
+                                                   "damping constant P/v^2, by the fitted law"});
   visit(&S::small_amplitude_work, quantity::small_amplitude_work);
   visit(&S::small_amplitude_damping_constant,
         Quantity{"small_amplitude_damping_constant", damping,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/damping/validity.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/study/study.hpp>
 #include <string>
 #include <vector>

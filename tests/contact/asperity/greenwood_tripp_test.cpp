@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/asperity/greenwood_tripp.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
 
 using namespace salebra;
 using std::numbers::pi;
