@@ -102,7 +102,7 @@ inline std::pair<std::unique_ptr<const ContactLaw>, double> law_by_contacts(
   const double center = state.indentation;
   Field start = state.contact_pressure;
   options.initial_pressure = &start;
-  ForceCurve curve{.model = "bem", .nominal_area = surface.grid.area()};
+  ForceCurve curve{.model = "bem", .nominal_area = surface.grid.area(), .samples = {}};
   for (int k = 0; k <= intervals; ++k) {
     // A law that ends at the oscillation's last digit would be left by round-off.
     const double place =
