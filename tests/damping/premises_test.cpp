@@ -680,7 +680,7 @@ TEST_CASE(
   // Of the case that bears least.
   cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6, .excursion = 2e-9}};
   cases[3].largest = {{.friction_coefficient = 0.3, .drag_velocity = 2e-6, .excursion = 3e-9}};
-  CHECK(motion_without_slip(cases) == "2 \u00b5m/s over 2 nm (\u00b5 = 0.3)");
+  CHECK(motion_without_slip(cases) == "2 nm at 2 \u00b5m/s (\u00b5 = 0.3)");
   cases[0].largest =
       cases[3].largest = {{.friction_coefficient = 0.1, .tangential_amplitude = 1e-9},
                           {.friction_coefficient = 0.3, .tangential_amplitude = 3e-9}};
