@@ -642,9 +642,8 @@ TEST_CASE("Bad input of a map of regimes is refused", "[regimes][input]") {
   CHECK(regime_map(paraboloid, 1e-6, normal, {}, {}, 0.3).sliding_excursion > 0);
 }
 
-TEST_CASE(
-    "Conditions name their limit, what holds, at which loads, and what to do; the worst decides",
-    "[premises][validity]") {
+TEST_CASE("Conditions name their limit, what holds, at which loads, and what to do, worst first",
+          "[premises][validity]") {
   Premises fine;
   for (const PremiseName& name : premise_names())
     fine.*name.premise = {

@@ -35,7 +35,7 @@ TEST_CASE("Members keep the order in which they came, and null becomes what it i
   CHECK_THROWS_AS(object["a"].text(), std::logic_error);
 }
 
-TEST_CASE("Numbers come back with all their bits; what is not finite is null", "[json]") {
+TEST_CASE("Numbers come back with all their bits, and what is not finite is null", "[json]") {
   const double third = 1.0 / 3.0, least = std::numeric_limits<double>::denorm_min();
   const std::uint64_t seed = std::numeric_limits<std::uint64_t>::max();
   const auto back = nlohmann::json::parse(
