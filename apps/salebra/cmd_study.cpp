@@ -34,6 +34,7 @@ Json study_json(const StudyResult& result, const StudyAnswer& answer, const Stud
   damping["force"] = forces;
   damping.add(damping_json(answer));
   damping["deviation"] = to_json(result.deviation());
+  // Of a name that is there already, the answer's numbers stay.
   damping.add(
       columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); }));
   damping.erase("damping_constant_error");
@@ -116,8 +117,7 @@ std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
   const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
   const auto& without = answer.damping_constant_without_slip;
   const auto by_law = result.damping(&DampingPoint::damping_constant_closed_form);
-  const auto [unit, name] =
-      unit_of(slip && answer.needs.empty() ? answer.damping_constant : without);
+  const auto [unit, name] = unit_of(answer.slips() ? answer.damping_constant : without);
   std::vector<std::string> head{"nominal p", "force", slip ? "γ, " + name : "γ no slip, " + name};
   if (sample) head.push_back("95 % interval");
   head.push_back("error");

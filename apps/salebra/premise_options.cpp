@@ -20,10 +20,7 @@ namespace {
 
 /// The option that gives a fact.
 Json option_of(const std::string& fact) {
-  // A law given by its formula has neither size nor pressure.
-  if (fact == "loaded_size" || fact == "largest_pressure") return "--curve";
-  if (fact == "angular_frequency") return "--frequency";
-  std::string option = "--" + fact;
+  std::string option = "--" + given_as(fact);
   std::ranges::replace(option, '_', '-');
   return option;
 }

@@ -690,7 +690,7 @@ PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result) 
   return {.cases = answer.premises,
           .list = true,
           .pressures = result.pressures,
-          .slip_followed = answer.slip_followed && answer.needs.empty()};
+          .slip_followed = answer.slips()};
 }
 
 Json damping_json(const StudyAnswer& answer) {

@@ -26,10 +26,12 @@
 namespace salebra {
 namespace {
 
+using detail::every_other;
 using detail::KrigedStiffness;
 using detail::LevelLoss;
 using detail::Levels;
 using detail::ratio_on;
+using detail::stated_deviations;
 using detail::StiffnessRatio;
 using detail::StiffnessSample;
 using detail::VarianceScales;
@@ -40,8 +42,6 @@ constexpr Index piece_parts = 64;
 // The finest grid has at least so many: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
 constexpr double widest_window = 0.25;  // of F/K
-// In standard deviations: 93 % of normal deviates are smaller.
-constexpr double coverage = 1.8;
 // F/K that one parabola and its random function span below the oscillation.
 constexpr double widest_piece = 1.5;
 // Part of the loss with slip that is left to levels below the deepest contact.
@@ -88,12 +88,8 @@ class Load {
       if (slip_ && point.force > 0 && std::isfinite(point.ratio)) of_curve_.push_back(point);
     }
     std::ranges::sort(of_curve_, {}, &StiffnessRatio::Point::force);
-    half_ = amplitude_;
-    if (options.hold == Hold::force && options.amplitude == Amplitude::finite)
-      // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
-      half_ += std::min(amplitude_,
-                        amplitude_ * amplitude_ * sample_.normal_stiffness / sample_.force / 2);
-    half_ = std::min(half_, 2 * amplitude_);
+    half_ = detail::half_range(
+        sample_, amplitude_, options.hold == Hold::force && options.amplitude == Amplitude::finite);
   }
 
   const std::vector<GridValue>& values() const { return values_; }
@@ -188,12 +184,6 @@ class Load {
       if (slip_ && std::isfinite(mean)) add_slip(value, levels, contacts, kriged, mean, center, n);
       return value;
     }
-  }
-
-  static std::vector<StiffnessSample> every_other(const std::vector<StiffnessSample>& samples) {
-    std::vector<StiffnessSample> half;
-    for (std::size_t k = 0; k < samples.size(); k += 2) half.push_back(samples[k]);
-    return half;
   }
 
   /// W with friction, −∫K_t w' dζ (level_loss.hpp): over the window by its contacts, and below it
@@ -472,7 +462,7 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.level_error = load.level_error();
   result.solver_error = value.solver_error;
   result.ratio_error = value.ratio_error;
-  result.scatter = coverage * value.deviation;
+  result.scatter = stated_deviations * value.deviation;
   result.stiffness_ratio = load.stiffness_ratio();
   result.window = load.window();
   result.levels = load.levels();
@@ -487,9 +477,9 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   add_up(result);
   if (!load.follows_slip()) return result;
   const KrigedLoss& slip = value.with_slip;
-  result.work_with_slip_error =
-      root_of_squares({part * std::abs(slip.work - other.with_slip.work), coverage * slip.deviation,
-                       load.level_error_with_slip(), slip.ratio_error, slip.solver_error});
+  result.work_with_slip_error = root_of_squares(
+      {part * std::abs(slip.work - other.with_slip.work), stated_deviations * slip.deviation,
+       load.level_error_with_slip(), slip.ratio_error, slip.solver_error});
   return result;
 }
 

@@ -15,6 +15,7 @@
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/surface/moments.hpp>
 #include <utility>
+#include <vector>
 
 #include "kriged_stiffness.hpp"
 
@@ -23,6 +24,23 @@ namespace salebra::detail {
 
 // K_t is a maximum over the tractions: its error is about the square of this.
 inline constexpr double stick_tolerance = 1e-3;
+// Of a kriged number, in standard deviations: 93 % of normal deviates are smaller.
+inline constexpr double stated_deviations = 1.8;
+
+/// Half the range of indentations of an oscillation about a load: with the force held the weight
+/// sinks back by u_z²F''/(4K), about u_z²K/(4F), and by u_z at most.
+inline double half_range(const ForceSample& load, double amplitude, bool force_held) {
+  if (!force_held) return amplitude;
+  return amplitude +
+         std::min(amplitude, amplitude * amplitude * load.normal_stiffness / load.force / 2);
+}
+
+/// Those of half as many intervals.
+inline std::vector<StiffnessSample> every_other(const std::vector<StiffnessSample>& samples) {
+  std::vector<StiffnessSample> half;
+  for (std::size_t k = 0; k < samples.size(); k += 2) half.push_back(samples[k]);
+  return half;
+}
 
 /// ρ = K_t/((G*/E*)K) about one load, a parabola in ln F through three contacts.
 class StiffnessRatio {

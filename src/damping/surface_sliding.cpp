@@ -30,7 +30,6 @@ using std::numbers::pi;
 constexpr int own_intervals = 8;
 // Indentations between which K is linear: intervals of the angle, among them those of the contacts.
 constexpr int linear_parts = 32;
-constexpr double stated_deviations = 1.8;  // standard deviations, as in surface_damping()
 
 /// A contact whose K is linear between indentations, about a known force in their middle.
 class StiffnessLaw final : public ContactLaw {
@@ -114,11 +113,7 @@ class SurfaceSlidingRun {
   SurfaceSlidingRun(const Material& material, const ForceSample& load, const StiffnessRatio& ratio,
                     const SurfaceSlidingMotion& motion)
       : material_(material), load_(load), ratio_(ratio), motion_(motion) {
-    const double amplitude = motion.normal.normal_amplitude;
-    half_ = amplitude;
-    if (motion.hold == Hold::force)
-      // The weight sinks back by u_z²F''/(4K), about u_z²K/(4F).
-      half_ += std::min(amplitude, amplitude * amplitude * load.normal_stiffness / load.force / 2);
+    half_ = detail::half_range(load, motion.normal.normal_amplitude, motion.hold == Hold::force);
   }
 
   OnGrid on(const Surface& surface, int count, bool first, const Progress& progress) {
@@ -131,11 +126,9 @@ class SurfaceSlidingRun {
     const double center = levels.indentation_at(load_.pressure);
     const StiffnessRatio ratio =
         first ? ratio_ : ratio_.scaled(levels.ratio_at(center, material_).ratio / ratio_.middle());
-    std::vector<StiffnessSample> contacts, every_second;
-    for (int k = 0; k <= count; ++k) {
+    std::vector<StiffnessSample> contacts;
+    for (int k = 0; k <= count; ++k)
       contacts.push_back(levels.at(center + half_ * std::cos(pi * k / count)));
-      if (k % 2 == 0) every_second.push_back(contacts.back());
-    }
     if (!levels.usable()) throw NotConverged("sliding: a contact of the surface did not converge");
     const VectorXd places = center + half_ * ArrayXd::LinSpaced(linear_parts + 1, 0, pi).cos();
     const KrigedStiffness kriged(contacts, places);
@@ -150,7 +143,8 @@ class SurfaceSlidingRun {
     };
     grid.squares =
         change(stiffness, ratio.straight()).square() +
-        change(stiffness_at(KrigedStiffness(every_second, places), places), ratio).square();
+        change(stiffness_at(KrigedStiffness(detail::every_other(contacts), places), places), ratio)
+            .square();
     // The numbers are nearly linear in K, of which the kriging knows the variance.
     const double step = 1e-3 * stiffness.maxCoeff();
     Eigen::MatrixXd weights(grid.numbers.size(), places.size());
@@ -161,7 +155,8 @@ class SurfaceSlidingRun {
     }
     for (Index k = 0; k < weights.rows(); ++k) {
       const VectorXd row = weights.row(k);
-      grid.squares(k) += std::pow(stated_deviations * kriged.estimate(row, scales_).deviation, 2);
+      grid.squares(k) +=
+          std::pow(detail::stated_deviations * kriged.estimate(row, scales_).deviation, 2);
     }
     return grid;
   }

@@ -40,13 +40,6 @@ int rank_of(Verdict verdict) {
   return 3;
 }
 
-/// The option or key that gives a fact.
-std::string given_as(const std::string& fact) {
-  // A law given by its formula has neither size nor pressure.
-  if (fact == "loaded_size" || fact == "largest_pressure") return "curve";
-  return fact == "angular_frequency" ? "frequency" : fact;
-}
-
 double first_limit(const Premise& premise) {
   return std::isnan(premise.onset) ? premise.limit_5_percent : premise.onset;
 }
@@ -121,6 +114,12 @@ std::span<const PremiseName> premise_names() {
     return all;
   }();
   return names;
+}
+
+std::string given_as(const std::string& fact) {
+  // A law given by its formula has neither size nor pressure.
+  if (fact == "loaded_size" || fact == "largest_pressure") return "curve";
+  return fact == "angular_frequency" ? "frequency" : fact;
 }
 
 std::vector<Condition> conditions_of(std::span<const Premises> cases, bool slip_followed,

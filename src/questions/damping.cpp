@@ -104,18 +104,25 @@ TrajectoryDamping unknown_loss() {
   return loss;
 }
 
+/// Of a loss that is known by its works alone, J.
+TrajectoryDamping loss_of_works(double total, double relaxation, double slip,
+                                const Oscillation& motion) {
+  TrajectoryDamping damping = unknown_loss();
+  damping.work_per_cycle = total;
+  damping.relaxation_work = relaxation;
+  damping.slip_work = slip;
+  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, motion);
+  if (omega > 0) damping.power = total * omega / (2 * std::numbers::pi);
+  damping.damping_constant = closed_form::damping_constant(total, motion);
+  return damping;
+}
+
 /// A slow motion that turns back; the others are followed.
 TrajectoryDamping slow_loss_with_slip(const ContactLaw& law, const Drag& motion, double indentation,
                                       const ContactFacts& facts) {
   const LossWithSlip loss =
       loss_with_slip(law, indentation, motion, facts.friction_coefficient, facts.excursion);
-  TrajectoryDamping damping = unknown_loss();
-  damping.work_per_cycle = loss.work_per_cycle;
-  damping.relaxation_work = loss.relaxation_work;
-  damping.slip_work = loss.slip_work;
-  damping.power = loss.work_per_cycle * motion.angular_frequency / (2 * std::numbers::pi);
-  damping.damping_constant = closed_form::damping_constant(loss.work_per_cycle, motion);
-  return damping;
+  return loss_of_works(loss.work_per_cycle, loss.relaxation_work, loss.slip_work, motion);
 }
 
 TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Case& one, double indentation,
@@ -132,15 +139,9 @@ TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Case& one, doub
 
 /// Of a surface, from contacts where levels slip.
 TrajectoryDamping loss_with_slip_of(const SurfaceDamping& load, const Oscillation& motion) {
-  TrajectoryDamping damping = unknown_loss();
-  if (!(load.work_with_slip_error < load.relaxation_work + load.slip_work)) return damping;
-  damping.relaxation_work = load.relaxation_work;
-  damping.slip_work = load.slip_work;
-  damping.work_per_cycle = load.relaxation_work + load.slip_work;
-  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, motion);
-  if (omega > 0) damping.power = damping.work_per_cycle * omega / (2 * std::numbers::pi);
-  damping.damping_constant = closed_form::damping_constant(damping.work_per_cycle, motion);
-  return damping;
+  const double total = load.relaxation_work + load.slip_work;
+  if (!(load.work_with_slip_error < total)) return unknown_loss();
+  return loss_of_works(total, load.relaxation_work, load.slip_work, motion);
 }
 
 /// The place of a load, whose pressure came back with round-off.

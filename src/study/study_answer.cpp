@@ -87,9 +87,8 @@ StudyAnswer answer_of(const StudyResult& result) {
   const auto* drag = std::get_if<Drag>(&configuration.motion);
   if (drag != nullptr && answer.slip_followed && std::isnan(configuration.known.excursion))
     answer.needs = "excursion";
-  const bool slips = answer.slip_followed && answer.needs.empty();
   const bool by_contacts = configuration.levels != 0;
-  if (slips && by_contacts) follow_slip(answer, result);
+  if (answer.slips() && by_contacts) follow_slip(answer, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
@@ -100,7 +99,7 @@ StudyAnswer answer_of(const StudyResult& result) {
       facts.nominal_pressure = sample.pressure;
       facts.mean_contact_pressure = sample.pressure / sample.contact_area_fraction;
       answer.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
-      if (slips && !by_contacts)
+      if (answer.slips() && !by_contacts)
         follow_slip(answer, k,
                     loss_with_slip(law, -sample.mean_gap, configuration.motion,
                                    facts.friction_coefficient, facts.excursion));
@@ -115,7 +114,7 @@ StudyAnswer answer_of(const StudyResult& result) {
   const double per_work = closed_form::damping_constant(1, configuration.motion);
   for (const StatedMean& constant : answer.damping_constant)
     answer.work_per_cycle.push_back(scaled(constant, 1 / per_work));
-  answer.conditions = conditions_of(answer.premises, slips, result.pressures);
+  answer.conditions = conditions_of(answer.premises, answer.slips(), result.pressures);
   answer.validity = validity_of(answer.conditions);
   return answer;
 }

@@ -402,6 +402,9 @@ constexpr void describe(auto&& visit, std::type_identity<Condition>) {
   visit(&S::remedy, Kept{"remedy", "what to do; empty where it holds"});
 }
 
+/// The argument that gives a fact of Premise::needs.
+std::string given_as(const std::string& fact);
+
 /// The conditions of a damping constant, worst first. pressures: of the cases, Pa, to be named;
 /// empty: they are counted. slip_followed: the loss is that with slip, which then is no condition.
 /// The amplitude of the closed forms is none: see closed_form_condition().

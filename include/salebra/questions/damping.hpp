@@ -48,7 +48,8 @@ struct DampingAnswer {
   std::vector<CommonPeriod> periods = {};     ///< of two frequencies
   std::vector<double> slow_limit_power = {};  ///< of two frequencies, W
   /// With friction: followed step by step, a slow motion with an excursion by its turning points.
-  /// NaN for a motion that never repeats, or whose force is given.
+  /// NaN for a motion that never repeats, or whose force is given, and of a surface, whose loss comes
+  /// from contacts where levels slip, for a slow motion without an excursion.
   std::vector<TrajectoryDamping> with_slip = {};
   std::vector<double> work_with_slip_error = {};  ///< of a surface, J
   std::vector<Premises> premises = {};
@@ -119,7 +120,7 @@ PathAnswer ask(const PathQuestion& question, const Context& context = {});
 /// A contact as a damper of slow tangential motions under fast normal oscillation, over amplitudes
 /// and frequencies.
 struct DamperQuestion {
-  ContactQuestion contact = {};                     ///< at one position
+  ContactQuestion contact = {};                ///< at one position
   std::vector<double> normal_amplitude = {};   ///< m; empty: falling_slope finds it
   std::vector<double> angular_frequency = {};  ///< rad/s, at least one
   Hold hold = Hold::indentation;
@@ -133,12 +134,12 @@ struct DamperQuestion {
 
 struct DamperAnswer {
   ContactAnswer contact;
-  DamperMap map = {};  ///< empty without amplitudes
+  DamperMap map = {};                 ///< empty without amplitudes
   Field damping_constant_error = {};  ///< of the map of a surface, N s/m; empty: a law's
   std::optional<OscillatorDecay> decay = {};
   /// Of a surface, by what the damping constant is off; NaN for what follows from K_t of the law.
   std::optional<OscillatorDecay> decay_error = {};
-  std::vector<double> stabilising_amplitude = {};  ///< for each frequency, m; empty: no slope
+  std::vector<double> stabilising_amplitude = {};        ///< for each frequency, m; empty: no slope
   std::vector<double> stabilising_amplitude_error = {};  ///< of a surface, m
   /// Of each amplitude at the highest frequency: slip does not depend on it, inertia grows with it.
   std::vector<Premises> premises = {};

@@ -9,8 +9,8 @@
 namespace salebra {
 
 /// What a study says of the motion that was described, at each of its pressures, and whether it may
-/// be used. Premises and slip are those of the mean curve of the boundary elements: gap, area and
-/// stiffnesses averaged over the surfaces at each pressure.
+/// be used. Premises are those of the mean curve of the boundary elements: gap, area and stiffnesses
+/// averaged over the surfaces at each pressure.
 struct StudyAnswer {
   /// γ = P/⟨ẋ²⟩, N s/m, of the contact as described: with slip where the coefficient of friction is
   /// known, by contacts where levels slip (stated_work_with_slip()), else without. A study without
@@ -28,6 +28,9 @@ struct StudyAnswer {
   std::vector<Premises> premises = {};
   std::vector<Condition> conditions = {};  ///< worst first
   Validity validity = Validity::not_checked;
+
+  /// Whether damping_constant is with slip.
+  bool slips() const { return slip_followed && needs.empty(); }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
