@@ -32,7 +32,7 @@ Index column_pitch(Index nx) { return (nx + 3) / 4 * 4; }
 // Plans differ in what alignment they need; every buffer here comes from FFTW's allocator, hence
 // has the same.
 detail::FftwPlan<double> plan_column(Index nx, int sign) {
-  const auto buffer = detail::fftw_array<double, Complex>(static_cast<std::size_t>(nx));
+  const auto buffer = detail::fftw_array<Complex>(static_cast<std::size_t>(nx));
   const int n = static_cast<int>(nx);
   return detail::plan<double>([&] {
     return Api::plan_many(1, &n, 1, fftw(buffer.get()), nullptr, 1, n, fftw(buffer.get()), nullptr,
@@ -41,7 +41,7 @@ detail::FftwPlan<double> plan_column(Index nx, int sign) {
 }
 
 detail::FftwPlan<double> plan_row(Index ny) {
-  const auto modes = detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny / 2 + 1));
+  const auto modes = detail::fftw_array<Complex>(static_cast<std::size_t>(ny / 2 + 1));
   const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny));
   const int n = static_cast<int>(ny);
   return detail::plan<double>([&] {
@@ -51,7 +51,7 @@ detail::FftwPlan<double> plan_row(Index ny) {
 }
 
 detail::FftwPlan<double> plan_row_forward(Index ny) {
-  const auto modes = detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny / 2 + 1));
+  const auto modes = detail::fftw_array<Complex>(static_cast<std::size_t>(ny / 2 + 1));
   const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny));
   return detail::plan<double>([&] {
     return Api::plan_r2c_1d(static_cast<int>(ny), values.get(), fftw(modes.get()),
@@ -144,7 +144,7 @@ class BackwardByColumns {
     collectively(rows_.ranks(), [&] {
       parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
         const auto modes =
-            detail::fftw_array<double, Complex>(static_cast<std::size_t>(ny_ / 2 + 1));
+            detail::fftw_array<Complex>(static_cast<std::size_t>(ny_ / 2 + 1));
         const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny_));
         for (Index x = begin; x < end && loop.running(); ++x) {
           double* row = field_.data() + x * ny_;
@@ -172,7 +172,7 @@ class BackwardByColumns {
     const Index pitch = column_pitch(nx_);
     parallel::for_slabs(deal_.count(rank_, batch), [&](Index begin, Index end) {
       const auto buffer =
-          detail::fftw_array<double, Complex>(static_cast<std::size_t>(block * pitch));
+          detail::fftw_array<Complex>(static_cast<std::size_t>(block * pitch));
       for (Index k = begin; k < end && loop.running(); ++k) {
         const Index group = deal_.group(rank_, batch, k), count = columns_of(group);
         for (Index j = 0; j < count; ++j) {

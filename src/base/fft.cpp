@@ -21,7 +21,7 @@ struct RealFft2D<Real>::Plans {
     require(nx >= 1 && nx < 1 << 24, "nx", nx, "must lie in 1 … 2^24");
     require(ny >= 1 && ny < 1 << 24, "ny", ny, "must lie in 1 … 2^24");
     const auto modes = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny / 2 + 1);
-    const auto complex = detail::fftw_array<Real, typename Api::Complex>(modes);
+    const auto complex = detail::fftw_array<typename Api::Complex>(modes);
     const auto real = detail::fftw_array<Real>(2 * modes);
     // FFTW_ESTIMATE does not touch the arrays and, unlike FFTW_MEASURE, chooses the same plan in
     // every run. FFTW_UNALIGNED costs up to half of the speed, but one plan serves every array: a

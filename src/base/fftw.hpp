@@ -37,8 +37,6 @@ struct Fftw<double> {
   static constexpr auto execute_c2r = fftw_execute_dft_c2r;
   static constexpr auto execute = fftw_execute_dft;
   static constexpr auto destroy = fftw_destroy_plan;
-  static constexpr auto allocate = fftw_malloc;
-  static constexpr auto release = fftw_free;
 };
 
 template <>
@@ -57,8 +55,6 @@ struct Fftw<float> {
   static constexpr auto execute_c2r = fftwf_execute_dft_c2r;
   static constexpr auto execute = fftwf_execute_dft;
   static constexpr auto destroy = fftwf_destroy_plan;
-  static constexpr auto allocate = fftwf_malloc;
-  static constexpr auto release = fftwf_free;
 };
 
 template <class Real>
@@ -93,21 +89,21 @@ FftwPlan<Real> plan(Make make) {
   return FftwPlan<Real>(made);
 }
 
-template <class Real>
+// As FFTW's widest SIMD code wants it. fftw_malloc would end the process where there is no memory.
+inline constexpr std::align_val_t fftw_alignment{64};
+
 struct ReleaseFftw {
-  void operator()(void* memory) const { Fftw<Real>::release(memory); }
+  void operator()(void* memory) const { ::operator delete(memory, fftw_alignment); }
 };
 
-// Memory aligned as FFTW's SIMD code wants it; not initialised, so that the thread that writes a
-// page first also owns it.
-template <class Real, class Element = Real>
-using FftwArray = std::unique_ptr<Element[], ReleaseFftw<Real>>;
+// Not initialised, so that the thread that writes a page first also owns it.
+template <class Element>
+using FftwArray = std::unique_ptr<Element[], ReleaseFftw>;
 
-template <class Real, class Element = Real>
-FftwArray<Real, Element> fftw_array(std::size_t size) {
-  auto* memory = static_cast<Element*>(Fftw<Real>::allocate(size * sizeof(Element)));
-  if (!memory) throw std::bad_alloc();
-  return FftwArray<Real, Element>(memory);
+template <class Element>
+FftwArray<Element> fftw_array(std::size_t size) {
+  return FftwArray<Element>(
+      static_cast<Element*>(::operator new(size * sizeof(Element), fftw_alignment)));
 }
 
 }  // namespace salebra::detail

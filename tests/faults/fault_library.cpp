@@ -36,8 +36,8 @@ std::array<char, 4096> working_folder;
 std::array<std::atomic<bool>, 1024> below;  // descriptors of files below the folder
 std::atomic<bool> in_main = false;
 
-/// Where HDF5 and GNU's OpenMP lie in memory. Neither survives a failed allocation of its own
-/// (docs/reliability.md).
+/// Where HDF5 and GNU's OpenMP lie in memory, and FFTW where no program can replace its end. None
+/// survives a failed allocation of its own (docs/reliability.md).
 struct Range {
   uintptr_t begin = 0, end = 0;
   bool holds(const void* place) const {
@@ -46,9 +46,15 @@ struct Range {
   }
 };
 std::array<Range, 8> exempt;
+#ifdef FFTW_ENDS_PROCESS
+constexpr bool fftw_ends_process = true;
+#else
+constexpr bool fftw_ends_process = false;
+#endif
 
 int find_exempt(dl_phdr_info* library, size_t, void*) {
-  if (!strstr(library->dlpi_name, "libhdf5") && !strstr(library->dlpi_name, "libgomp")) return 0;
+  const auto named = [&](const char* part) { return strstr(library->dlpi_name, part) != nullptr; };
+  if (!named("libhdf5") && !named("libgomp") && !(fftw_ends_process && named("libfftw3"))) return 0;
   for (int i = 0; i < library->dlpi_phnum; ++i) {
     const auto& part = library->dlpi_phdr[i];
     if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;
