@@ -178,7 +178,7 @@ double network_seconds(const SurfaceWork& work, double load) {
 
 double surface_memory(const SurfaceWork& work) {
   // Bytes for each cell, at loads up to half of E*h'; measured at 1024², 2048² and 4096²
-  // (docs/scaling.md).
+  // (tests/study/cost_test.cpp).
   constexpr double of_process = 33e6, heights = 8;
   const auto cells = static_cast<double>(work.grid.points());
   const int ranks = std::max(1, work.ranks / work.groups);

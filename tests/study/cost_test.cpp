@@ -19,7 +19,7 @@ SurfaceWork work_of(Index n, std::vector<double> loads, int ranks = 1) {
 }  // namespace
 
 TEST_CASE("Estimated memory is what was measured, to 15 %", "[cost]") {
-  // Peaks of the largest process, MB (docs/scaling.md).
+  // Measured peaks of the largest process, MB.
   struct {
     Index n;
     double load;  // 0: generation
@@ -113,7 +113,7 @@ TEST_CASE("More processes take less time until machines exchange more than they 
 
 TEST_CASE("A study over processes takes of each what was measured, and its groups share surfaces",
           "[cost]") {
-  // As the row of docs/scaling.md was: one surface of 2048² points, four loads up to 0.1 E*h'.
+  // As it was measured: one surface of 2048² points, four loads up to 0.1 E*h'.
   StudyConfiguration study = parse_study_configuration(study_text("seed_count = 1", 4), "s.toml");
   auto& surfaces = std::get<GeneratedSurfaces>(study.surfaces);
   surfaces.grid = {2048, 2048, 1e-5, 1e-5};

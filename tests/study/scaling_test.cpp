@@ -150,7 +150,7 @@ TEST_CASE("The memory of a contact is 43 bytes a cell and its result's", "[scali
     return peak_growth([&] { press(surface, 1e10, {.pressure = 2e7}); });
   };
   const double each = (pressed(1024) - pressed(512)) / (1024. * 1024 - 512. * 512);
-  // docs/performance.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are
+  // docs/reliability.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are
   // half; large pages add up to 2 MB for each of some ten arrays, 25 bytes a cell here.
   CHECK(each < 70);
   CHECK(each > 20);  // or nothing was measured

@@ -10,7 +10,7 @@
 namespace salebra::detail {
 namespace {
 
-// The share of the first tiles, which are the most. Measured on one core (docs/performance.md): the
+// The share of the first tiles, which are the most. Measured on one core (bench/contact): the
 // ladder is as fast as a transform of 512² where about a third of the points are in tiles, of 1024²
 // at some more than half of them, and of 2048² where all are; what surrounds the stencils weighs
 // less on large grids.

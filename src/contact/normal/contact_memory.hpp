@@ -10,7 +10,7 @@ namespace salebra::detail {
 /// on a tenth of them, with Precision::full 58. Full contact takes 24 and 31 more, a free boundary
 /// the padding of its transforms. One of several processes sets up the ladder, or the response of
 /// an isolated surface, for the whole grid. Measured: docs/performance.md, "Memory", and
-/// docs/scaling.md.
+/// bench/scaling.
 inline double contact_memory(const Surface& surface, const NormalContactOptions& options) {
   const auto cells = static_cast<double>(surface.grid.points());
   const double mine = static_cast<double>(surface.heights.size());

@@ -11,7 +11,7 @@ namespace salebra::detail {
 namespace {
 
 // A step that gains less than this part of all ends the iteration. With 1e-3 the outer iteration
-// takes 6 to 9 steps in place of 6 to 11 (1024², docs/performance.md) and as long; with 1e-1 up to
+// takes 6 to 9 steps in place of 6 to 11 (1024², bench/stick) and as long; with 1e-1 up to
 // 18, and 30 % longer.
 constexpr double step_ends = 1e-2;
 
