@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -162,7 +163,11 @@ void lose(const DampingArguments& arguments, Session& session) {
       plot_case(arguments, answer, session);
     arguments.maps.write(answer, arguments.steps, session);
   }
-  PremiseReport{answer.premises, !one}.answer(session, object);
+  PremiseReport{.cases = answer.premises,
+                .list = !one,
+                .slip_followed = std::ranges::any_of(
+                    answer.slip_share, [](double share) { return !std::isnan(share); })}
+      .answer(session, object);
   if (lost > 0)
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
                                    answer.results.size()));

@@ -97,51 +97,67 @@ Premises premises_of_case(const ContactAnswer& contact, const Case& one,
       motion);
 }
 
+/// Why the loss of a case with friction is not known; empty: it is.
+std::string why_unknown(const Case& one, const ContactFacts& facts) {
+  if (one.force_amplitude)
+    return "slip is not followed where `force_amplitude` is given; give the `normal_amplitude`";
+  const auto* two = std::get_if<TwoFrequencies>(&one.motion);
+  if (two && common_period(*two).normal_cycles == 0)
+    return "slip is not followed in a motion that never repeats; give frequencies with a common "
+           "period";
+  const auto* drag = std::get_if<Drag>(&one.motion);
+  if (drag && std::isnan(facts.excursion))
+    return "with friction the loss of a slow motion depends on its `excursion`; give it";
+  if (drag &&
+      facts.excursion < 2 * std::numbers::pi * drag->drag_velocity / drag->angular_frequency)
+    return "the motion turns back within one normal cycle: it is not slow; give a longer "
+           "`excursion`, or a motion of equal frequencies";
+  return {};
+}
+
 TrajectoryDamping unknown_loss() {
   TrajectoryDamping loss;
-  loss.work_per_cycle = loss.relaxation_work = loss.slip_work = loss.power = loss.damping_constant =
+  loss.work_per_cycle = loss.slip_work = loss.power = loss.damping_constant =
       loss.storage_stiffness = loss.loss_factor = not_known;
   return loss;
 }
 
 /// Of a loss that is known by its works alone, J.
-TrajectoryDamping loss_of_works(double total, double relaxation, double slip,
-                                const Oscillation& motion) {
-  TrajectoryDamping damping = unknown_loss();
-  damping.work_per_cycle = total;
-  damping.relaxation_work = relaxation;
-  damping.slip_work = slip;
+TrajectoryDamping loss_of_works(double total, double slip, const Oscillation& motion) {
+  TrajectoryDamping loss = unknown_loss();
+  loss.work_per_cycle = total;
+  loss.slip_work = slip;
   const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, motion);
-  if (omega > 0) damping.power = total * omega / (2 * std::numbers::pi);
-  damping.damping_constant = closed_form::damping_constant(total, motion);
-  return damping;
+  if (omega > 0) loss.power = total * omega / (2 * std::numbers::pi);
+  loss.damping_constant = closed_form::damping_constant(total, motion);
+  return loss;
 }
 
-/// A slow motion that turns back; the others are followed.
-TrajectoryDamping slow_loss_with_slip(const ContactLaw& law, const Drag& motion, double indentation,
-                                      const ContactFacts& facts) {
-  const LossWithSlip loss =
-      loss_with_slip(law, indentation, motion, facts.friction_coefficient, facts.excursion);
-  return loss_of_works(loss.work_per_cycle, loss.relaxation_work, loss.slip_work, motion);
-}
-
-TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Case& one, double indentation,
+/// Of a law: a slow motion by its turning points, the others followed step by step.
+TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Motion& motion, double indentation,
                                     const DampingQuestion& question, const Context& context) {
-  const auto* drag = std::get_if<Drag>(&one.motion);
-  if (drag && !std::isnan(question.facts.excursion))
-    return slow_loss_with_slip(law, *drag, indentation, question.facts);
-  const auto* two = std::get_if<TwoFrequencies>(&one.motion);
-  if (one.force_amplitude || (two && common_period(*two).normal_cycles == 0)) return unknown_loss();
-  return cycle_of(law, one.motion, indentation, question.steps, question.facts.friction_coefficient,
-                  context)
-      .loss;
+  const double friction = question.facts.friction_coefficient;
+  const auto* drag = std::get_if<Drag>(&motion);
+  if (drag == nullptr)
+    return cycle_of(law, motion, indentation, question.steps, friction, context).loss;
+  const LossWithSlip loss =
+      loss_with_slip(law, indentation, *drag, friction, question.facts.excursion);
+  return loss_of_works(loss.work_per_cycle, loss.slip_work, *drag);
 }
 
-/// Of a surface, from contacts where levels slip.
-TrajectoryDamping loss_with_slip_of(const SurfaceDamping& load, const Oscillation& motion) {
-  const double total = load.relaxation_work + load.slip_work;
-  if (!(load.work_with_slip_error < total)) return unknown_loss();
-  return loss_of_works(total, load.relaxation_work, load.slip_work, motion);
+/// Puts the loss with slip of case i in the place of that without.
+void follow_slip(DampingAnswer& answer, std::size_t i, const TrajectoryDamping& loss) {
+  DampingResult& result = answer.results[i];
+  answer.work_per_cycle_without_slip.push_back(result.work_per_cycle);
+  answer.damping_constant_without_slip.push_back(result.damping_constant);
+  result.work_per_cycle = loss.work_per_cycle;
+  result.power = loss.power;
+  result.damping_constant = loss.damping_constant;
+  result.error_estimate = not_known;
+  answer.slip_share.push_back(loss.slip_work / loss.work_per_cycle);
+  answer.relaxation_share.push_back(1 - answer.slip_share.back());
+  answer.storage_stiffness.push_back(loss.storage_stiffness);
+  answer.loss_factor.push_back(loss.loss_factor);
 }
 
 /// The place of a load, whose pressure came back with round-off.
@@ -168,9 +184,11 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
 /// A surface is not interpolated between loads: contacts inside the oscillation give W and its
 /// error.
 void resolve_on_surface(const DampingQuestion& question, const std::vector<double>& pressures,
-                        const Material& material, const Context& context, DampingAnswer& answer) {
+                        const Material& material, bool followed, const Context& context,
+                        DampingAnswer& answer) {
   const Oscillation one = *oscillation_of(question.motions.front());
   const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
+  const bool slips = !std::isnan(question.facts.friction_coefficient);
   const ForceCurve loads = loads_with_neighbours(*answer.contact.curve, pressures);
   const std::vector<SurfaceDamping> found =
       surface_damping(*answer.contact.surface, material, one, loads,
@@ -179,27 +197,31 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
                        .friction_coefficient = question.facts.friction_coefficient,
                        .excursion = question.facts.excursion,
                        .on_progress = context.on_progress});
-  const bool slips = !std::isnan(question.facts.friction_coefficient);
   for (std::size_t i = 0; i < answer.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = answer.results[i];
-    if (slips) {
-      answer.with_slip.push_back(loss_with_slip_of(load, one));
-      answer.work_with_slip_error.push_back(load.work_with_slip_error);
-    }
-    answer.damping_constant_error.push_back(load.damping_constant_error());
     result.work_per_cycle = load.work_per_cycle;
     result.damping_constant = load.damping_constant;
     result.error_estimate = load.error;
     result.converged = load.converged;
-    answer.error_estimate.push_back(load.error);
-    if (!(load.error < std::abs(load.work_per_cycle))) {
-      answer.doubts.push_back(
-          fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
-                      "a study of the surface with a `relative_error` halves the cells further",
-                      format_quantity(pressures[i], Dimension::pressure)));
-      result.work_per_cycle = result.damping_constant = DampingResult::unknown;
+    if (slips) {
+      answer.damping_constant_without_slip_error.push_back(load.damping_constant_error());
+      follow_slip(answer, i,
+                  loss_of_works(load.relaxation_work + load.slip_work, load.slip_work, one));
+      result.error_estimate = load.work_with_slip_error;
     }
+    if (!(result.error_estimate < std::abs(result.work_per_cycle)) || !followed) {
+      if (followed)
+        answer.doubts.push_back(
+            fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
+                        "a study of the surface with a `relative_error` halves the cells further",
+                        format_quantity(pressures[i], Dimension::pressure)));
+      result.work_per_cycle = result.damping_constant = not_known;
+      if (!followed) result.error_estimate = not_known;
+    }
+    answer.damping_constant_error.push_back(
+        closed_form::damping_constant(result.error_estimate, one));
+    answer.error_estimate.push_back(result.error_estimate);
     if (omega > 0) result.power = result.work_per_cycle * omega / (2 * std::numbers::pi);
   }
 }
@@ -325,26 +347,37 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
         !context.on_progress({"damping", done / double(cases.size()), static_cast<int>(done), 0}))
       throw Interrupted("damping: stopped before all cases were done");
   }
-  if (surface) resolve_on_surface(question, pressures, material, context, answer);
-  std::vector<std::string> doubts;  // one line for all cases
+  const bool slips = !std::isnan(question.facts.friction_coefficient);
+  std::string unknown;  // why, one line for all cases
+  if (surface) {
+    if (slips) unknown = why_unknown(cases.front(), question.facts);
+    resolve_on_surface(question, pressures, material, unknown.empty(), context, answer);
+  }
+  std::vector<std::string> doubts;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
     const DampingResult& result = answer.results[i];
+    if (!surface && slips) {
+      const std::string why = why_unknown(one, question.facts);
+      if (unknown.empty()) unknown = why;
+      follow_slip(answer, i,
+                  why.empty()
+                      ? loss_with_slip_of(law, one.motion, result.indentation, question, context)
+                      : unknown_loss());
+    }
     answer.ratio.push_back(1 / small_over_exact(result, one.motion));
     answer.premises.push_back(premises_of_case(answer.contact, one, result, question.facts));
     if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {
       answer.periods.push_back(common_period(*two));
       answer.slow_limit_power.push_back(slow_limit_power(law, one, options));
     }
-    if (!surface && !std::isnan(question.facts.friction_coefficient))
-      answer.with_slip.push_back(
-          loss_with_slip_of(law, one, result.indentation, question, context));
     const auto* drag = std::get_if<Drag>(&one.motion);
     if (drag == nullptr || !doubts.empty()) continue;
     const ForceCurve* curve = answer.contact.curve ? &*answer.contact.curve : nullptr;
     doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
                             spot_radius(question.facts, law, curve, result.indentation));
   }
+  if (!unknown.empty()) doubts.insert(doubts.begin(), unknown);
   answer.doubts.insert(answer.doubts.end(), doubts.begin(), doubts.end());
   return answer;
 }

@@ -256,6 +256,19 @@ TEST_CASE("Levels below a table slide along as one", "[sliding]") {
   CHECK_THROWS_AS(contact.move_to(-5e-8, -1e-6), InvalidInput);
 }
 
+TEST_CASE("A drag far too short for sliding to begin has its steady state all the same",
+          "[sliding]") {
+  // The drag of 0.5 nm a period would take 10⁵ periods to stretch the springs that never open to
+  // their limit at μ = 100.
+  const ExponentialLaw law(1, 1e-7, 1.4 / 1.7);
+  const Drag motion{2e-8, 1e-5, 2 * pi * 20e3};
+  const auto followed =
+      trajectory_damping(law, sample(motion, 0, 2000), {.friction_coefficient = 100});
+  const auto slid = steady_sliding(law, AtIndentation{0}, motion, 100);
+  // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
+  CHECK(followed.work_per_cycle == Approx(slid.relaxation_work + slid.slip_work).epsilon(1e-4));
+}
+
 TEST_CASE("Bad input of steady sliding is named", "[sliding]") {
   const PowerLaw law(1e9, 1.5, ratio);
   const auto at = [&](double friction, double velocity, double amplitude = 1e-7) {

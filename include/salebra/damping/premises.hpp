@@ -294,11 +294,8 @@ constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
   visit(&S::full_stick_work, quantity::full_stick_work);
-  visit(&S::relaxation_share,
-        Quantity{"relaxation_share", Dimension::dimensionless,
-                 "part of the energy dissipated by levels that open and close"});
-  visit(&S::slip_share, Quantity{"slip_share", Dimension::dimensionless,
-                                 "part of the energy dissipated by slip in permanent contact"});
+  visit(&S::relaxation_share, quantity::relaxation_share);
+  visit(&S::slip_share, quantity::slip_share);
 }
 
 /// Takes the same springs with friction. Case (b) without an excursion: sliding that goes on, all

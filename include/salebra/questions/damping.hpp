@@ -27,7 +27,7 @@ struct DampingQuestion {
   std::vector<double> force_amplitude = {};
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
-  /// For the premises; with a coefficient of friction the loss with slip is computed too.
+  /// For the premises; with a coefficient of friction the loss is that with slip.
   ContactFacts facts = {};
   int steps = 2000;  ///< straight ones in a normal cycle where slip is followed; >= 8
 };
@@ -41,17 +41,22 @@ constexpr void describe(auto&& visit, std::type_identity<DampingQuestion>) {
 struct DampingAnswer {
   ContactAnswer contact;
   std::vector<Motion> motions = {};
-  std::vector<DampingResult> results = {};  ///< without slip
+  /// Of the contact as described. With friction work, power and damping constant are those with
+  /// slip: followed step by step, of a slow motion by its turning points, of a surface by contacts
+  /// where levels slip. Unknown where a fact is missing that decides, the excursion of a slow motion,
+  /// where the motion is not slow at all, never repeats, or has its force given.
+  std::vector<DampingResult> results = {};
   /// Of a surface, whose loss comes from contacts inside the oscillation, N s/m and J.
   std::vector<double> damping_constant_error = {}, error_estimate = {};
   std::vector<double> ratio = {};             ///< of the loss to its small-amplitude form
   std::vector<CommonPeriod> periods = {};     ///< of two frequencies
-  std::vector<double> slow_limit_power = {};  ///< of two frequencies, W
-  /// With friction: followed step by step, a slow motion with an excursion by its turning points.
-  /// NaN for a motion that never repeats, or whose force is given, and of a surface, whose loss comes
-  /// from contacts where levels slip, for a slow motion without an excursion.
-  std::vector<TrajectoryDamping> with_slip = {};
-  std::vector<double> work_with_slip_error = {};  ///< of a surface, J
+  std::vector<double> slow_limit_power = {};  ///< of two frequencies, without slip, W
+  /// With friction, parts of the loss, and the numbers without slip beside it, J and N s/m.
+  std::vector<double> relaxation_share = {}, slip_share = {}, work_per_cycle_without_slip = {},
+                      damping_constant_without_slip = {};
+  std::vector<double> damping_constant_without_slip_error = {};  ///< of a surface, N s/m
+  /// With friction, of a loop that is followed step by step, N/m.
+  std::vector<double> storage_stiffness = {}, loss_factor = {};
   std::vector<Premises> premises = {};
   std::vector<std::string> doubts = {};  ///< beside those of the contact
 
@@ -61,15 +66,22 @@ struct DampingAnswer {
 constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
   using enum Dimension;
   using S = DampingAnswer;
-  visit(&S::results, Table{"results", "losses without slip"});
+  visit(&S::results, Table{"results", "losses of the contact as described"});
   visit(&S::damping_constant_error,
         Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
   visit(&S::error_estimate, quantity::error_estimate);
   visit(&S::ratio,
         Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
-  visit(&S::with_slip, Part{"with_slip", "losses with the coefficient of friction"});
-  visit(&S::work_with_slip_error,
-        Quantity{"work_with_slip_error", energy, "error of the work of with_slip"});
+  visit(&S::relaxation_share, quantity::relaxation_share);
+  visit(&S::slip_share, quantity::slip_share);
+  visit(&S::work_per_cycle_without_slip, Quantity{"work_per_cycle_without_slip", energy,
+                                                  "energy dissipated in a cycle without slip"});
+  visit(&S::damping_constant_without_slip, quantity::damping_constant_without_slip);
+  visit(&S::damping_constant_without_slip_error,
+        Quantity{"damping_constant_without_slip_error", damping,
+                 "numerical error of the damping constant without slip"});
+  visit(&S::storage_stiffness, quantity::storage_stiffness);
+  visit(&S::loss_factor, quantity::loss_factor);
   visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
   visit(&S::periods, Table{"periods", "common periods of two frequencies"});
   visit(&S::slow_limit_power, Quantity{"slow_limit_power", Dimension::power,

@@ -34,12 +34,10 @@ struct StudyAnswer {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
-  using enum Dimension;
   using S = StudyAnswer;
-  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
+  visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::work_per_cycle, quantity::work_per_cycle);
-  visit(&S::damping_constant_without_slip,
-        Quantity{"damping_constant_without_slip", damping, "damping constant P/v^2 without slip"});
+  visit(&S::damping_constant_without_slip, quantity::damping_constant_without_slip);
   visit(&S::relaxation_share, Kept{"relaxation_share", "parts by levels that open and close"});
   visit(&S::slip_share, Kept{"slip_share", "parts by slip in permanent contact"});
   visit(&S::slip_followed, Kept{"slip_followed", "whether the coefficient of friction is known"});
