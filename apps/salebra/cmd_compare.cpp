@@ -12,7 +12,6 @@
 #include <salebra/study/study.hpp>
 #include <utility>
 
-#include "compare_figure.hpp"
 #include "program.hpp"
 #include "results/describe.hpp"
 #include "study_command.hpp"
@@ -53,8 +52,6 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
 }
 
 Json comparison_json(const StudyResult& result, const StudyAnswer& found) {
-  Json models = Json::object();
-  for (const StudyModel& model : result.models()) models[model.name] = model_json(result, model);
   const StudyTheories theories = result.theories();
   Json theory = answer_json(theories);
   theory.erase("relative_pressure");  // an axis of the whole answer
@@ -65,17 +62,15 @@ Json comparison_json(const StudyResult& result, const StudyAnswer& found) {
   Json spots =
       columns_json<SpotStatistics>([&](const auto& number) { return result.spots(number); });
   spots["corrected_area_slope"] = to_json(result.mean(&Realisation::corrected_area_slope));
-  Json answer = {{"realisations", result.realisations.size()},
-                 {"pressure", result.pressures},
+  Json answer = {{"pressure", result.pressures},
                  {"relative_pressure", theories.relative_pressure},
-                 {"models", models},
                  {"theories", theory},
                  {"spots", spots},
-                 {"flags", flags_json(result)},
+                 {"damping", damping_json(found)},
                  {"interval_method", result.interval_method()}};
-  add_first_loading(answer, result);
-  answer["damping"] = damping_json(found);
-  premises_of(found, result).add_to(answer);
+  for (const StudyModel& model : result.models())
+    answer["models"][model.name] = model_json(result, model);
+  add_ensemble(answer, result, found);
   return answer;
 }
 
@@ -194,37 +189,10 @@ void run(const CompareArguments& arguments, Session& session) {
   StudyConfiguration configuration = arguments.study.study();
   configuration.models =
       arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
-  name_surface(configuration, session);
-  if (run_without_results(configuration, arguments.study, session)) return;
-  StudyReport report(arguments.study, session);
-  const std::vector<StudyResult> results =
-      run_and_keep(configuration, arguments.study, report, session);
-  if (results.empty()) return;
-  const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
-  session.plot(compare_figure(results, configuration.ensemble));
-  Json answer = Json::object();
-  std::string text;
-  if (configuration.ensemble.empty()) {
-    const StudyAnswer found = answer_of(results.front());
-    answer = comparison_json(results.front(), found);
-    text = comparison_text(results.front(), found);
-  } else {
-    for (const StudyResult& result : results) {
-      const std::string name = describe_point(configuration.ensemble, result.configuration);
-      Json point = {{"point", name}};
-      const StudyAnswer found = answer_of(result);
-      const Json comparison = comparison_json(result, found);
-      for (const auto& [key, part] : comparison.items()) point[key] = part;
-      answer["points"].push_back(std::move(point));
-      text += "== " + name + " ==\n" + comparison_text(result, found) + "\n";
-    }
-  }
-  answer["files"] = files.json();
-  if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
-  session.answer(answer, text);
-  report.require_written();
-  if (std::ranges::any_of(results, &StudyResult::interrupted))
-    throw Interrupted("compare: interrupted; the surfaces that were finished are in the answer");
+  run_study("compare", configuration, arguments.study, session, [](const StudyResult& result) {
+    const StudyAnswer found = answer_of(result);
+    return PointAnswer{comparison_json(result, found), comparison_text(result, found)};
+  });
 }
 
 /// "gw_moments, gw_deterministic, … and persson".

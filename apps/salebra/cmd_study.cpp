@@ -10,7 +10,6 @@
 #include <salebra/base/units.hpp>
 #include <salebra/study/study.hpp>
 
-#include "compare_figure.hpp"
 #include "option_words.hpp"
 #include "program.hpp"
 #include "study_command.hpp"
@@ -20,16 +19,16 @@
 namespace salebra::cli {
 namespace {
 
-Json study_json(const StudyResult& result, const StudyAnswer& answer, const StudyFiles& files) {
-  Json comparison;
-  for (const StudyModel& model : result.models()) {
-    comparison[model.name] = {
-        {"decay_length", to_json(result.decay_length(model.id))},
-        {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model.id))}};
-  }
+Json lengths_json(const StudyResult& result, ContactModel model) {
+  return {{"decay_length", to_json(result.decay_length(model))},
+          {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model))}};
+}
+
+Json study_json(const StudyResult& result, const StudyAnswer& answer) {
+  Json object = lengths_json(result, ContactModel::bem);
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
-  Json damping;
+  Json& damping = object["damping"];
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
   damping.add(damping_json(answer));
@@ -38,15 +37,9 @@ Json study_json(const StudyResult& result, const StudyAnswer& answer, const Stud
   damping.add(
       columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); }));
   damping.erase("damping_constant_error");
-  Json object = {{"decay_length", to_json(result.decay_length())},
-                 {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height())},
-                 {"damping", damping},
-                 {"comparison", comparison},
-                 {"realisations", result.realisations.size()},
-                 {"flags", flags_json(result)},
-                 {"files", files.json()}};
-  add_first_loading(object, result);
-  premises_of(answer, result).add_to(object);
+  for (const StudyModel& model : result.models())
+    object["comparison"][model.name] = lengths_json(result, model.id);
+  add_ensemble(object, result, answer);
   return object;
 }
 
@@ -199,8 +192,7 @@ std::string accuracy(const StudyResult& result) {
   return text.empty() ? "" : "Accuracy\n" + text;
 }
 
-std::string study_text(const StudyResult& result, const StudyAnswer& answer,
-                       const StudyFiles& files) {
+std::string study_text(const StudyResult& result, const StudyAnswer& answer) {
   const auto count = result.realisations.size();
   const double friction = result.configuration.known.friction_coefficient;
   const bool flowed = std::ranges::any_of(
@@ -214,10 +206,8 @@ std::string study_text(const StudyResult& result, const StudyAnswer& answer,
                       Dimension::length, 3),
       flowed ? ",\nas the first loading left it" : "", motion_text(result.configuration),
       std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
-  text += answer_table(result, answer) + notes(result, answer) + "\n" +
-          premises_of(answer, result).text() + accuracy(result) + law_line(result);
-  if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
-  return text;
+  return text + answer_table(result, answer) + notes(result, answer) + "\n" +
+         premises_of(answer, result).text() + accuracy(result) + law_line(result);
 }
 
 /// What --verbose adds: all models, how the law bends, how the mean settled.
@@ -236,11 +226,6 @@ std::string details(const StudyResult& result) {
          law_verdict(result) + "\n" + ensemble_remarks(result);
 }
 
-Json with_processes(Json answer, const StudyArguments& arguments, const Session& session) {
-  if (!session.ranks().alone()) answer["groups"] = std::max(1, arguments.groups);
-  return session.with_processes(std::move(answer));
-}
-
 void run(const StudyArguments& arguments, Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.merge, "--merge"),
                                       {arguments.shard.has_value(), "--shard"},
@@ -249,38 +234,11 @@ void run(const StudyArguments& arguments, Session& session) {
     if (given) session.require_one_process(option);
   StudyConfiguration configuration;
   collectively(session.ranks(), [&] { configuration = arguments.study(); });
-  name_surface(configuration, session);
-  if (run_without_results(configuration, arguments, session)) return;
-  StudyReport report(arguments, session);
-  const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);
-  if (results.empty()) return;
-  if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
-  const StudyFiles files{session.has_output() ? session.output().string() : "", report.write()};
-  if (results.size() == 1 && configuration.ensemble.empty()) {
-    const StudyAnswer answer = answer_of(results.front());
-    session.answer(with_processes(study_json(results.front(), answer, files), arguments, session),
-                   study_text(results.front(), answer, files) +
-                       (arguments.verbose ? details(results.front()) : ""));
-  } else {
-    Json points = Json::array();
-    std::string text;
-    for (const StudyResult& result : results) {
-      const std::string name = describe_point(configuration.ensemble, result.configuration);
-      const StudyAnswer answer = answer_of(result);
-      Json point = study_json(result, answer, files);
-      point.erase("files");
-      point["point"] = name;
-      points.push_back(std::move(point));
-      text += "== " + name + " ==\n" + study_text(result, answer, {}) +
-              (arguments.verbose ? details(result) : "") + "\n";
-    }
-    session.answer(
-        with_processes({{"points", points}, {"files", files.json()}}, arguments, session),
-        text + files.text());
-  }
-  report.require_written();
-  if (std::ranges::any_of(results, &StudyResult::interrupted))
-    throw Interrupted("study: interrupted; the surfaces that were finished are in the answer");
+  run_study("study", configuration, arguments, session, [&](const StudyResult& result) {
+    const StudyAnswer answer = answer_of(result);
+    return PointAnswer{study_json(result, answer),
+                       study_text(result, answer) + (arguments.verbose ? details(result) : "")};
+  });
 }
 
 }  // namespace

@@ -25,6 +25,13 @@ Json cycle_json(const OscillationOutcome& outcome, const CycleResult& cycle) {
   return object;
 }
 
+/// Columns over time, by their names.
+void add_columns(Json& object, const CycleResult& cycle,
+                 std::initializer_list<std::string_view> names) {
+  const Json all = json_of(cycle.samples);
+  for (const std::string_view name : names) object[name] = all[name];
+}
+
 void add_friction(Json& object, const OscillationOutcome& outcome) {
   if (outcome.frictional) {
     const CycleResult& cycle = *outcome.frictional;
@@ -32,8 +39,7 @@ void add_friction(Json& object, const OscillationOutcome& outcome) {
     friction["friction_coefficient"] = outcome.friction_coefficient;
     friction.add(cycle_json(outcome, cycle));
     friction.add(json_of(slip_effect(outcome)));
-    friction["tangential"] = column(cycle, &CycleSample::tangential);
-    friction["tangential_force"] = column(cycle, &CycleSample::tangential_force);
+    add_columns(friction, cycle, {"tangential", "tangential_force"});
   }
   if (outcome.coupled) {
     Json& coupling = object["coupling"];
@@ -101,23 +107,21 @@ Json to_json(const OscillationOutcome& outcome) {
     const CycleResult& cycle = *outcome.cycle;
     object["routes_agree"] = outcome.routes_agree();
     object.add(cycle_json(outcome, cycle));
-    object["fft_count"] = cycle.fft_count + levels.fft_count;
-    std::vector<double> time = column(cycle, &CycleSample::t);
-    object["time_in_periods"] = time;
+    add_columns(object, cycle, {"time_in_periods", "work"});
     const double omega =
         std::visit([](const auto& motion) { return motion.angular_frequency; }, outcome.run.motion);
     // Unknown without a frequency.
+    std::vector<double> time = column(cycle, &CycleSample::t);
     for (double& moment : time)
       moment = omega > 0 ? moment * 2 * std::numbers::pi / omega
                          : std::numeric_limits<double>::quiet_NaN();
     object["time"] = time;
-    object["work"] = column(cycle, &CycleSample::work);
   } else {
     const auto& samples = levels.curve.samples;
     object["contact_area_min"] = samples.front().contact_area_fraction * grid.area();
     object["contact_area_max"] = samples.back().contact_area_fraction * grid.area();
-    object["fft_count"] = levels.fft_count;
   }
+  object["fft_count"] = levels.fft_count + (outcome.cycle ? outcome.cycle->fft_count : 0);
   add_first_loading(object, outcome.run.first_loading);
   add_friction(object, outcome);
   return object;

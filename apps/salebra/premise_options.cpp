@@ -11,7 +11,7 @@
 #include <salebra/questions/damping.hpp>
 
 #include "option_words.hpp"
-#include "results/columns.hpp"
+#include "results/answer_json.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
 
@@ -82,12 +82,11 @@ void PremiseReport::add_to(Json& answer) const {
   const std::vector<Condition> judged_conditions = conditions_of(cases, slip_followed, pressures);
   answer["validity"] = std::string(word_of(validity_of(judged_conditions)));
   Json& conditions = answer["conditions"] = Json::array();
-  for (const Condition& one : judged_conditions)
-    conditions.push_back({{"name", one.name},
-                          {"verdict", std::string(word_of(one.verdict))},
-                          {"condition", one.condition},
-                          {"here", in_options(one.here)},
-                          {"remedy", in_options(one.remedy)}});
+  for (Condition one : judged_conditions) {
+    one.here = in_options(one.here);
+    one.remedy = in_options(one.remedy);
+    conditions.push_back(to_json(one));
+  }
   const auto column = [&](const auto& value_of) -> Json {
     if (!list) return value_of(cases.front());
     Json all = Json::array();

@@ -6,13 +6,14 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/base/version.hpp>
@@ -21,6 +22,7 @@
 #include <salebra/study/study_file.hpp>
 #include <set>
 
+#include "compare_figure.hpp"
 #include "dry_run.hpp"
 #include "results/columns.hpp"
 #include "text.hpp"
@@ -99,6 +101,32 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
   command.add_flag("--no-report", no_report, "no page (.html) next to the output file");
 }
 
+namespace {
+
+/// The page that lies beside the results of a study, made by the first process.
+class StudyReport {
+ public:
+  /// Throws where the page cannot be put in its place, before any work. Collective. Nothing is
+  /// planned where there is no output, where the user wants no page, or where this build cannot
+  /// make one, which write() then says.
+  StudyReport(const StudyArguments& arguments, Session& session);
+  /// Writes what was planned, from the results file; its path, if there is one. Of several processes the
+  /// first does so. The results are safe by now, and their answer comes first: a page that is in
+  /// the way is a warning, and one that could not be written is thrown by require_written().
+  std::optional<std::string> write();
+  /// Throws IoError where the system refused the page. Collective.
+  void require_written() const;
+  /// Makes the page where none was made of these results yet, as of a study that was killed before
+  /// it; otherwise returns the path alone.
+  std::optional<std::string> complete();
+
+ private:
+  Session& session_;
+  bool lacks_assets_ = false;
+  std::filesystem::path page_;
+  std::string failure_;
+};
+
 StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : session_(session) {
   if (arguments.no_report || !session.has_output()) return;
   lacks_assets_ = !can_report();
@@ -115,24 +143,24 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
   });
 }
 
-std::string StudyReport::write() {
+std::optional<std::string> StudyReport::write() {
   if (lacks_assets_)
     session_.note(
         "no report was written: this build carries no plotly.js (scripts/report-assets fetches "
         "it)");
-  if (page_.empty()) return "";
+  if (page_.empty()) return {};
   try {
     try {
       require_report(page_, session_.write_options());
     } catch (const InvalidInput& error) {
       session_.warn(fmt::format("no report was written: {}", error.what()));
-      return "";
+      return {};
     }
     write_report(session_.output(), page_, {.write = session_.write_options()});
     return page_.string();
   } catch (const Error& error) {
     failure_ = error.what();
-    return "";
+    return {};
   }
 }
 
@@ -144,15 +172,13 @@ void StudyReport::require_written() const {
   });
 }
 
-std::string StudyReport::complete() {
+std::optional<std::string> StudyReport::complete() {
   std::error_code missing;
   const auto made = std::filesystem::last_write_time(page_, missing);
   if (!missing && made >= std::filesystem::last_write_time(session_.output()))
     return page_.string();
   return write();
 }
-
-namespace {
 
 /// Whether a file is one of heights, apart from its size.
 bool is_surface(const std::string& file) {
@@ -236,17 +262,22 @@ StudyConfiguration StudyArguments::study() const {
   return study;
 }
 
-Json StudyFiles::json() const {
-  return Json{{"results", results.empty() ? Json() : Json(results)},
-              {"report", report.empty() ? Json() : Json(report)}};
-}
-
-std::string StudyFiles::text() const {
-  return (results.empty() ? "" : fmt::format("results: {}\n", results)) +
-         (report.empty() ? "" : fmt::format("report:  {}\n", report));
-}
-
 namespace {
+
+/// Where a run left its results and their page.
+struct StudyFiles {
+  std::optional<std::string> results, report;
+
+  std::string text() const {
+    return (results ? fmt::format("results: {}\n", *results) : "") +
+           (report ? fmt::format("report:  {}\n", *report) : "");
+  }
+};
+
+constexpr void describe(auto&& visit, std::type_identity<StudyFiles>) {
+  visit(&StudyFiles::results, Kept{"results", "what the report is made of"});
+  visit(&StudyFiles::report, Kept{"report", "the page beside them"});
+}
 
 std::filesystem::path parts_folder(const Session& session) {
   return session.output().string() + ".parts";
@@ -427,8 +458,37 @@ void require_finished(const std::vector<StudyResult>& results,
     throw Interrupted("study: interrupted before the first surface was finished");
 }
 
-}  // namespace
+/// Throws NotConverged where a relative error was requested and is not met: the loads, with what
+/// was reached.
+void require_relative_error(const std::vector<StudyResult>& results) {
+  std::string missed;
+  double wanted = 0;
+  for (const StudyResult& result : results) {
+    wanted = result.configuration.relative_error;
+    const auto stated = result.stated_damping();
+    const auto means = result.damping(&DampingPoint::damping_constant);
+    for (std::size_t k = 0; k < stated.size(); ++k) {
+      // Neither value nor error: the contact did not converge, or the oscillation leaves its range.
+      if (std::isnan(stated[k].error)) continue;
+      const double reached = stated[k].error / std::abs(means[k].mean);
+      if (reached <= wanted) continue;
+      missed += fmt::format(
+          "{}{} ({})", missed.empty() ? "" : ", ",
+          format_quantity(result.pressures[k], Dimension::pressure),
+          std::isfinite(reached) ? fmt::format("{:.2g} %", 100 * reached) : "100 % or more");
+    }
+  }
+  if (!missed.empty())
+    throw NotConverged(fmt::format(
+        "relative_error: {:.3g} % is not met at {} with cells of 1/{} of their size; no "
+        "result is given: ask for less, leave out these loads, or measure finer",
+        100 * wanted, missed, SurfaceDampingOptions().most_refined));
+}
 
+/// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it
+/// goes, and writes the result there. Without an output nothing is kept. Where a resumed study has
+/// its result already, tidies up after it, makes a page that is missing, answers so and returns
+/// nothing. Otherwise returns at least one finished surface.
 std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
                                       const StudyArguments& arguments, StudyReport& page,
                                       Session& session) {
@@ -440,9 +500,9 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   const Communicator& ranks = session.ranks();
   if (resume && is_complete(configuration, folder, session)) {
     const StudyFiles files{session.output().string(), page.complete()};
-    session.answer(Json{{"files", files.json()}},
-                   fmt::format("results: {}, complete already\n", files.results) +
-                       StudyFiles{"", files.report}.text());
+    session.answer(Json{{"files", to_json(files)}},
+                   fmt::format("results: {}, complete already\n", *files.results) +
+                       StudyFiles{{}, files.report}.text());
     page.require_written();
     return {};
   }
@@ -489,11 +549,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   return results;
 }
 
-void name_surface(const StudyConfiguration& configuration, Session& session) {
-  if (const auto* measured = std::get_if<MeasuredSurface>(&configuration.surfaces))
-    session.reads("surface.file", measured->file);
-}
-
+/// What ends a command before its results: --dry-run and --shard. False where there is neither.
 bool run_without_results(const StudyConfiguration& configuration, const StudyArguments& arguments,
                          Session& session) {
   require_that(arguments.dry_run.dry_run || !arguments.shard_seconds, "--shard-seconds",
@@ -548,60 +604,48 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
                   folder));
 }
 
-void require_relative_error(const std::vector<StudyResult>& results) {
-  std::string missed;
-  double wanted = 0;
+}  // namespace
+
+void run_study(const std::string& command, const StudyConfiguration& configuration,
+               const StudyArguments& arguments, Session& session,
+               const std::function<PointAnswer(const StudyResult&)>& answer_point) {
+  if (const auto* measured = std::get_if<MeasuredSurface>(&configuration.surfaces))
+    session.reads("surface.file", measured->file);
+  if (run_without_results(configuration, arguments, session)) return;
+  StudyReport report(arguments, session);
+  const std::vector<StudyResult> results = run_and_keep(configuration, arguments, report, session);
+  if (results.empty()) return;
+  if (session.has_plot()) session.plot(compare_figure(results, configuration.ensemble));
+  StudyFiles files{.report = report.write()};
+  if (session.has_output()) files.results = session.output().string();
+  Json answer;
+  std::string text;
   for (const StudyResult& result : results) {
-    wanted = result.configuration.relative_error;
-    const auto stated = result.stated_damping();
-    const auto means = result.damping(&DampingPoint::damping_constant);
-    for (std::size_t k = 0; k < stated.size(); ++k) {
-      // Neither value nor error: the contact did not converge, or the oscillation leaves its range.
-      if (std::isnan(stated[k].error)) continue;
-      const double reached = stated[k].error / std::abs(means[k].mean);
-      if (reached <= wanted) continue;
-      missed += fmt::format(
-          "{}{} ({})", missed.empty() ? "" : ", ",
-          format_quantity(result.pressures[k], Dimension::pressure),
-          std::isfinite(reached) ? fmt::format("{:.2g} %", 100 * reached) : "100 % or more");
+    PointAnswer point = answer_point(result);
+    if (configuration.ensemble.empty()) {
+      answer = std::move(point.answer);
+    } else {
+      const std::string name = describe_point(configuration.ensemble, result.configuration);
+      Json named{{"point", name}};
+      named.add(point.answer);
+      answer["points"].push_back(std::move(named));
+      text += (text.empty() ? "== " : "\n== ") + name + " ==\n";
     }
+    text += point.text;
   }
-  if (!missed.empty())
-    throw NotConverged(fmt::format(
-        "relative_error: {:.3g} % is not met at {} with cells of 1/{} of their size; no "
-        "result is given: ask for less, leave out these loads, or measure finer",
-        100 * wanted, missed, SurfaceDampingOptions().most_refined));
+  answer["files"] = to_json(files);
+  if (!session.ranks().alone()) answer["groups"] = std::max(1, arguments.groups);
+  if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
+  session.answer(session.with_processes(std::move(answer)), text);
+  report.require_written();
+  if (std::ranges::any_of(results, &StudyResult::interrupted))
+    throw Interrupted(command + ": interrupted; the surfaces that were finished are in the answer");
 }
 
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits) {
   if (std::isnan(estimate.low)) return "";
   return fmt::format("{} … {}", format_quantity(estimate.low, dimension, digits),
                      format_quantity(estimate.high, dimension, digits));
-}
-
-std::string describe_motion(const Oscillation& motion) {
-  const auto frequency = [](double omega) {
-    return format_quantity(omega / (2 * std::numbers::pi), Dimension::frequency);
-  };
-  if (const auto* drag = std::get_if<Drag>(&motion)) {
-    return fmt::format("drag at {}, normal oscillation of {} at {}",
-                       format_quantity(drag->drag_velocity, Dimension::velocity),
-                       format_quantity(drag->normal_amplitude, Dimension::length),
-                       frequency(drag->angular_frequency));
-  }
-  const auto& equal = std::get<EqualFrequency>(motion);
-  return fmt::format("equal frequencies, normal {}, tangential {}, phase {}, {}",
-                     format_quantity(equal.normal_amplitude, Dimension::length),
-                     format_quantity(equal.tangential_amplitude, Dimension::length),
-                     format_quantity(equal.phase, Dimension::angle),
-                     frequency(equal.angular_frequency));
-}
-
-void add_first_loading(Json& answer, const StudyResult& result) {
-  if (std::isnan(result.configuration.known.hardness)) return;
-  answer["first_loading"] = columns_json<FirstLoading>([&](const auto& number) {
-    return result.mean([&](const Realisation& r) { return number(r.first_loading); });
-  });
 }
 
 std::string heading(const StudyResult& result) {
@@ -680,12 +724,6 @@ std::string ensemble_remarks(const StudyResult& result) {
   return text;
 }
 
-Json flags_json(const StudyResult& result) {
-  Json flags = Json::object();
-  for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;
-  return flags;
-}
-
 PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result) {
   return {.cases = answer.premises,
           .list = true,
@@ -694,18 +732,21 @@ PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result) 
 }
 
 Json damping_json(const StudyAnswer& answer) {
-  Json regimes = Json::array();
-  for (const Premises& one : answer.premises)
-    regimes.push_back(one.regime == Regime::unknown ? Json(nullptr)
-                                                    : Json(std::string(word_of(one.regime))));
-  Json object;
-  object["damping_constant"] = to_json(answer.damping_constant);
-  object["work_per_cycle"] = to_json(answer.work_per_cycle);
-  object["damping_constant_without_slip"] = to_json(answer.damping_constant_without_slip);
+  Json object = answer_json(answer);
   object["relaxation_share"] = answer.relaxation_share;
   object["slip_share"] = answer.slip_share;
-  object["regime"] = regimes;
   return object;
+}
+
+void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found) {
+  answer["realisations"] = result.realisations.size();
+  Json& flags = answer["flags"] = Json::object();
+  for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;
+  if (!std::isnan(result.configuration.known.hardness))
+    answer["first_loading"] = columns_json<FirstLoading>([&](const auto& number) {
+      return result.mean([&](const Realisation& r) { return number(r.first_loading); });
+    });
+  premises_of(found, result).add_to(answer);
 }
 
 }  // namespace salebra::cli
