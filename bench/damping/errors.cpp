@@ -4,7 +4,7 @@
 //   damping_errors [surfaces [points [first seed [slip]]]]
 // One line per surface: kind, pressure over E*h', amplitude over rms height, W, its error and the
 // parts of it (cells, scatter, levels, ratio, solver), all over W; then W by contacts, less W, over
-// W; levels, window over u_z. The last lines are the table of docs/surface_damping.md.
+// W; levels, window over u_z. The last lines are results/errors.csv.
 // With slip: the loss with friction, at excursions of 0.1 to 100 mu u_z, against forces of contacts
 // on cells of a quarter of the size, with K_t = (G*/E*)K. One line per surface: kind, mu, excursion
 // over mu u_z, W, its error over W, part by slip, what the reference is off, over W.

@@ -3,7 +3,7 @@
 // that no number was chosen with, against contacts on cells of a quarter of the size.
 //   damping_uses [surfaces [points [first seed]]]
 // One line per surface: kind, pressure over E*h', amplitude over rms height; each number's deviation
-// over its stated error. The last lines are the table of docs/surface_damping.md. ν = 0: K_t = K.
+// over its stated error. The last lines are results/uses.csv. ν = 0: K_t = K.
 #include <algorithm>
 #include <array>
 #include <cmath>
