@@ -37,7 +37,8 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {pressure, words("pressure pressure_min pressure_max max_pressure reference_pressure")},
       {force, words("force mean_force tangential_force")},
       {energy,
-       words("elastic_energy work_per_cycle error_estimate work_by_levels work_by_levels_error "
+       words("elastic_energy work_per_cycle work_per_cycle_without_slip error_estimate "
+             "work_by_levels work_by_levels_error "
              "work_by_whole_cells work_by_force predicted_exponential predicted_exponential_finite "
              "work small_amplitude_work relaxation_work slip_work full_stick_work dissipated "
              "stored_energy_change normal_work gap_work")},
@@ -47,7 +48,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {stiffness_per_area, words("normal_stiffness_per_area tangential_stiffness_per_area")},
       {force_curvature, words("force_curvature")},
       {power, words("power slow_limit_power")},
-      {damping, words("damping_constant")},
+      {damping, words("damping_constant damping_constant_without_slip")},
       {frequency, words("frequency")},
       {angular_frequency, words("angular_frequency natural_frequency")},
       {dimensionless,
@@ -56,7 +57,9 @@ Dimension meaning(const std::string& object, const std::string& name) {
              "low moment2 nayak over_stick quality_factor r_squared ratio ratio_exponential "
              "ratio_exponential_finite ratio_finite residual rms_slope significance skewness Sdq "
              "Sdr Sku Smr1 Smr2 Ssk stiffness_ratio Str tangential_force_change time_in_periods "
-             "value work_change work_over_elastic_energy decay_length_over_rms_height")}};
+             "value work_change work_over_elastic_energy decay_length_over_rms_height "
+             "relaxation_share "
+             "slip_share")}};
   for (const std::string& wanted : {object + "." + name, name})
     for (const auto& [dimension, names] : meanings)
       if (names.contains(wanted)) return dimension;
