@@ -44,7 +44,7 @@ Parameters
 ----------
 surface : Surface
     Complete; subtract its tilt before.
-window : {"default", "none", "hann", "blackman", "radial_hann"}
+window : {"default", "none", "hann", "blackman", "welch", "radial_hann"}
     "default": none for a periodic surface, "hann" for any other.
 )");
 

@@ -93,17 +93,21 @@ TEST_CASE(
   const auto blackman = [&](Index i, Index n) {
     return 0.42 - 0.5 * std::cos(at_edges(i, n)) + 0.08 * std::cos(2 * at_edges(i, n));
   };
+  const auto welch = [](Index i, Index n) {
+    return 1 - std::pow(double(2 * i + 1) / double(n) - 1, 2);
+  };
   const auto mean_square = [](const Field& weights, const Field& heights) {
     const double mean = (weights * heights).sum() / weights.sum();
     return (weights * (heights - mean)).square().sum() / weights.square().sum();
   };
-  const Window window = GENERATE(Window::hann, Window::blackman, Window::radial_hann);
+  const Window window = GENERATE(Window::hann, Window::blackman, Window::welch, Window::radial_hann);
   Field weights(24, 30);
   for (Index ix = 0; ix < 24; ++ix) {
     for (Index iy = 0; iy < 30; ++iy) {
       const double r = std::hypot(double(ix - 12) / 24, double(iy - 15) / 15);
       weights(ix, iy) = window == Window::hann       ? hann(ix, 24) * hann(iy, 30)
                         : window == Window::blackman ? blackman(ix, 24) * blackman(iy, 30)
+                        : window == Window::welch    ? welch(ix, 24) * welch(iy, 30)
                         : r < 0.5                    ? 0.5 + 0.5 * std::cos(2 * pi * r)
                                                      : 0;
     }
@@ -121,7 +125,9 @@ TEST_CASE(
   for (Index iy = 0; iy < 30; ++iy) {
     Field line = surface.heights.col(iy), line_weights(24, 1);
     for (Index ix = 0; ix < 24; ++ix)
-      line_weights(ix, 0) = window == Window::hann ? hann(ix, 24) : blackman(ix, 24);
+      line_weights(ix, 0) = window == Window::hann       ? hann(ix, 24)
+                            : window == Window::blackman ? blackman(ix, 24)
+                                                         : welch(ix, 24);
     expected += mean_square(line_weights, line) / 30;
   }
   CHECK(sum == Approx(expected).epsilon(1e-12));

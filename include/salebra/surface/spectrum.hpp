@@ -58,6 +58,7 @@ enum class Window {
   hann,       ///< v(ξ)·v(η), v(ξ) = ½(1 − cos 2πξ)
   blackman,   ///< the same with v(ξ) = 0.42 − 0.5 cos 2πξ + 0.08 cos 4πξ: less leakage, less
               ///< resolution
+  welch,  ///< the same with v(ξ) = 1 − (2ξ − 1)²: a finer resolution, leakage that falls as q⁻⁴
   radial_hann,  ///< ½(1 + cos 2πr/min(lx, ly)) in the inscribed circle and 0 outside, r from point
                 ///< (nx/2, ny/2), as SurfaceTopography has it
 };
@@ -69,6 +70,7 @@ struct Words<Window> {
                                                           {Window::none, "none"},
                                                           {Window::hann, "hann"},
                                                           {Window::blackman, "blackman"},
+                                                          {Window::welch, "welch"},
                                                           {Window::radial_hann, "radial_hann"}});
 };
 
