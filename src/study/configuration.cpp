@@ -283,6 +283,8 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
     configuration.motion = motion;
   }
   if (const auto hold = enumerated<Hold>(table, "hold")) configuration.damping.hold = *hold;
+  if (const auto amplitude = enumerated<Amplitude>(table, "amplitude"))
+    configuration.damping.amplitude = *amplitude;
   if (const auto levels = table.quantity("levels", Dimension::dimensionless)) {
     table.check(*levels == 0 || allowed_levels(*levels), "levels",
                 fmt::format("{} must be 0, 4, 8, 16 or 32", *levels));

@@ -54,11 +54,12 @@ TEST_CASE("Equal frequencies, dead weights and two elastic bodies can be asked f
       parse("[material]\nyoung = [\"200GPa\", \"70GPa\"]\npoisson = [0.3, 0.33]\n" + contact +
             "[damping]\nmode = \"equal-frequency\"\nnormal_amplitude = 1e-9\ntangential_amplitude "
             "= 2e-9\n"
-            "phase = \"90deg\"\nfrequency = \"1kHz\"\nhold = \"force\"\n");
+            "phase = \"90deg\"\nfrequency = \"1kHz\"\nhold = \"force\"\namplitude = \"small\"\n");
   const auto& motion = std::get<EqualFrequency>(configuration.motion);
   CHECK(motion.phase == Approx(std::numbers::pi / 2).epsilon(1e-15));
   CHECK(motion.angular_frequency == Approx(2000 * std::numbers::pi).epsilon(1e-15));
   CHECK(configuration.damping.hold == Hold::force);
+  CHECK(configuration.damping.amplitude == Amplitude::small);
   CHECK(configuration.material.contact_modulus ==
         Approx(1 / (0.91 / 2e11 + (1 - 0.33 * 0.33) / 7e10)).epsilon(1e-14));
 }

@@ -152,7 +152,9 @@ TEST_CASE("The key of a realisation changes with what decides it, and with nothi
       {"models", [](StudyConfiguration& c) { c.models = c.compared_models; }},
       {"velocity", [](StudyConfiguration& c) { std::get<Drag>(c.motion).drag_velocity *= 2; }},
       {"frequency", [](StudyConfiguration& c) { std::get<Drag>(c.motion).angular_frequency *= 2; }},
-      {"amplitude", [](StudyConfiguration& c) { std::get<Drag>(c.motion).normal_amplitude *= 2; }},
+      {"normal_amplitude",
+       [](StudyConfiguration& c) { std::get<Drag>(c.motion).normal_amplitude *= 2; }},
+      {"amplitude", [](StudyConfiguration& c) { c.damping.amplitude = Amplitude::small; }},
       {"motion",
        [](StudyConfiguration& c) {
          c.motion = EqualFrequency{1e-10, 1e-9, 1, 1e5};
