@@ -182,6 +182,7 @@ void set_state(DampingResult& result, const ContactLaw& law, double indentation)
   result.indentation = indentation;
   result.force = law.force(indentation);
   result.normal_stiffness = law.normal_stiffness(indentation);
+  result.tangential_stiffness = law.tangential_stiffness(indentation);
   result.force_curvature = law.force_curvature(indentation);
   result.tangential_curvature = law.tangential_curvature(indentation);
 }

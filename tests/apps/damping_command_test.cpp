@@ -23,7 +23,7 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
                   drag + "--amplitude small");
   CHECK(keys(answer) ==
         "validity conditions premises largest_motion regime work_per_cycle power damping_constant "
-        "normal_stiffness "
+        "normal_stiffness tangential_stiffness "
         "force_curvature force mean_force indentation small_amplitude_work ratio");
   const double omega = 2 * pi * 2e4, ratio = 2 * 0.7 / 1.7;
   const double work = 2 * (pi * pi - 4) * ratio * 1 / 1e-14 * 5e-9 * 4e-6 / (omega * omega);
@@ -32,6 +32,7 @@ TEST_CASE("Damping of the exponential law at small amplitude is Eq. (16)", "[dam
   CHECK(answer["power"] == Approx(work * omega / (2 * pi)).epsilon(1e-12));
   CHECK(answer["damping_constant"] == Approx(work * omega / (2 * pi) / 4e-6).epsilon(1e-12));
   CHECK(answer["force_curvature"] == Approx(1e14).epsilon(1e-12));
+  CHECK(answer["tangential_stiffness"] == Approx(ratio * 1e7).epsilon(1e-12));
   CHECK(answer["force"] == Approx(1).epsilon(1e-12));
 }
 

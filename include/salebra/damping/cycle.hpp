@@ -87,8 +87,7 @@ constexpr void describe(auto&& visit, std::type_identity<CycleSample>) {
   visit(&S::dissipated, quantity::dissipated);
   visit(&S::contact_area, Quantity{"contact_area", length_squared, "contact area"});
   visit(&S::slip_area, Quantity{"slip_area", length_squared, "area of cells at their limit"});
-  visit(&S::tangential_stiffness,
-        Quantity{"tangential_stiffness", stiffness, "tangential stiffness in full stick"});
+  visit(&S::tangential_stiffness, quantity::tangential_stiffness);
 }
 
 /// What a stuck contact remembers: where each of its cells has been drawn to.

@@ -61,6 +61,7 @@ struct DampingResult {
   double damping_constant =
       unknown;  ///< γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω
   double normal_stiffness = unknown;  ///< K at the mean indentation, N/m
+  double tangential_stiffness = unknown;  ///< K_t there: with γ the contact as a spring and damper
   double force_curvature = unknown;   ///< F'' at the mean indentation, N/m²
   double force = unknown;             ///< F at the mean indentation, N
   double mean_force = unknown;   ///< mean of F over the cycle, N; that of a finite amplitude always
@@ -84,6 +85,7 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   visit(&S::power, quantity::power);
   visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::normal_stiffness, Extensive{quantity::normal_stiffness});
+  visit(&S::tangential_stiffness, Extensive{quantity::tangential_stiffness});
   visit(&S::force_curvature, quantity::force_curvature);
   visit(&S::force, quantity::force);
   visit(&S::mean_force, quantity::mean_force);

@@ -48,6 +48,8 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
     tangential_amplitude{"tangential_amplitude", Dimension::length,
                          "amplitude of the tangential oscillation"},
     tangential_force{"tangential_force", Dimension::force, "tangential force"},
+    tangential_stiffness{"tangential_stiffness", Dimension::stiffness,
+                         "tangential stiffness in full stick"},
     time{"time", Dimension::time, "time"},
     work_per_cycle{"work_per_cycle", Dimension::energy, "energy dissipated in a cycle"},
     work_with_slip_error{"work_with_slip_error", Dimension::energy,

@@ -126,8 +126,7 @@ constexpr void describe(auto&& visit, std::type_identity<LawState>) {
   visit(&S::force, quantity::force);
   visit(&S::indentation, quantity::indentation);
   visit(&S::normal_stiffness, quantity::normal_stiffness);
-  visit(&S::tangential_stiffness, Quantity{"tangential_stiffness", Dimension::stiffness,
-                                           "tangential stiffness in full stick"});
+  visit(&S::tangential_stiffness, quantity::tangential_stiffness);
 }
 
 struct IndenterState : LawState {
