@@ -219,7 +219,8 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
         "viscoelastic " + sphere + motion + "--prony 3MPa:1ms --steps 20000 --springs 20000",
         "damping " + sphere + motion + "--friction-coefficient 0.3 --steps 10000000",
         "damping " + law + normal +
-            "--drag-velocity 1mm/s --friction-coefficient 0.3 --steps 10000000",
+            "--mode two-frequencies --tangential-amplitude 1nm --phase 0.5 --tangential-frequency "
+            "10kHz --friction-coefficient 0.3 --steps 10000000",
         "joint " + law +
             "--friction-coefficient 0.3 --normal-amplitude 2nm --tangential-forces 3mN --steps "
             "400000",
