@@ -252,6 +252,25 @@ def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axe
     return drawn
 
 
+@plot.register(_core.StudyAnswer)
+def _(result: _core.StudyAnswer, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Damping constant over pressure with its 95 % intervals, and that without slip."""
+    drawn = _axes(ax)
+    x_factor, x_shown = _scale(result.pressures, "Pa")
+    means = [[one.mean for one in row] for row in (result.damping_constant, result.damping_constant_without_slip)]
+    y_factor, y_shown = _scale(means, "N s/m")
+    bars = np.array([[one.mean - one.low, one.high - one.mean] for one in result.damping_constant]).T
+    drawn.errorbar(
+        result.pressures * x_factor, np.array(means[0]) * y_factor, bars * y_factor,
+        **({"marker": ".", "label": "as described" if result.slip_followed else "without slip"} | keywords),
+    )  # fmt: skip
+    if result.slip_followed:
+        drawn.plot(result.pressures * x_factor, np.array(means[1]) * y_factor, "--", label="without slip")
+    _name_axes(drawn, (_PRESSURE[1], x_shown), ("damping constant γ", y_shown), "xy")
+    drawn.legend()
+    return drawn
+
+
 @plot.register(_core.SummitList)
 def _(result: _core.SummitList, ax: Axes | None = None, **keywords: Any) -> Axes:
     drawn = _axes(ax)

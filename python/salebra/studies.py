@@ -9,6 +9,8 @@ from ._core import (
     Realisation as Realisation,
     SpotStatistics as SpotStatistics,
     StudyConfiguration as StudyConfiguration,
+    StatedMean as StatedMean,
+    StudyAnswer as StudyAnswer,
     StudyFlag as StudyFlag,
     StudyResult as StudyResult,
     SurfacePicture as SurfacePicture,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of study configurations, runs and results.
+#include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -12,6 +13,7 @@
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
+#include <salebra/study/study_answer.hpp>
 #include <salebra/study/study_file.hpp>
 #include <salebra/study/verification.hpp>
 
@@ -129,6 +131,17 @@ void bind_result(nb::module_& m) {
         nb::sig("def _damping_columns() -> list[typing.Any]"));
   described_class<EnsembleMean>(m, "EnsembleMean",
                                 "A mean with its 95 % interval; NaN limits where there is none.");
+  described_class<StatedMean>(m, "StatedMean",
+                              "A mean with its 95 % interval and its numerical error.");
+  auto answer = described_class<StudyAnswer>(
+      m, "StudyAnswer",
+      "What a study says of the motion that was described, at each pressure, and whether it may be "
+      "used.");
+  result_methods(answer, true);
+  answer.def("__repr__", [](const StudyAnswer& self) {
+    return fmt::format("StudyAnswer(validity='{}', {} pressures)", word_of(self.validity),
+                       self.damping_constant.size());
+  });
   described_class<StudyFlag>(m, "StudyFlag",
                              "Why a result may be off for other reasons than chance.");
   auto result = described_class<StudyResult>(m, "StudyResult",
@@ -189,6 +202,18 @@ void bind_result(nb::module_& m) {
           },
           nb::arg("model") = "bem",
           "Least and greatest deviation of Eq. (16) from the theorem on the curve.")
+      .def(
+          "answer",
+          [](const StudyResult& self) { return unlocked([&] { return answer_of(self); }); },
+          "The damping constant of the contact as described, with slip where the coefficient of "
+          "friction is known, its shares, its conditions and their verdict.")
+      .def(
+          "surfaces_for",
+          [](const StudyResult& self, double precision) { return surfaces_for(self, precision); },
+          nb::arg("precision"),
+          "How many surfaces the mean of the damping constant without slip would need at each "
+          "pressure for a 95 % interval of ±precision, by the scatter of those at hand; NaN of one "
+          "surface.")
       .def("convergence_counts", &StudyResult::convergence_counts,
            "Numbers of surfaces of convergence(): all up to 128, then 32 in each doubling.")
       .def("convergence", &StudyResult::convergence,

@@ -477,9 +477,10 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   add_up(result);
   if (!load.follows_slip()) return result;
   const KrigedLoss& slip = value.with_slip;
-  result.work_with_slip_error = root_of_squares(
-      {part * std::abs(slip.work - other.with_slip.work), stated_deviations * slip.deviation,
-       load.level_error_with_slip(), slip.ratio_error, slip.solver_error});
+  result.slip_scatter = stated_deviations * slip.deviation;
+  result.work_with_slip_error =
+      root_of_squares({part * std::abs(slip.work - other.with_slip.work), result.slip_scatter,
+                       load.level_error_with_slip(), slip.ratio_error, slip.solver_error});
   return result;
 }
 

@@ -200,6 +200,7 @@ void resolve_damping(ModelResult& result, const Surface& surface,
     point.relaxation_work = one.relaxation_work;
     point.slip_work = one.slip_work;
     point.work_with_slip_error = one.work_with_slip_error;
+    point.slip_scatter = one.slip_scatter;
     // One surface has no other number to average with.
     if (detail::seeds_of(configuration).size() == 1 &&
         point.damping_constant_error >= std::abs(point.damping_constant))

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/study/study_answer.hpp>
 
@@ -78,7 +79,8 @@ StudyAnswer answer_of(const StudyResult& result) {
   const StudyConfiguration& configuration = result.configuration;
   const std::size_t count = result.pressures.size();
   const std::vector<StatedMean> without_slip = result.stated_damping();
-  StudyAnswer answer{.damping_constant = without_slip,
+  StudyAnswer answer{.pressures = result.pressures,
+                     .damping_constant = without_slip,
                      .damping_constant_without_slip = without_slip,
                      .relaxation_share = std::vector<double>(count, ContactFacts::unknown),
                      .slip_share = std::vector<double>(count, ContactFacts::unknown),
@@ -117,6 +119,19 @@ StudyAnswer answer_of(const StudyResult& result) {
   answer.conditions = conditions_of(answer.premises, answer.slips(), result.pressures);
   answer.validity = validity_of(answer.conditions);
   return answer;
+}
+
+std::vector<double> surfaces_for(const StudyResult& result, double precision) {
+  require_positive(precision, "precision");
+  std::vector<double> counts;
+  for (const StatedMean& constant : result.stated_damping()) {
+    const double excess = constant.relative_precision() / precision;
+    counts.push_back(
+        std::isnan(excess)
+            ? ForceSample::unknown
+            : std::max(2.0, std::ceil(double(result.realisations.size()) * excess * excess)));
+  }
+  return counts;
 }
 
 }  // namespace salebra

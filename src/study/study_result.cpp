@@ -171,8 +171,13 @@ std::vector<StatedMean> StudyResult::stated_work_with_slip() const {
     const std::size_t k = stated.size() - 1;
     const EnsembleMean relative = this->mean([&](const Realisation& r) {
       const auto& points = r.of(ContactModel::bem).damping;
-      return k < points.size() ? points[k].work_with_slip_error / points[k].work_with_slip()
-                               : ForceSample::unknown;
+      if (k >= points.size()) return ForceSample::unknown;
+      const DampingPoint& point = points[k];
+      // The chance at which cells touch is another on each surface.
+      const double alike = 1 - 1 / double(realisations.size());
+      return std::sqrt(std::pow(point.work_with_slip_error, 2) -
+                       alike * std::pow(point.slip_scatter, 2)) /
+             point.work_with_slip();
     });
     mean.error = std::abs(relative.mean * mean.mean);
     if (mean.error >= std::abs(mean.mean)) mean.mean = mean.low = mean.high = ForceSample::unknown;

@@ -129,6 +129,8 @@ def makers() -> dict[str, Callable[[], Any]]:
         "StickStiffness": lambda: salebra.stick_stiffness(contact, surface.grid, MATERIAL),
         "StressMap": lambda: salebra.stress_map(law, 1e-6, EQUAL, phases=16, radii=16),
         "StudyConfiguration": lambda: study.configuration,
+        "StatedMean": lambda: study.answer().damping_constant[0],
+        "StudyAnswer": study.answer,
         "StudyResult": lambda: study,
         "Summit": lambda: summits[0],
         "SummitEnsemble": lambda: ensemble,

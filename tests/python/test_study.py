@@ -33,6 +33,20 @@ def test_a_study_from_text_writes_what_it_computed(result: salebra.StudyResult, 
     assert (tmp_path / "study.h5").exists()
 
 
+def test_the_answer_of_a_study_is_that_of_the_program(program: Callable[..., Any], tmp_path: Path) -> None:
+    text = STUDY.replace("[contact]", "friction_coefficient = 0.3\n[contact]", 1) + 'excursion = "1mm"\n'
+    (tmp_path / "slips.toml").write_text(text)
+    said = program("study", tmp_path / "slips.toml")
+    result = salebra.run_study(salebra.parse_study_configuration(text))
+    answer = result.answer()
+    assert answer.slip_followed and answer.validity == said["validity"] and said["validity"] in repr(answer)
+    assert [one.mean for one in answer.damping_constant] == pytest.approx(said["damping"]["damping_constant"]["mean"], rel=1e-9, nan_ok=True)
+    assert list(answer.slip_share) == pytest.approx(said["damping"]["slip_share"], rel=1e-9, nan_ok=True)
+    # Of two surfaces for what two surfaces reach.
+    width = result.damping()[5].relative_precision
+    assert result.surfaces_for(width)[5] == 2 and result.surfaces_for(width / 3)[5] == 18
+
+
 def test_weights_of_the_fit_are_those_of_the_program(
     result: salebra.StudyResult, program: Callable[..., Any], tmp_path: Path
 ) -> None:

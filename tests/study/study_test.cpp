@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
@@ -14,6 +16,7 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/study.hpp>
+#include <salebra/study/study_answer.hpp>
 #include <salebra/study/study_file.hpp>
 
 #include "ranks_in_threads.hpp"
@@ -95,6 +98,30 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
       CHECK(deviation[k].mean == Approx(by_law[k].mean / stated[k].mean - 1).epsilon(1e-12));
   CHECK(std::isnan(deviation[0].mean) ==
         (std::isnan(by_law[0].mean) || std::isnan(stated[0].mean)));
+}
+
+TEST_CASE("Eight surfaces say how many an interval needs", "[study]") {
+  const auto study = [](int seeds) {
+    return run_study(parse_study_configuration(
+        study_text(fmt::format("first_seed = 1\nseed_count = {}", seeds), 6) + "levels = 0\n",
+        "x.toml"));
+  };
+  const StudyResult few = study(8), many = study(32);
+  CHECK_THROWS_WITH(surfaces_for(few, 0), Catch::Contains("precision"));
+  const auto reached = many.stated_damping();
+  std::vector<double> counts;
+  for (std::size_t k = 0; k < reached.size(); ++k)
+    if (!std::isnan(reached[k].low))
+      counts.push_back(surfaces_for(few, reached[k].relative_precision())[k]);
+  // By the variance of eight, which is known to √(2/7) where they are normal; the loads have it in
+  // common. Two of these deviations, and 1.18² of t for few surfaces.
+  REQUIRE(counts.size() >= 4);
+  std::ranges::sort(counts);
+  const double median = counts[counts.size() / 2];
+  INFO(counts.front() << ' ' << median << ' ' << counts.back());
+  CHECK(median > 32 / 2.1);
+  CHECK(median < 32 * 2.1 * 1.4);
+  CHECK(std::isnan(surfaces_for(study(1), 0.1)[3]));
 }
 
 TEST_CASE("A study is the same in every bit for one and two threads and when run again",

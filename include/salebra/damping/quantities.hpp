@@ -37,6 +37,8 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
                      "part of the energy dissipated by levels that open and close"},
     relaxation_work{"relaxation_work", Dimension::energy,
                     "energy dissipated in a cycle by contacts that open"},
+    slip_scatter{"slip_scatter", Dimension::energy,
+                 "part of work_with_slip_error by the chance at which cells and spots touch"},
     slip_share{"slip_share", Dimension::dimensionless,
                "part of the energy dissipated by slip in permanent contact"},
     slip_work{"slip_work", Dimension::energy,

@@ -91,6 +91,7 @@ struct SurfaceDamping {
   double relaxation_work = unknown;       ///< with slip, by levels that open and close, J
   double slip_work = unknown;             ///< by levels that stay closed, J
   double work_with_slip_error = unknown;  ///< of the sum of both, J
+  double slip_scatter = unknown;          ///< the part of it that is chance, as `scatter`, J
   int levels = 0;
   Index points = 0;  ///< along x, of the grid that W belongs to
   bool converged =
@@ -122,6 +123,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
   visit(&S::work_with_slip_error, quantity::work_with_slip_error);
+  visit(&S::slip_scatter, quantity::slip_scatter);
   visit(&S::levels, Kept{"levels", "intervals between contact levels"});
   visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});

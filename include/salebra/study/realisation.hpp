@@ -47,6 +47,7 @@ struct DampingPoint {
   double relaxation_work = ForceSample::unknown;
   double slip_work = ForceSample::unknown;
   double work_with_slip_error = ForceSample::unknown;
+  double slip_scatter = ForceSample::unknown;  ///< the part of it that is chance
 
   double work_with_slip() const { return relaxation_work + slip_work; }
   double deviation() const { return work_per_cycle_closed_form / work_per_cycle - 1; }
@@ -83,6 +84,7 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   visit(&S::relaxation_work, quantity::relaxation_work);
   visit(&S::slip_work, quantity::slip_work);
   visit(&S::work_with_slip_error, quantity::work_with_slip_error);
+  visit(&S::slip_scatter, quantity::slip_scatter);
   visit(&S::deviation, Quantity{"deviation", dimensionless,
                                 "damping by the fitted law over the damping computed, less 1"});
 }

@@ -171,8 +171,7 @@ struct StudyResult {
   /// the relative error of those that have one, its scatter over √n, times the mean. The mean is
   /// NaN where the error is not smaller.
   std::vector<StatedMean> stated_damping(ContactModel model = ContactModel::bem) const;
-  /// DampingPoint::work_with_slip() of the boundary elements likewise, J; its relative error is the
-  /// mean of those of the surfaces, which of several is too large.
+  /// DampingPoint::work_with_slip() of the boundary elements likewise, J.
   std::vector<StatedMean> stated_work_with_slip() const;
 
   /// Over the pressures.

@@ -12,6 +12,7 @@ namespace salebra {
 /// be used. Premises are those of the mean curve of the boundary elements: gap, area and stiffnesses
 /// averaged over the surfaces at each pressure.
 struct StudyAnswer {
+  std::vector<double> pressures = {};  ///< nominal, Pa
   /// γ = P/⟨ẋ²⟩, N s/m, of the contact as described: with slip where the coefficient of friction is
   /// known, by contacts where levels slip (stated_work_with_slip()), else without. A study without
   /// levels has stated_damping() times the ratio of both losses on the mean curve, interpolated
@@ -35,6 +36,7 @@ struct StudyAnswer {
 
 constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
   using S = StudyAnswer;
+  visit(&S::pressures, Kept{"pressures", "nominal pressures", Dimension::pressure});
   visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::damping_constant_without_slip, quantity::damping_constant_without_slip);
@@ -53,5 +55,11 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
 /// Throws InvalidInput for a hardness below the largest pressure.
 /// Cost: 10 ms for each pressure.
 StudyAnswer answer_of(const StudyResult& result);
+
+/// How many surfaces the mean of the damping constant without slip would need at each pressure for 95 %
+/// intervals of ±precision, by that of the n surfaces at hand: n (half its width/(precision·mean))²,
+/// and not below 2. The variance of few surfaces is itself known to √(2/(n − 1)) at the best. NaN where no
+/// interval is known. Throws InvalidInput for a precision that is not > 0.
+std::vector<double> surfaces_for(const StudyResult& result, double precision);
 
 }  // namespace salebra
