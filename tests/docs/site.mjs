@@ -28,9 +28,10 @@ const check = (ok, what) => { if (!ok) faults.push(what); };
 const browser = await chromium.launch({executablePath, headless: true, timeout: 120000,
   args: ["--no-sandbox", "--allow-file-access-from-files", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage"]});
 
-/** What is first in a list of pages that a search finds. */
-const SEARCHES = {"decay length": "docs/theory.html", "glossary": "docs/glossary.html", "install": "docs/install.html"};
-const PAGES = ["docs/index", "docs/start", "docs/glossary", "docs/examples", "docs/theory", "docs/questions", "docs/install",
+/** What is first in a list of pages that a search finds, by titles and by words of other authors. */
+const SEARCHES = {"decay length": "docs/theory.html", "glossary": "docs/glossary.html", "install": "docs/install.html",
+  "outlier": "docs/howto/damping_curve.html", "levelling": "docs/statistics.html", "Ra": "docs/statistics.html", "stiffness": "docs/theory_contact.html"};
+const PAGES = ["docs/index", "docs/start", "docs/glossary", "docs/examples", "docs/theory", "docs/theory_contact", "docs/theory_friction", "docs/theory_validity", "docs/questions", "docs/install",
   "docs/notebooks/12_joint", "docs/python/contact"].filter((one) => existsSync(join(site, `${one}.html`)));
 
 for (const [name, viewport] of [["desk", {width: 1400, height: 900}], ["phone", {width: 390, height: 800}]]) {
