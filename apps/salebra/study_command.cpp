@@ -266,7 +266,7 @@ namespace {
 
 /// Where a run left its results and their page.
 struct StudyFiles {
-  std::optional<std::string> results, report;
+  std::optional<std::string> results = {}, report = {};
 
   std::string text() const {
     return (results ? fmt::format("results: {}\n", *results) : "") +
