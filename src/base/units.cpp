@@ -186,6 +186,8 @@ Written split(std::string_view text, Dimension dimension, std::string_view field
 Scale unit_scale(std::string_view unit, Dimension dimension, std::string_view text,
                  std::string_view field) {
   if (unit.empty()) return {};
+  require(unit.front() != ',', field, "'" + std::string(text) + "'",
+          "has a decimal comma; write a decimal point, as in 0.3");
   const auto scale = scale_of(unit, dimension);
   require(scale.has_value(), field, "'" + std::string(text) + "'",
           fmt::format("has a unit that is not understood here, '{}'; write for example {}", unit,
