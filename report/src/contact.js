@@ -161,7 +161,7 @@ function modelFigures(parent, point) {
   modelFigure(parent, point, {
     id: "stiffness-ratio", title: "Tangential over normal stiffness", quantity: "tangential_stiffness",
     convert: (e, _, name) => ({mean: e.mean.map((v, i) => (known(v) && known(normal?.[name]?.mean[i]) ? v / normal[name].mean[i] : null))}),
-    y: {label: "‹K›_{t}/‹K›", short: "‹K›_{t}/‹K›", unit: "1", log: false},
+    y: {label: "‹K›_{t}/‹K›", short: "‹K›_{t}/‹K›", unit: "1", log: false, fixed: true, layout: {rangemode: "tozero"}},
     theories: known(ratio) ? [{label: "‹G›*/‹E›*", key: "modulus_ratio", of: () => ratio}] : [],
     caption: `Ratio of the mean stiffnesses. ‹K›_{t} = (‹G›*/‹E›*)‹K›, on which the closed forms rest, holds for circular spots; solves on the real contacts show how good it is here. ${(point.damping?.tangential_stiffness ?? "").replace(/^boundary elements: (.*)$/, "For boundary elements: $1.")}`,
   });

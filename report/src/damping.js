@@ -68,15 +68,17 @@ function dampingFigure(parent, point) {
 
   const deviation = damping.deviation?.deviation?.bem;
   if (!deviation?.mean.some(known)) return;
-  const law = plainText(routes(point).law.label);
+  const law = plainText(routes(point).law.label), name = law.split(",")[0];
+  const ratio = Object.fromEntries(Object.entries(deviation).map(([member, values]) => [member, values.map((v) => (known(v) ? 1 + v : null))]));
   addFigure(parent, {
-    id: "damping-deviation", title: `How far ${law.split(",")[0]} is off`, height: 300,
-    alt: () => `Deviation of ${law} from the damping computed, by force: from ${percent(Math.min(...deviation.mean.filter(known)))} to ${percent(Math.max(...deviation.mean.filter(known)))}.`,
-    caption: `${law} over the damping constant computed by the same boundary elements, less 1${f.count > 1 ? ": the ratio of their means over the surfaces, with the 95 % interval of that ratio" : ""}. What is computed needs no law and holds at any amplitude.`,
-    axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: "deviation", fixed: true, percent: true, layout: {zeroline: true, zerolinecolor: color("line"), zerolinewidth: 1.5}}},
-    columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("deviation", "deviation", "1", deviation)],
-    plot: () => ({series: band("deviation", force, deviation, {color: "vermilion", symbol: "square", dash: "solid"},
-      {text: force.map((value, i) => `${percent(deviation.mean[i], 3)}` + (known(deviation.low?.[i]) ? `<br>95 %: ${percent(deviation.low[i])} … ${percent(deviation.high[i])}` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>ū</i> = ${number(point.curve?.mean_gap?.bem?.mean[i] / f.rms, 3)} <i>h</i><sub>rms</sub>`)})}),
+    id: "damping-deviation", title: `How far ${name} is off`, height: 300,
+    alt: () => `${law} over the damping computed, by force: from ${number(Math.min(...ratio.mean.filter(known)), 3)} to ${number(Math.max(...ratio.mean.filter(known)), 3)}.`,
+    caption: `${law} over the damping constant computed without slip by the same boundary elements${f.count > 1 ? ": the ratio of their means over the surfaces, with the 95 % interval of that ratio" : ""}. What is computed needs no law and holds at any amplitude.`,
+    axes: {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {label: `${name} over computed`, unit: "1", log: true, fixed: true}},
+    columns: () => [{label: "force", key: "force", unit: "N", values: force}, ...estimateColumns("ratio", "ratio", "1", ratio)],
+    plot: () => ({series: band("ratio", force, ratio, {color: "vermilion", symbol: "square", dash: "solid"},
+      {text: force.map((value, i) => `${number(ratio.mean[i], 3)}, off by ${percent(deviation.mean[i], 3)}` + (known(ratio.low?.[i]) ? `<br>95 %: ${interval({low: ratio.low[i], high: ratio.high[i]}, "1")}` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>ū</i> = ${number(point.curve?.mean_gap?.bem?.mean[i] / f.rms, 3)} <i>h</i><sub>rms</sub>`)}),
+      shapes: [{type: "line", xref: "paper", x0: 0, x1: 1, y0: 1, y1: 1, line: {color: color("line"), width: 1.5}}]}),
   });
 }
 

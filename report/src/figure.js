@@ -45,20 +45,22 @@ function addFigure(parent, spec) {
       h("input", {type: "checkbox", checked: state[name] === "log", "data-axis": name,
         onchange: (event) => { state[name] = event.target.checked ? "log" : "linear"; figure.redraw(); }}),
       h("span", {}, "log ", rich(axis.short ?? axis.label))));
+  const caption = h("figcaption"), place = drawn.length + 1;
   const figure = {
     element: h("figure", {id: spec.id, "aria-labelledby": `${spec.id}-title`},
       h("h3", {id: `${spec.id}-title`}, rich(spec.title)),
       h("div", {class: "tools"}, spec.controls ?? null, switches,
-        h("button", {type: "button", class: "csv", "aria-label": `Download the numbers of ${plainText(spec.title)} as CSV`,
+        h("span", {class: "files"}, h("button", {type: "button", class: "csv", "aria-label": `Download the numbers of ${plainText(spec.title)} as CSV`,
           onclick: () => {
             download(`${spec.id}.csv`, "text/csv", csv((spec.csv ?? spec.columns)()));
             document.getElementById("live").textContent = `${spec.id}.csv is downloaded`;
           }}, "CSV"),
-        h("button", {type: "button", class: "svg", "aria-label": `Download the picture of ${plainText(spec.title)} as SVG`, onclick: () => pictureOf(spec.id, plot)}, "SVG")),
-      plot, legend, h("figcaption", {}, rich(typeof spec.caption === "function" ? spec.caption() : spec.caption, true)), details),
+        h("button", {type: "button", class: "svg", "aria-label": `Download the picture of ${plainText(spec.title)} as SVG`, onclick: () => pictureOf(spec.id, plot)}, "SVG"))),
+      plot, legend, caption, details),
     redraw() {
       draw(spec, state, plot, legend, figure);
       plot.setAttribute("aria-label", plainText(spec.alt()));
+      caption.replaceChildren(h("b", {}, `Figure ${place}. `), ...rich(typeof spec.caption === "function" ? spec.caption() : spec.caption, true));
       if (details.open) fill();
     },
     plot,
@@ -82,12 +84,12 @@ const scaled = (values, factor) => values.map((v) => (known(v) ? v * factor : nu
 /** Error bars of a trace in the units of its axis, as its values are. */
 const scaledBars = (bars, factor) => ({...bars, ...Object.fromEntries(["array", "arrayminus"].filter((arm) => bars[arm]).map((arm) => [arm, scaled(bars[arm], factor)]))});
 
-/** Labels of a logarithmic axis: plain numbers while they are short, powers of ten only where there are many decades. */
+/** Labels of a logarithmic axis: plain numbers while they are short, 1, 2 and 5 of each decade in full where there are few. */
 function logarithmicTicks(values) {
   const there = values.filter((v) => known(v) && v > 0);
   if (!there.length) return {};
   const low = Math.log10(Math.min(...there)), high = Math.log10(Math.max(...there));
-  return {exponentformat: low > -3.5 && high < 4.5 ? "none" : "power", ...(high - low > 2.2 ? {dtick: 1} : high - low > 0.7 ? {dtick: "D2"} : {})};
+  return {exponentformat: low > -3.5 && high < 4.5 ? "none" : "power", ...(high - low > 2.2 ? {dtick: 1} : high - low > 0.7 ? {minor: {}, tickvals: [-1, 0, 1, 2, 3].flatMap((decade) => [1, 2, 5].map((first) => Number(`${first}e${Math.floor(low) + decade}`)))} : {})};
 }
 
 function axisLayout(axis, mode, scale, values) {

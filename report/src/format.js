@@ -74,8 +74,9 @@ const MARKS = /‹([^›]+)›|_\{([^}]*)\}|\^\{([^}]*)\}/g;
 const SYMBOLS = {
   p: ["nominal pressure, force over nominal area", "Pa", "docs/theory.md"], F: ["normal force", "N", "docs/theory.md"],
   "ū": ["mean gap of the deformed surfaces", "m", "docs/conventions.md"], l: ["decay length of the force with the mean gap", "m", "docs/theory.md"],
-  h: ["height; h_rms root mean square height, h′ root mean square slope", "m, 1", "docs/statistics.md"], A: ["contact area; A₀ nominal area", "m²", "docs/statistics.md"],
-  K: ["normal stiffness dF/dδ; K_t tangential stiffness", "N/m", "docs/theory.md"], E: ["E*, contact modulus", "Pa", "docs/theory.md"], G: ["G*, tangential modulus", "Pa", "docs/theory.md"],
+  h: ["height; ‹h›_{rms} root mean square height, ‹h›′ root mean square slope", "m, 1", "docs/statistics.md"], A: ["contact area; ‹A›_{0} nominal area", "m²", "docs/statistics.md"],
+  K: ["normal stiffness d‹F›/dδ; ‹K›_{t} tangential stiffness", "N/m", "docs/theory.md"], E: ["‹E›*, contact modulus", "Pa", "docs/theory.md"], G: ["‹G›*, tangential modulus", "Pa", "docs/theory.md"],
+  u: ["‹u›_{z} normal amplitude, ‹u›_{x} tangential amplitude", "m", "docs/theory.md"], v: ["velocity of the slow tangential motion", "m/s", "docs/theory_friction.md"], X: ["excursion: way of the slow motion from one turning point to the other", "m", "docs/theory_friction.md"], "μ": ["coefficient of friction", "1", "docs/theory_friction.md"],
   W: ["energy lost in a cycle", "J", "docs/theory.md"], "γ": ["damping constant, power over mean square velocity", "N s/m", "docs/theory.md"],
   C: ["power spectral density of the heights", "m⁴", "docs/conventions.md"], q: ["wave number, 2π over the wavelength", "rad/m", "docs/conventions.md"], H: ["Hurst exponent", "1", "docs/statistics.md"],
 };
@@ -89,7 +90,7 @@ function rich(text, linked = false) {
     const tag = match[1] !== undefined ? "i" : match[2] !== undefined ? "sub" : "sup";
     const marked = h(tag, {}, match[1] ?? match[2] ?? match[3]);
     const known = linked && tag === "i" && match[1] in SYMBOLS;
-    nodes.push(known ? h("a", {class: "symbol", href: `#symbol-${match[1]}`, title: SYMBOLS[match[1]][0]}, marked) : marked);
+    nodes.push(known ? h("a", {class: "symbol", href: `#symbol-${match[1]}`, title: plainText(SYMBOLS[match[1]][0])}, marked) : marked);
     end = match.index + match[0].length;
   }
   nodes.push(text.slice(end));

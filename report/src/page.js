@@ -15,15 +15,29 @@ function section(parent, id, title, intro, build) {
 
 const absent = (what) => h("p", {class: "absent"}, `This results file does not hold ${what}; a newer salebra study writes it.`);
 
-const finding = (title, value, detail, more) => h("div", {class: "finding"}, h("h3", {}, rich(title)), h("p", {class: "value"}, rich(value)), [detail].flat().filter(Boolean).map((line) => h("p", {class: "detail"}, rich(line))), more ? h("p", {class: "more"}, rich(more)) : null);
+const finding = (title, value, details, doubt) => h("div", {class: doubt ? "finding doubt" : "finding"}, h("h3", {}, rich(title)), h("p", {class: "value"}, rich(value)), details.filter(Boolean).map((line) => h("p", {class: "detail"}, rich(line))));
 
-/** The load that the damping constant, the maps and the profile are at: that of the maps, or the nearest to it which has a damping. */
-function representative(point) {
-  const curve = point.damping?.curve?.damping_constant?.bem?.mean ?? point.damping?.law?.damping_constant?.bem?.mean ?? [];
-  const wanted = shownLoad(point);
-  let best = -1;
-  point.pressure.forEach((_, i) => { if (known(curve[i]) && (best < 0 || Math.abs(i - wanted) < Math.abs(best - wanted))) best = i; });
-  return best;
+/** Verdict, force law, and the damping constant at the load chosen. */
+function cards(point) {
+  const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
+  if (point.validity) found.push(finding("Validity", point.validity, ["the conditions stand below, worst first"], doubt));
+  if (known(fit?.decay_length?.mean)) {
+    const ratio = fit.decay_length_over_rms_height, limits = [interval(fit.decay_length, "m"), interval(ratio, "1")];
+    found.push(finding(fit.fair === 0 ? "Force law ‹F› ∝ exp(−‹ū›/‹l›), a poor description" : "Force law ‹F› ∝ exp(−‹ū›/‹l›)", `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`,
+      [limits[0] && `95 %: ${limits[0]}`, known(ratio?.mean) && `${number(ratio.mean, 3)} ‹h›_{rms}${limits[1] && `; 95 %: ${limits[1]}`}`], fit.fair === 0));
+  } else {
+    found.push(absent("a fitted force law"));
+  }
+  if (!damping) return found;
+  const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = point.slip_followed === "yes";
+  const shown = slip ? point.answer.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
+  const limits = interval({low: shown?.low?.[i], high: shown?.high?.[i]}, "N s/m");
+  const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
+  found.push(finding(slip ? "Damping constant" : "Damping constant without slip", known(value) ? quantity(value, "N s/m", error > 0.1 ? 2 : 3) : "n/a",
+    [slip && known(point.answer.slip_share[i]) ? `${number(100 * point.answer.slip_share[i], 2)}${NARROW}% of the loss by slip` : "", limits && `95 %: ${limits}`, known(error) ? `numerical error ${errorPercent(error)}` : "",
+      `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`,
+      known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}${slip ? ` against ${quantity(curve.mean[i], "N s/m", 3)} without slip` : ""}` : ""], doubt));
+  return found;
 }
 
 /** Whether F ∝ exp(−ū/l) holds, in a sentence. */
@@ -45,35 +59,21 @@ function lawVerdict(point) {
 }
 
 function conclusion(main, point) {
-  const f = facts(point), fit = point.fit?.models?.bem, damping = point.damping;
+  const damping = point.damping;
   section(main, "conclusion", "What came out", null, (body, element) => {
     body.className = "findings";
-    if (point.validity) body.append(finding("Validity", point.validity, "the conditions stand below, worst first"));
-    if (fit?.decay_length && known(fit.decay_length.mean)) {
-      body.append(finding("Force law", `‹F› ∝ exp(−‹ū›/‹l›)`, `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`, interval(fit.decay_length, "m") ? `95 %: ${interval(fit.decay_length, "m")}` : ""));
-      body.append(finding("Decay length", `${number(fit.decay_length_over_rms_height?.mean ?? fit.decay_length.mean / f.rms, 3)} ‹h›_{rms}`, fit.decay_length_over_rms_height && interval(fit.decay_length_over_rms_height, "1") ? `95 %: ${interval(fit.decay_length_over_rms_height, "1")}` : "", `‹h›_{rms} = ${quantity(f.rms, "m", 3)}`));
-    } else {
-      body.append(absent("a fitted force law"));
-    }
-    const i = damping ? representative(point) : -1;
-    if (i >= 0) {
-      const curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem;
-      const answer = point.answer?.damping_constant, slip = point.slip_followed === "yes" && known(answer?.mean[i]);
-      const shown = slip ? answer : known(curve?.mean[i]) ? curve : law;
-      const limits = interval({low: shown.low?.[i], high: shown.high?.[i]}, "N s/m");
-      const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
-      body.append(finding(slip ? "Damping constant" : "Damping constant without slip", quantity(shown.mean[i], "N s/m", 3), [slip ? `${percent(point.answer.slip_share[i]).replace("+", "")} of the loss by slip` : "", limits ? `95 %: ${limits}` : "", known(shown.error?.[i]) ? `numerical error ${errorPercent(shown.error[i] / Math.abs(shown.mean[i]))}` : "", `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}${point.picture && i === shownLoad(point) ? ", as the maps and the profile below" : ""}`],
-        known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}` : ""));
-    }
+    const fill = () => body.replaceChildren(...cards(point));
+    onLoad.push(fill);
+    fill();
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
     if (point.conditions) {
-      element.append(h("p", {class: "verdict"}, h("strong", {}, "Validity. "), `${point.validity[0].toUpperCase()}${point.validity.slice(1)}.`));
+      element.append(h("p", {class: "verdict"}, h("strong", {}, "Conditions of the damping constant. ")));
       element.append(h("pre", {class: "conditions", tabindex: "0", role: "region", "aria-label": "Conditions"}, point.conditions.replaceAll("`", "")));
     }
     if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
-    const warnings = warningsOf(point, f);
+    const warnings = warningsOf(point);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
       h("h3", {}, warnings.length ? "Notes" : "No warnings"), warnings.length ? h("ul", {}, warnings.map((text) => h("li", {}, coded(text)))) : h("p", {}, "The study raised none.")));
   });
@@ -125,7 +125,7 @@ function settings(main, point) {
       ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}${provenance.revision ? `, revision ${provenance.revision}` : ""}; report by salebra ${data.report_version}` : null],
       ["Libraries", provenance.libraries], ["Surface", point.picture?.origin], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
     body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));
-    if (provenance.configuration?.trim()) body.append(h("details", {open: true}, h("summary", {}, "Configuration, as it was read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
+    if (provenance.configuration?.trim()) body.append(h("details", {}, h("summary", {}, "Configuration, as it was read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
   });
 }
 
@@ -135,10 +135,12 @@ function symbolsAndCitation(main) {
     body.className = "";
     body.append(h("div", {class: "scroll card", tabindex: "0", role: "region", "aria-label": "Symbols"}, h("table", {}, h("caption", {}, "Symbols, and the page of salebra's documentation that defines each"),
       h("thead", {}, h("tr", {}, ["symbol", "meaning", "unit", "page"].map((text) => h("th", {scope: "col"}, text)))),
-      h("tbody", {}, Object.entries(SYMBOLS).map(([letter, [meaning, unit, page]]) => h("tr", {id: `symbol-${letter}`}, h("th", {scope: "row"}, h("i", {}, letter)), h("td", {}, meaning), h("td", {}, unit), h("td", {}, h("code", {}, page))))))));
+      h("tbody", {}, Object.entries(SYMBOLS).map(([letter, [meaning, unit, page]]) => h("tr", {id: `symbol-${letter}`}, h("th", {scope: "row"}, h("i", {}, letter)), h("td", {}, rich(meaning)), h("td", {}, unit), h("td", {}, h("code", {}, page))))))));
+    const slow = "(‹G›*/‹E›*) ‹F›″ ‹u›_{z}";
+    body.append(h("ul", {class: "equations"}, [`Eq. (12), equal frequencies: ‹W› = (8/3) ${slow} ‹u›_{x}^{2} sin^{2}‹φ›_{0}`, `Eq. (15), slow tangential motion: ‹W› = 2(π^{2} − 4) ${slow} (‹v›/‹ω›)^{2}`, "Eq. (16): Eq. (15) with ‹F›″ = ‹F›/‹l›^{2}"].map((text) => h("li", {}, rich(text)))));
     const version = data.provenance?.version ?? data.report_version;
-    body.append(h("details", {open: true}, h("summary", {}, "How to cite"), h("pre", {tabindex: "0", role: "region", "aria-label": "Citation in BibTeX"},
-      `@article{popov2015relaxation,\n  author  = {Popov, M. and Popov, V. L. and Pohrt, R.},\n  title   = {Relaxation damping in oscillating contacts},\n  journal = {Scientific Reports}, volume = {5}, pages = {16189}, year = {2015},\n  doi     = {10.1038/srep16189}\n}\n@software{salebra,\n  title   = {salebra: statistics of rough-surface contact and its relaxation damping},\n  version = {${version}}\n}`)));
+    body.append(h("details", {}, h("summary", {}, "How to cite"), h("pre", {tabindex: "0", role: "region", "aria-label": "Citation in BibTeX"},
+      `@article{popov2015relaxation,\n  author  = {Popov, M. and Popov, V. L. and Pohrt, R.},\n  title   = {Relaxation damping in oscillating contacts},\n  journal = {Scientific Reports}, volume = {5}, pages = {16189}, year = {2015},\n  doi     = {10.1038/srep16189}\n}\n@software{salebra,\n  author  = {{The salebra developers}},\n  title   = {salebra: statistics of rough-surface contact and its relaxation damping},\n  version = {${version}}\n}`)));
   });
 }
 
@@ -154,13 +156,16 @@ function heading(point) {
   const file = count === 1 && !surface.seed?.[0] ? point.picture?.origin?.split("/").at(-1) : "";
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
-  document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")),
-    h("nav", {"aria-label": "Sections"}, h("ul", {}, [["conclusion", "Conclusion"], ["surface", "Surface"], ["law", "Force law"], ["contact", "Contact"], ["models", "Models"], ["damping", "Damping"], ["symbols", "Symbols"], ["settings", "Settings"]].map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text))))));
+  document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")));
+  const sections = {conclusion: "Conclusion", ...(point.premises ? {explorer: "Explorer"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", damping: "Damping", ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
+  document.getElementById("bar").replaceChildren(loadChooser(point, "load"), h("ul", {}, Object.entries(sections).map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text)))));
 }
 
 function show(index) {
   const point = data.points[index], main = document.getElementById("main");
   for (const figure of drawn.splice(0)) Plotly.purge(figure.plot);
+  onLoad.length = 0;
+  chosenLoad = null;
   heading(point);
   main.replaceChildren();
   if (data.points.length > 1) {
@@ -171,6 +176,8 @@ function show(index) {
     });
   }
   conclusion(main, point);
+  if (point.premises && point.damping && lawOf(point))
+    section(main, "explorer", "Another motion", "What this contact loses in a motion that you set, recomputed here from the mean curve of the study by the formulas of the program.", (body) => explorer(body, point));
   section(main, "surface", "The surface", null, (body) => {
     if (point.picture) {
       heightMap(body, point);

@@ -41,7 +41,7 @@ function heightMap(parent, point) {
   addFigure(parent, {
     id: "height-map", title: "Heights", axes: place.axes, height: mapHeight(),
     alt: () => `Map of the heights of ${which}, ${quantity(point.surface?.size_x, "m")} by ${quantity(point.surface?.size_y, "m")}: from ${quantity(at(0), "m", 3)} to ${quantity(at(1), "m", 3)} about the mean, half of the points between ${quantity(at(0.25), "m", 3)} and ${quantity(at(0.75), "m", 3)}.`,
-    caption: `Height of ${which} above its mean; hills are bright.${MAP_NOTE(picture)}`,
+    caption: `Height of ${which} above its mean; hills are bright. One point in a thousand lies above the colours, up to ${quantity(at(1), "m", 3)}, and one below them, down to ${quantity(at(0), "m", 3)}.${MAP_NOTE(picture)}`,
     columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: "height", key: "height", unit: "m", values: shares.map((s) => Number(at(s).toPrecision(7))), digits: 3}],
     csv: () => mapColumns(picture, place, "height", "m", Array.from(heights, (v) => Number(v.toPrecision(7)))),
     plot: () => ({series: [{type: "heatmap", x: place.x, y: place.y, z, colorscale: "Viridis", zmin: at(0.001) * scale.factor, zmax: at(0.999) * scale.factor,
@@ -95,8 +95,22 @@ function distributionFigure(parent, point) {
   });
 }
 
-/** The load of the maps of the file; of one without, in the middle of the curve. */
-const shownLoad = (point) => point.picture?.mapped_load ?? Math.floor(point.pressure.length / 2);
+// One load for the cards, the profile, the contact map and the explorer: the reader's, else that of the maps of the file, or in the middle.
+let chosenLoad = null;
+const onLoad = [];  // what follows it
+const shownLoad = (point) => chosenLoad ?? point.picture?.mapped_load ?? Math.floor(point.pressure.length / 2);
+
+function chooseLoad(load) {
+  chosenLoad = load;
+  for (const element of document.querySelectorAll("select.load")) element.value = String(load);
+  for (const follow of onLoad) follow();
+}
+
+function loadChooser(point, id) {
+  const area = facts(point).area;
+  return h("label", {class: "choice", for: id}, "Load ", h("select", {id, class: "load", onchange: (event) => chooseLoad(Number(event.target.value))},
+    point.pressure.map((p, i) => h("option", {value: i, selected: i === shownLoad(point)}, quantity(p, "Pa", 3) + (known(area) ? `, ${quantity(p * area, "N", 3)}` : "")))));
+}
 
 /** Of the maps and the profile, where a study has several surfaces. */
 const ofSurface = (point) => (point.surface?.realisations > 1 ? " of the first surface" : "");
@@ -107,19 +121,20 @@ function profileFigure(parent, point) {
   const heights = decoded(picture.heights, Float32Array);
   const line = place.x.map((_, ix) => Number(heights[ix * picture.ny + row].toPrecision(7)));
   const loads = picture.first_load ? decoded(picture.first_load, Int16Array) : null;
-  const load = shownLoad(point), low = Math.min(...line), high = Math.max(...line);
-  const touches = (first) => first >= 0 && first <= load;
-  const touching = line.map((z, ix) => (loads && touches(loads[ix * picture.ny + row]) ? z : null));
-  const pressed = quantity(point.pressure[load], "Pa", 3);
-  addFigure(parent, {
+  const low = Math.min(...line), high = Math.max(...line);
+  const touches = (first) => first >= 0 && first <= shownLoad(point);
+  const touching = () => line.map((z, ix) => (loads && touches(loads[ix * picture.ny + row]) ? z : null));
+  const pressed = () => quantity(point.pressure[shownLoad(point)], "Pa", 3);
+  const figure = addFigure(parent, {
     id: "profile", title: "Profile",
-    alt: () => `Heights along x at y = ${quantity(place.y[row], "m", 3)}: from ${quantity(low, "m", 3)} to ${quantity(high, "m", 3)} about the mean; ${touching.filter(known).length} of ${line.length} points touch at ${pressed}.`,
-    caption: `Heights${ofSurface(point)} along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marks are points that touch at ${pressed}.`,
+    alt: () => `Heights along x at y = ${quantity(place.y[row], "m", 3)}: from ${quantity(low, "m", 3)} to ${quantity(high, "m", 3)} about the mean; ${touching().filter(known).length} of ${line.length} points touch at ${pressed()}.`,
+    caption: () => `Heights${ofSurface(point)} along the line ‹y› = ${quantity(place.y[row], "m", 3)} through the middle, stretched: one unit of height is ${number(((place.x.at(-1) - place.x[0]) / 2) / (high - low), 2)} units of length. Marks are points that touch at ${pressed()}.`,
     axes: {x: {label: "‹x›", unit: "m", fixed: true}, y: {label: "height above the mean", unit: "m", fixed: true}},
     columns: () => [{label: "‹x›", key: "x", unit: "m", values: place.x.map((v) => Number(v.toPrecision(7)))}, {label: "height", key: "height", unit: "m", values: line}],
     plot: () => ({series: [{label: "surface", x: place.x, y: line, mode: "lines", line: {color: color("blue"), width: 1.5}, text: line.map((z, i) => `height ${quantity(z, "m", 3)}<br>at <i>x</i> = ${quantity(place.x[i], "m", 3)}`)},
-      ...(touching.some(known) ? [{label: `in contact at ${pressed}`, x: place.x, y: touching, mode: "markers", marker: {symbol: "circle", size: 5, color: color("vermilion")}, hoverinfo: "skip"}] : [])]}),
+      ...(touching().some(known) ? [{label: `in contact at ${pressed()}`, x: place.x, y: touching(), mode: "markers", marker: {symbol: "circle", size: 5, color: color("vermilion")}, hoverinfo: "skip"}] : [])]}),
   });
+  onLoad.push(figure.redraw);
 }
 
 /** Which points touch, load by load: contacts of growing load are nested, so that one map holds them all. */
@@ -129,17 +144,19 @@ function contactMap(parent, point) {
   const counts = new Array(pressures.length).fill(0);
   for (const load of loads) if (load >= 0 && load < counts.length) ++counts[load];
   const shares = counts.map((_, k) => counts.slice(0, k + 1).reduce((a, b) => a + b, 0) / loads.length);
-  let shown = shownLoad(point);
-  const words = () => `${quantity(pressures[shown], "Pa", 3)}: ${number(100 * shares[shown], 3)}${NARROW}% in contact`;
+  const words = () => `${quantity(pressures[shownLoad(point)], "Pa", 3)}: ${number(100 * shares[shownLoad(point)], 3)}${NARROW}% in contact`;
   const output = h("output", {for: "contact-load"}, words());
-  const slider = h("input", {type: "range", id: "contact-load", min: 0, max: pressures.length - 1, step: 1, value: shown, "aria-valuetext": words(),
+  const slider = h("input", {type: "range", id: "contact-load", min: 0, max: pressures.length - 1, step: 1, value: shownLoad(point), "aria-valuetext": words(),
     oninput: (event) => {
-      shown = Number(event.target.value);
-      output.textContent = words();
-      event.target.setAttribute("aria-valuetext", words());
       cancelAnimationFrame(slider.pending);
-      slider.pending = requestAnimationFrame(() => figure.redraw());
+      slider.pending = requestAnimationFrame(() => chooseLoad(Number(event.target.value)));
     }});
+  onLoad.push(() => {
+    slider.value = shownLoad(point);
+    output.textContent = words();
+    slider.setAttribute("aria-valuetext", words());
+    figure.redraw();
+  });
   const scale = scaleFor([pressures[Math.floor(pressures.length / 2)]], "Pa");
   const names = pressures.map((p) => quantity(p, "Pa", 3));
   const firstTouch = matrix(loads, picture.nx, picture.ny, (load) => (load >= 0 ? names[load] : ""));
@@ -153,7 +170,7 @@ function contactMap(parent, point) {
     csv: () => mapColumns(picture, place, "first_pressure", "Pa", Array.from(loads, (load) => (load < 0 ? null : pressures[load]))),
     plot: () => {
       const ticks = [0, 0.25, 0.5, 0.75, 1].map((share) => Math.round(share * (pressures.length - 1)));
-      return {series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(loads, picture.nx, picture.ny, (load) => (load >= 0 && load <= shown ? load : null)),
+      return {series: [{type: "heatmap", x: place.x, y: place.y, z: matrix(loads, picture.nx, picture.ny, (load) => (load >= 0 && load <= shownLoad(point) ? load : null)),
         zmin: 0, zmax: pressures.length - 1, colorscale: dark.matches && !printing.matches ? [[0, "#ffe08a"], [0.5, "#e8743b"], [1, "#5a2a83"]] : [[0, "#2a0a4a"], [0.5, "#c4473a"], [1, "#f6c667"]], hoverongaps: false,
         customdata: firstTouch,
         colorbar: {title: {text: `first touch at (${scale.label})`, side: "right"}, tickvals: ticks, ticktext: ticks.map(tick), thickness: 12, outlinewidth: 0, len: 0.95},
@@ -164,13 +181,13 @@ function contactMap(parent, point) {
 }
 
 /** A map of the state at one load in the middle of the curve, where it is not 0: "contact_pressure" or "gap". */
-function stateMap(parent, point, {key, id, title, unit, clip, colorscale, caption}) {
+function stateMap(parent, point, {key, id, title, unit, clip, colorscale, blank, caption}) {
   const picture = point.picture, place = mapAxes(picture), step = picture[`max_${key}`] / 32767;
   const values = Array.from(decoded(picture[key], Int16Array), (v) => (key === "gap" || v > 0 ? v * step : null));
   const seen = values.filter(known), at = quantiles(seen), shares = [0, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1];
   const scale = scaleFor([0, at(clip)], unit), load = quantity(point.pressure[picture.mapped_load], "Pa", 3);
   addFigure(parent, {
-    id, title, axes: place.axes, height: mapHeight(),
+    id, title: `${title} at ${load}`, axes: place.axes, height: mapHeight(),
     alt: () => `Map of the ${title.toLowerCase()} at ${load}: half of the values are below ${quantity(at(0.5), unit, 3)}, the largest is ${quantity(at(1), unit, 3)}.`,
     caption: `${caption(load)}${MAP_NOTE(picture)}`,
     columns: () => [{label: "share of the points below", key: "share", unit: "1", values: shares}, {label: title.toLowerCase(), key, unit, values: shares.map((s) => Number(at(s).toPrecision(4))), digits: 3}],
@@ -179,18 +196,18 @@ function stateMap(parent, point, {key, id, title, unit, clip, colorscale, captio
       zmin: 0, zmax: at(clip) * scale.factor, hoverongaps: false,
       colorbar: {title: {text: `${title.toLowerCase()} (${scale.label})`, side: "right"}, thickness: 12, outlinewidth: 0, len: 0.95},
       hovertemplate: `<i>x</i> = %{x:.4~g}, <i>y</i> = %{y:.4~g}<br>%{z:.4~g} ${scale.label}<extra></extra>`}],
-    layout: () => ({plot_bgcolor: color("sunken")})}),
+    layout: () => ({plot_bgcolor: blank ?? color("sunken")})}),
   });
 }
 
 function pressureMap(parent, point) {
   stateMap(parent, point, {key: "contact_pressure", id: "pressure-map", title: "Contact pressure", unit: "Pa", clip: 0.99, colorscale: "Viridis",
-    caption: (load) => `Contact pressure${ofSurface(point)} at the nominal pressure ${load}, by boundary elements on the cells of the surface; points without contact are blank. The highest pressures depend on the size of the cells.`});
+    caption: (load) => `Contact pressure${ofSurface(point)} at the nominal pressure ${load}, the load at which the file holds it, by boundary elements on the cells of the surface; points without contact are blank. The highest pressures depend on the size of the cells.`});
 }
 
 function gapMap(parent, point) {
-  stateMap(parent, point, {key: "gap", id: "gap-map", title: "Gap", unit: "m", clip: 0.99, colorscale: "Blues",
-    caption: (load) => `Gap${ofSurface(point)} after deformation at the nominal pressure ${load}, by boundary elements. Points in contact are blank; dark blue is narrow, light is wide.`});
+  stateMap(parent, point, {key: "gap", id: "gap-map", title: "Gap", unit: "m", clip: 0.99, colorscale: [[0, "#08306b"], [0.5, "#4292c6"], [1, "#f2f8ff"]], blank: "#8d8579",
+    caption: (load) => `Gap${ofSurface(point)} after deformation at the nominal pressure ${load}, the load at which the file holds it, by boundary elements. Points in contact are grey; dark blue is narrow, light is wide.`});
 }
 
 /** Number and size of the contact spots. */

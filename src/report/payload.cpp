@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/realisation.hpp>
 #include <span>
@@ -99,6 +100,7 @@ class Point {
       json["answer"]["damping_constant"]["error"] = list(*column("answer/damping_constant_error"));
       json["answer"]["slip_share"] = list(*column("answer/slip_share"));
     }
+    add(json, "premises", premises());
     add(json, "spots", spots());
     add(json, "over_bem",
         by_model("comparison/",
@@ -333,6 +335,24 @@ class Point {
                              "tangential_amplitude", "phase", "modulus_ratio", "contact_modulus"})
       if (const auto value = file_.number_attribute(where_ + "damping", name))
         json[name] = number(*value);
+    return json;
+  }
+
+  /// What judges another motion of the same contact, in the words of the library.
+  Json premises() const {
+    Json json;
+    for (const PremiseName& name : premise_names()) {
+      const std::string place = "premises/" + std::string(name.name);
+      if (!has(place + "_verdict")) continue;
+      Json& premise = json[std::string(name.name)];
+      premise = {{"condition", std::string(name.condition)},
+                 {"here", std::string(name.here)},
+                 {"remedy", std::string(name.remedy)},
+                 {"unit", std::string(si_unit(name.value_dimension))},
+                 {"value", list(*column(place))},
+                 {"verdict", list(*column(place + "_verdict"))}};
+      if (has(place + "_onset")) premise["onset"] = list(*column(place + "_onset"));
+    }
     return json;
   }
 

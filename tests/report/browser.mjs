@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// node browser.mjs CHROMIUM FOLDER: opens the pages in FOLDER as a reader would. Ends with 1 and the list of what is wrong.
+// node browser.mjs CHROMIUM FOLDER PROGRAM: opens the pages in FOLDER as a reader would. Ends with 1 and the list of what is wrong.
+import {execFileSync} from "node:child_process";
 import {existsSync, readFileSync, statSync} from "node:fs";
 import {createRequire} from "node:module";
 import {dirname, join} from "node:path";
 import {inflateSync} from "node:zlib";
 
 const {chromium} = createRequire(import.meta.url)("playwright-core");
-const [, , executablePath, folder] = process.argv;
+const [, , executablePath, folder, program] = process.argv;
 const faults = [];
 const check = (ok, what) => { if (!ok) faults.push(what); };
 process.on("exit", () => { for (const fault of faults) console.error(fault); });
@@ -134,17 +135,25 @@ function parsed(text) {
   return rows.map((row) => row.map((cell) => cell.replace(/,$/, "").replace(/^"|"$/g, "")));
 }
 
-const everyFigure = ["height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
+const everyFigure = ["regime-map", "height-map", "profile", "spectrum", "distribution", "force-gap", "local-length", "pressure-map", "gap-map", "contact-map", "spots", "area-load", "gap-load", "stiffness-load", "stiffness-ratio",
   "damping-curve", "damping-deviation", "damping-models", "convergence"];
 
 const full = await open("full.html", {viewport: {width: 1280, height: 900}, colorScheme: "light"});
 await checkFigures(full, "full.html", everyFigure);
 await checkStructure(full, "full.html");
 await checkContrast(full, "full.html");
-// One load: the damping constant on top, the maps, the profile and the contact map as it opens.
-const loads = await full.evaluate(() => [/at F = [^,]+, p = (.*), as the maps/.exec(document.querySelector("#conclusion").innerText)?.[1], ...["pressure-map", "gap-map"].map((id) => /nominal pressure ([^,;]*\wPa)/.exec(document.querySelector(`#${id} figcaption`).textContent)?.[1]),
-  /touch at (.*Pa)/.exec(document.querySelector("#profile figcaption").textContent)?.[1], /^(.*Pa):/.exec(document.querySelector("#contact-map output").textContent)?.[1]]);
-check(loads.length === 5 && new Set(loads).size === 1 && loads[0], `full.html: shows the loads ${loads}`);
+// One load: the damping constant on top, the profile, the contact map, the regimes and, as the page opens, the maps; another is chosen once.
+const loadsShown = () => full.evaluate(() => new Promise(requestAnimationFrame)).then(() => full.evaluate(() => [/p = (.*Pa)/.exec(document.querySelector("#conclusion").innerText)?.[1], /^(.*Pa),/.exec(document.querySelector("#load").selectedOptions[0].text)?.[1], /^(.*Pa),/.exec(document.querySelector("#explore-load").selectedOptions[0].text)?.[1],
+  /touch at (.*Pa)/.exec(document.querySelector("#profile figcaption").textContent)?.[1], /^(.*Pa):/.exec(document.querySelector("#contact-map output").textContent)?.[1], /Regimes at (.*Pa) for/.exec(document.querySelector("#regime-map figcaption").textContent)?.[1],
+  ...["pressure-map", "gap-map"].map((id) => /nominal pressure ([^,;]*\wPa)/.exec(document.querySelector(`#${id} figcaption`).textContent)?.[1])]));
+const loads = await loadsShown();
+check(loads.length === 8 && new Set(loads).size === 1 && loads[0], `full.html: shows the loads ${loads}`);
+await full.selectOption("#load", "9");
+const chosen = await loadsShown();
+check(new Set(chosen.slice(0, 6)).size === 1 && chosen[0] !== loads[0] && chosen[6] === loads[0] && chosen[7] === loads[0], `full.html: shows the loads ${chosen} where the tenth was chosen`);
+await full.selectOption("#load", await full.evaluate(() => String(data.points[0].picture.mapped_load)));
+const captions = await full.locator("figcaption b").allTextContents();
+check(captions.length === everyFigure.length && captions.every((text, i) => text === `Figure ${i + 1}. `), `full.html: numbers its figures ${captions}`);
 // An error has no sign; what was not judged, and what has no number, is named.
 const top = await full.locator("#conclusion").innerText();
 check(/numerical error \d/.test(top) && !/error [+−]/.test(await full.evaluate(() => document.body.innerText + document.getElementById("damping-curve-plot").data.flatMap((trace) => trace.text ?? []).join())), `full.html: has an error with a sign: ${top.match(/numerical error.*/)}`);
@@ -218,12 +227,12 @@ for (const [i, id] of everyFigure.entries()) {
   check(rows[0].every((head) => /^[a-z0-9_A-Z]+$/.test(head)), `full.html: the CSV of ${id} has the header ${rows[0]}`);
   check(rows.slice(1).every((row) => row.every((cell) => cell === "" || Number.isFinite(Number(cell)))), `full.html: the CSV of ${id} has cells that are no numbers`);
 }
-// How far Eq. (16) is off is the ratio of two columns of the figure above it.
+// How far Eq. (16) is off, the ratio of two columns of the figure above it.
 const columns = await full.evaluate(() => ["damping-curve", "damping-deviation"].map((id) => { document.querySelector(`#${id} .csv`).click(); return window.caught[1]; }));
 const [[curveHeads, ...curve], [offHeads, ...off]] = columns.map(parsed);
 const columnOf = (heads, rows, head) => rows.map((row) => Number(row[heads.indexOf(head)]));
-const [byLaw, computed, told] = [columnOf(curveHeads, curve, "law_damping_constant_Ns_per_m"), columnOf(curveHeads, curve, "curve_damping_constant_Ns_per_m"), columnOf(offHeads, off, "deviation")];
-check(told.length === 12 && told.every((v, i) => !(Math.abs(v - (byLaw[i] / computed[i] - 1)) > 1e-6 * (1 + Math.abs(v)))), `full.html: is off by ${told}, by its columns ${byLaw.map((v, i) => v / computed[i] - 1)}`);
+const [byLaw, computed, told] = [columnOf(curveHeads, curve, "law_damping_constant_Ns_per_m"), columnOf(curveHeads, curve, "curve_damping_constant_Ns_per_m"), columnOf(offHeads, off, "ratio")];
+check(told.length === 12 && told.every((v, i) => !(Math.abs(v - byLaw[i] / computed[i]) > 1e-6 * (1 + Math.abs(v)))), `full.html: is off by ${told}, by its columns ${byLaw.map((v, i) => v / computed[i])}`);
 // A picture for a paper, marks in the legend as on the curves, and symbols that lead to their meaning.
 await full.evaluate(() => { window.caught = null; });
 await full.locator("#stiffness-load button.svg").click();
@@ -236,7 +245,7 @@ const symbols = await full.evaluate(() => [...document.querySelectorAll("a.symbo
 check(symbols === 0 && (await full.locator("a.symbol").count()) > 10, `full.html: ${symbols} symbols lead nowhere`);
 for (const page of new Set(await full.locator("#symbols td code").allInnerTexts())) check(existsSync(join(dirname(process.argv[1]), "../..", page)), `full.html: ${page}, which defines a symbol, is not there`);
 check(/Run time of the command/.test(await full.locator("#settings").innerText()), "full.html: does not say how long its study took");
-check(/@article/.test(await full.locator("#symbols").innerText()), "full.html: has no citation");
+check(/@article/.test(await full.locator("#symbols").textContent()), "full.html: has no citation");
 // Residuals: those within the window take more than a third of their panel.
 const used = await full.evaluate(() => { const {data, layout} = document.getElementById("force-gap-plot"); const trace = data.find((t) => t.yaxis === "y2"), [x0, x1] = [layout.shapes[0].x0, layout.shapes[0].x1].sort((a, b) => a - b);
   const inside = trace.y.filter((y, i) => y !== null && trace.x[i] >= x0 && trace.x[i] <= x1); return {share: (Math.max(...inside) - Math.min(...inside)) / (layout.yaxis2.range[1] - layout.yaxis2.range[0]), panel: layout.yaxis2.domain[1]}; });
@@ -294,6 +303,88 @@ for (const [name, ids] of [["full.html", everyFigure], ["study.html", everyFigur
   await phone.screenshot({path: join(folder, `${name.replace(".html", "")}-390.png`), fullPage: true});
   await phone.context().close();
 }
+
+/** Sets the numbers of the explorer as a reader would. Returns what it shows, and the answer behind it. */
+async function explored(page, load, numbers) {
+  await page.selectOption("#explore-load", String(load));
+  return page.evaluate(async (values) => {
+    for (const [name, value] of Object.entries(values)) {
+      const input = document.getElementById(`explore-${name}`);
+      input.value = value;
+      input.dispatchEvent(new Event("input"));
+    }
+    for (let frame = 0; frame < 2; ++frame) await new Promise(requestAnimationFrame);
+    const shown = Object.fromEntries([...document.querySelectorAll("#explorer dl div")].map((line) => [line.firstChild.textContent, line.lastChild.textContent])), why = document.querySelector("#explorer .why")?.textContent;
+    return {shown, why, data: data.points[0].pressure, contact: data.points[0].damping.contact_modulus};
+  }, numbers);
+}
+
+/** A number with prefix and unit, as the page writes it; NaN for n/a. */
+function readBack(text) {
+  const [, digits, , power, prefix] = /^([\d.]+)(\s×\s10(\S+))?\s?([afpnµmkMG]?)(N s\/m|J|%)$/.exec(text) ?? [];
+  const exponent = power ? Number([...power].map((c) => (c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c))).join("")) : 0;
+  return digits ? Number(digits) * 10 ** exponent * {a: 1e-18, f: 1e-15, p: 1e-12, n: 1e-9, "µ": 1e-6, m: 1e-3, "": 1, k: 1e3, M: 1e6, G: 1e9}[prefix] : NaN;
+}
+
+// Motions that are set in the page lose what the program says of the same curve: to 1 %, which is the three digits shown and the steps of a cycle.
+// From no slip to sliding, and from slow to not slow; units are those of the controls.
+const motions = {
+  slow: [[{normal_amplitude: 100, frequency: 20, drag_velocity: 1e-3, excursion: 2, friction_coefficient: 0.3}, "pm kHz mm/s nm"], [{normal_amplitude: 300, frequency: 50, drag_velocity: 1e-2, excursion: 5, friction_coefficient: 0.1}, "pm kHz mm/s nm"],
+    [{normal_amplitude: 50, frequency: 5, drag_velocity: 1e-3, excursion: 100, friction_coefficient: 1}, "pm kHz mm/s nm"], [{normal_amplitude: 800, frequency: 20, drag_velocity: 1e-4, excursion: 0.005, friction_coefficient: 1}, "pm kHz mm/s nm"]],
+  equal: [[{normal_amplitude: 300, frequency: 20, tangential_amplitude: 20, phase: 1, friction_coefficient: 0.3}, "pm kHz pm rad"], [{normal_amplitude: 800, frequency: 1, tangential_amplitude: 5, phase: 2, friction_coefficient: 0.3}, "pm kHz pm rad"]]};
+const seen = {settings: 0, regimes: new Set(), validities: new Set()};
+for (const [name, sets] of Object.entries(motions)) {
+  const page = await open(`${name}.html`, {viewport: {width: 1280, height: 900}}), loadsAsked = [4, 7, 8, 9];
+  for (const [set, units] of sets) {
+    const names = Object.keys(set), given = names.flatMap((key, i) => [`--${key.replaceAll("_", "-")}`, `${set[key]}${units.split(" ")[i] ?? ""}`]);
+    const {data: pressures, contact} = await explored(page, 4, set);
+    const asked = JSON.parse(execFileSync(program, ["damping", "--curve", join(folder, `${name}.h5`), "--pressure", loadsAsked.map((k) => pressures[k]).join(), "--contact-modulus", String(contact), "--poisson", "0.3", "--density", "2000",
+      ...(name === "equal" ? ["--mode", "equal-frequency"] : []), ...given, "--json"], {encoding: "utf8", stdio: ["ignore", "pipe", "ignore"]}));
+    for (const [i, k] of loadsAsked.entries()) {
+      const {shown} = await explored(page, k, set), where = `${name}.html, load ${k}, ${given.join(" ")}`;
+      for (const [label, value] of [["damping constant γ", asked.damping_constant[i]], ["work per cycle W", asked.work_per_cycle[i]], ["γ without slip", asked.damping_constant_without_slip[i]]])
+        check(Math.abs(readBack(shown[label]) / value - 1) < 0.01, `${where}: ${label} is ${shown[label]}, by the program ${value}`);
+      for (const [label, share] of [["by slip", asked.slip_share[i]], ["by relaxation", asked.relaxation_share[i]]])
+        check(Math.abs(readBack(shown[label]) / 100 - share) < 0.01, `${where}: ${shown[label]} ${label}, by the program ${share}`);
+      check(shown.regime === asked.regime[i], `${where}: the regime is ${shown.regime}, by the program ${asked.regime[i]}`);
+      // With a coefficient of friction slip is followed, and no condition.
+      const verdicts = Object.entries(asked.premises).filter(([premise, one]) => !/^slip_|^amplitude/.test(premise) && !(premise === "coupling" && one.verdict[i] === "unknown")).map(([, one]) => one.verdict[i]);
+      const validity = [["broken", "not valid"], ["doubtful", "valid with care"], ["unknown", "not checked"], ["holds", "valid"]].find(([verdict]) => verdicts.includes(verdict))[1];
+      check(shown.validity === validity, `${where}: is ${shown.validity}, by the program ${validity}`);
+      seen.settings += 1;
+      seen.regimes.add(shown.regime);
+      seen.validities.add(shown.validity);
+    }
+  }
+  if (name === "slow") {
+    await checkFigures(page, "slow.html", everyFigure.filter((id) => !["convergence"].includes(id)));
+    await page.screenshot({path: join(folder, "slow-1280.png"), fullPage: true});
+    // No number where the program has none, and the reason in its place.
+    for (const [change, reason] of [[{excursion: ""}, /excursion decides/], [{excursion: 0.001, drag_velocity: 0.01}, /no slow motion/], [{excursion: 2, normal_amplitude: 1e5}, /leaves the curve’s range/], [{normal_amplitude: -1}, /must be > 0/]]) {
+      const {shown, why} = await explored(page, 7, change);
+      check(shown["damping constant γ"] === "n/a" && reason.test(why), `slow.html, ${JSON.stringify(change)}: shows ${shown["damping constant γ"]}, because ${why}`);
+    }
+    await page.click("#explorer button");
+    check((await page.inputValue("#explore-normal_amplitude")) === "100" && (await page.inputValue("#explore-friction_coefficient")) === "0.3", "slow.html: the button does not bring back the motion of the study");
+  }
+  await page.context().close();
+}
+check(seen.settings >= 20 && seen.regimes.size === 3 && seen.validities.size >= 2, `explorer: ${seen.settings} settings, ${[...seen.regimes]}, ${[...seen.validities]}`);
+// Of several surfaces, by their mean curve: the shares that the study has in its file.
+const ensemble = await open("study.html", {viewport: {width: 1280, height: 900}});
+const shares = await ensemble.evaluate(() => { const point = data.points[0]; return point.answer.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
+check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
+await ensemble.context().close();
+
+// Contacts within the oscillation judge the curve: of one that they do not confirm there is no number.
+const judged = await full.evaluate(() => { const point = data.points[0], {mean, error} = point.answer.damping_constant, of = (p, k) => explore(p, k, studiedMotion(p));
+  const other = structuredClone(point);
+  Object.assign(other.answer.damping_constant, {mean: mean.map((value) => value && value / 3), error: error.map((value) => value && value / 3)});
+  return point.pressure.map((_, k) => ({k, mean: mean[k], error: error[k], mine: of(point, k), other: of(other, k)})).filter((one) => known(one.mean) && !/range/.test(one.mine.why)); });
+const curveOf = (answer) => answer.conditions.find((one) => one.name === "curve").verdict;
+for (const {k, mean, error, mine} of judged)
+  check(Math.abs(mine.damping_constant / mean - 1) <= error / mean + {holds: 0.05, doubtful: 0.2, broken: NaN}[curveOf(mine)], `full.html, load ${k}: ${mine.damping_constant} by the curve, ${mean} ± ${error} by contacts, which is ${curveOf(mine)}`);
+check(judged.length > 5 && judged.every(({other}) => curveOf(other) === "broken" && Number.isNaN(other.damping_constant) && other.validity === "not valid" && /does not resolve/.test(other.why)), "full.html: has numbers of a curve that contacts do not confirm");
 
 // Another point of a parameter grid.
 const grid = await open("grid.html", {viewport: {width: 1280, height: 900}});

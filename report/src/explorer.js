@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loss of a motion that the reader chooses, from the mean curve of the study. Its formulas are those of the library: contact/hermite.cpp,
+// contact/law/law.cpp, damping/level_loss.cpp, and damping/premises.cpp.
+"use strict";
+
+/** A monotone cubic through points, x ↦ {value, slope}; slopes that are not given are those of the cubic through four neighbours. */
+function monotoneCubic(x, y, given) {
+  const count = x.length;
+  const estimated = (at) => {
+    const compact = at >= 2 && at + 2 < count && x[at] - x[at - 2] < x[at + 2] - x[at];
+    const first = compact ? at - 2 : Math.min(Math.max(at - 1, 0), count - 4), nodes = [0, 1, 2, 3].map((j) => first + j);
+    return nodes.filter((j) => j !== at).reduce((sum, j) =>
+      sum + (y[j] - y[at]) * nodes.reduce((weight, k) => (k === j || k === at ? weight : weight * (x[at] - x[k]) / (x[j] - x[k])), 1 / (x[j] - x[at])), 0);
+  };
+  const slopes = given ?? x.map((_, i) => estimated(i));
+  for (let i = 0; i + 1 < count; ++i) {
+    const secant = (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+    for (const j of [i, i + 1]) slopes[j] = slopes[j] * secant <= 0 ? 0 : Math.sign(secant) * Math.min(Math.abs(slopes[j]), 3 * Math.abs(secant));
+  }
+  return (at) => {
+    let i = 0;
+    while (i + 2 < count && x[i + 1] <= at) ++i;
+    const width = x[i + 1] - x[i], t = (at - x[i]) / width, rise = y[i + 1] - y[i], m0 = slopes[i] * width, m1 = slopes[i + 1] * width;
+    const quadratic = 3 * rise - 2 * m0 - m1, cubic = m0 + m1 - 2 * rise;
+    return {value: y[i] + t * (m0 + t * (quadratic + t * cubic)), slope: (m0 + t * (2 * quadratic + 3 * t * cubic)) / width};
+  };
+}
+
+/** Force and tangential stiffness over the indentation −‹ū›, by the means over the surfaces; beyond its ends exponentials. Null where four loads are not known. */
+function lawOf(point) {
+  const of = (name) => point.curve?.[name]?.bem?.mean ?? [], gap = of("mean_gap"), ratio = point.damping.modulus_ratio;
+  const force = facts(point).force;
+  let least = Infinity;
+  const loads = force.map((_, k) => k).filter((k) => { const falls = known(gap[k]) && gap[k] < least; if (falls) least = gap[k]; return falls; });
+  if (loads.length < 4) return null;
+  const positive = (values) => loads.every((k) => values[k] > 0);
+  const x = loads.map((k) => -gap[k]), normal = of("normal_stiffness"), tangential = of("tangential_stiffness");
+  const logForce = monotoneCubic(x, loads.map((k) => Math.log(force[k])), positive(normal) ? loads.map((k) => normal[k] / force[k]) : undefined);
+  const logStiffness = positive(tangential) ? monotoneCubic(x, loads.map((k) => Math.log(tangential[k]))) : null;
+  const forceIn = (at) => Math.exp(logForce(at).value), stiffnessIn = (at) => (logStiffness ? Math.exp(logStiffness(at).value) : ratio * forceIn(at) * logForce(at).slope);
+  const [low, high] = [x[0], x.at(-1)].map((at) => ({at, length: 1 / logForce(at).slope}));
+  const continued = (inside) => (at) => { const end = at < low.at ? low : at > high.at ? high : null; return end ? inside(end.at) * Math.exp((at - end.at) / end.length) : inside(at); };
+  // Of levels deeper than the last 21 lengths e^{-21} = 1e-9 touches.
+  return {low: low.at, high: high.at, deepest: low.at - 21 * low.length, force: continued(forceIn), stiffness: continued(stiffnessIn), indentation: (k) => (loads.includes(k) ? -gap[k] : NaN)};
+}
+
+/** Where the indentation is in the mean: at the load, or where the mean force of the cycle is that of the load. */
+function meanIndentation(law, k, motion) {
+  const rest = law.indentation(k), force = law.force(rest);
+  if (motion.hold !== "force") return rest;
+  const mean = (at) => Array.from({length: 90}, (_, i) => law.force(at + motion.amplitude * Math.cos(Math.PI * (i + 0.5) / 90))).reduce((a, b) => a + b) / 90;
+  let low = rest - motion.amplitude, high = rest;
+  for (let i = 0; i < 50; ++i) { const middle = (low + high) / 2; if (mean(middle) > force) high = middle; else low = middle; }
+  return low;
+}
+
+/** ∮s dx of one spring of 1 N/m that touches at phases from −half to half, in the last of the periods, with Coulomb friction. */
+function springLoss(motion, level, half, periods) {
+  const steps = 360, limitAt = (angle) => Math.max(0, motion.stretch * (motion.amplitude * Math.cos(angle) - level));
+  let work = 0, stretch = 0;
+  for (let period = 0; period < periods; ++period) {
+    work = 0;
+    let x = motion.place(-half), limit = limitAt(-half);
+    for (let i = 1; i <= steps; ++i) {
+      const angle = half * (2 * i / steps - 1), next = motion.place(angle), nextLimit = limitAt(angle), way = next - x, stuck = stretch + way;
+      if (Math.abs(stuck) <= nextLimit) {
+        work += (stretch + stuck) / 2 * way;
+        stretch = stuck;
+      } else {
+        const side = Math.sign(stuck), share = (limit - side * stretch) / (side * way - (nextLimit - limit)), slips = stretch + share * way, end = side * nextLimit;
+        work += way * (share * (stretch + slips) + (1 - share) * (slips + end)) / 2;
+        stretch = end;
+      }
+      [x, limit] = [next, nextLimit];
+    }
+  }
+  return work;
+}
+
+/** Mean rise over ‹u›_{z} of the least indentation's neighbours, at a velocity over ‹v›_{c} (damping/steady_sliding.cpp). */
+function meanRise(ratio) {
+  if (ratio >= 1) return 1;
+  const from = Math.asin(ratio);
+  let low = Math.PI - from, high = 2 * Math.PI - from;
+  for (let i = 0; i < 50; ++i) { const middle = (low + high) / 2; if (Math.cos(from) - Math.cos(middle) > ratio * (middle - from)) low = middle; else high = middle; }
+  const stuck = low - from;
+  return (2 * Math.PI - stuck - (Math.sin(from) - Math.sin(low)) + 2 * Math.sin(from / 2) ** 2 * stuck + ratio * stuck * stuck / 2) / (2 * Math.PI);
+}
+
+/** The motion of the numbers that a reader sets; g is the ratio of the moduli. */
+function motionOf(set, g) {
+  const omega = 2 * Math.PI * set.frequency, speed = set.drag_velocity / omega;
+  const drag = known(set.drag_velocity);
+  return {...set, amplitude: set.normal_amplitude, drag, omega, speed, way: drag ? 2 * Math.PI * speed : 0, stretch: set.friction_coefficient / g,
+    place: drag ? (angle) => speed * angle : (angle) => set.tangential_amplitude * Math.cos(angle + set.phase),
+    perWork: set.frequency / (drag ? set.drag_velocity ** 2 : (omega * set.tangential_amplitude) ** 2 / 2)};
+}
+
+/** ∫K_t' w dζ over levels from the first to the last. */
+function overLevels(law, levels, loss) {
+  let sum = 0, above = law.stiffness(levels[0]);
+  for (let i = 1; i < levels.length; ++i) {
+    const below = law.stiffness(levels[i]);
+    sum += (above - below) * loss((levels[i - 1] + levels[i]) / 2);
+    above = below;
+  }
+  return sum;
+}
+
+/** Losses of a normal cycle, J: without slip, and with it of levels that open and of those that stay closed. */
+function losses(law, middle, motion) {
+  const {amplitude, stretch} = motion, cells = 240;
+  const opening = Array.from({length: cells + 1}, (_, i) => middle + amplitude * Math.cos(Math.PI * i / cells));
+  const half = (level) => Math.acos((level - middle) / amplitude);
+  const stick = overLevels(law, opening, (level) => (motion.place(half(level)) - motion.place(-half(level))) ** 2 / 2);
+  if (!known(stretch)) return {stick, relaxation: NaN, slip: NaN};
+  const relaxation = overLevels(law, opening, (level) => springLoss(motion, level - middle, half(level), 1));
+  return {stick, relaxation, slip: slipLoss(law, middle, motion)};
+}
+
+/** Of levels that stay closed, by their slip. */
+function slipLoss(law, middle, motion) {
+  const {amplitude, stretch, excursion, way} = motion, cells = 256, bottom = middle - amplitude, depth = bottom - Math.max(slipsDownTo(middle, motion), law.deepest);
+  if (!(depth > 0)) return motion.drag && !known(excursion) ? NaN : 0;
+  const levels = Array.from({length: cells + 1}, (_, i) => bottom - depth * i / cells);
+  if (motion.drag) {
+    // It slides but for twice its stretch after each turning point.
+    const rise = stretch * amplitude * meanRise(motion.speed / (stretch * amplitude));
+    return overLevels(law, levels, (level) => { const limit = stretch * (bottom - level); return (limit + rise) * Math.max(0, excursion - 2 * limit) * way / excursion; });
+  }
+  return overLevels(law, levels, (level) => springLoss(motion, level - middle, Math.PI, 2));
+}
+
+/** The deepest level that slips: deeper ones stick where one anchor is within their limit of x at all times. */
+function slipsDownTo(middle, motion) {
+  if (motion.drag) return middle - motion.amplitude - motion.excursion / (2 * motion.stretch);
+  const angles = Array.from({length: 360}, (_, i) => 2 * Math.PI * i / 360), limit = (angle) => motion.stretch * motion.amplitude * Math.cos(angle);
+  return middle - (Math.max(...angles.map((angle) => motion.place(angle) - limit(angle))) - Math.min(...angles.map((angle) => motion.place(angle) + limit(angle)))) / (2 * motion.stretch);
+}
+
+/** How much of the contact slips, as Premises::regime. */
+function regimeOf(law, middle, motion, loss) {
+  if (!known(motion.stretch) || (motion.drag && !(motion.excursion >= motion.way))) return "unknown";
+  const bottom = middle - motion.amplitude, changed = (with_, without) => !(Math.abs(with_ / without - 1) <= 0.05);
+  // Slip of opening and of closed levels may cancel: smaller motions than this one are asked too.
+  const ladder = [];
+  if (!motion.drag) for (let part = 1; motion.tangential_amplitude * part > 0.01 * motion.stretch * motion.amplitude; part /= 1.2) ladder.push(part);
+  const slips = motion.drag ? changed(loss.relaxation, loss.stick) || !(loss.slip <= 0.05 * loss.stick)
+    : ladder.some((part) => { const one = losses(law, middle, {...motion, place: (angle) => part * motion.place(angle)}); return changed(one.relaxation + one.slip, one.stick); });
+  if (!slips) return "no slip";
+  return law.force(slipsDownTo(middle, motion)) <= 0.05 * law.force(bottom) ? "sliding" : "partial slip";
+}
+
+const VERDICTS = ["holds", "doubtful", "broken", "unknown"];
+const RANKS = ["broken", "doubtful", "unknown", "holds"];
+const VALIDITY = {broken: "not valid", doubtful: "valid with care", unknown: "not checked", holds: "valid"};
+
+/** The conditions of this loss at load ‹k›, in the words of the library; those that no motion changes as the study has them. */
+function conditionsOf(point, k, law, middle, motion, loss) {
+  const judge = (value, five, twenty) => (!known(value) ? "unknown" : value > twenty ? "broken" : value > five ? "doubtful" : "holds");
+  const found = [], add = (name, verdict, value, limit, needs) => {
+    const words = point.premises[name];
+    if (verdict === "holds" && !known(value)) return;
+    const fill = (text, number) => text.replace("{}", quantity(number, words.unit, 3));
+    found.push({name, verdict, condition: name === "plasticity" && limit === 1 ? "elastic again: loads below that of the first loading" : known(limit) ? fill(words.condition, limit) : words.condition.split(": ")[0], here: verdict === "unknown" ? (needs ? `\`${needs}\` not given` : "not known for such a motion") : fill(words.here, value), remedy: ["broken", "doubtful"].includes(verdict) ? words.remedy : ""});
+  };
+  if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_levels", "slip_of_closed_levels"]) add(name, "unknown", null, null, "friction_coefficient");
+  if (motion.drag) {
+    const angles = Array.from({length: 360}, (_, i) => Math.PI * (i + 0.5) / 360), closed = law.stiffness(middle - motion.amplitude);
+    const opening = angles.map((angle) => law.stiffness(middle + motion.amplitude * Math.cos(angle)) - closed);
+    const cost = angles.reduce((sum, angle, i) => sum + angle * angle * opening[i], 0) / (Math.PI * angles.reduce((sum, angle, i) => sum + angle * opening[i], 0));
+    const cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
+    add("slow_motion", known(cycles) ? judge(-cycles, -five, -twenty) : "unknown", cycles, five, "excursion");
+  }
+  const stored = (name, column = "value") => point.premises[name][column][k];
+  add("plasticity", VERDICTS[stored("plasticity", "verdict")] ?? "unknown", stored("plasticity"), stored("plasticity", "onset"), "hardness");
+  const waves = stored("inertia") * motion.omega / point.damping.angular_frequency, radiation = 0.58;
+  const whole = 2 * point.damping.modulus_ratio * point.damping.contact_modulus * Math.max(point.surface.size_x, point.surface.size_y), stiffness = law.stiffness(middle);
+  const [five, twenty] = [0.05, 0.2].map((share) => Math.min(Math.sqrt((1 + share) ** 2 - 1) / radiation,
+    motion.drag || !(loss.stick > 0) ? Infinity : share * loss.stick / motion.tangential_amplitude ** 2 / (Math.PI * radiation * stiffness * Math.min(1, stiffness / whole))));
+  add("inertia", known(stored("inertia")) ? judge(waves, five, twenty) : "unknown", waves, five, "density");
+  add("coupling", VERDICTS[stored("coupling", "verdict")] ?? "unknown", stored("coupling"), stored("coupling") === null ? null : 0.05);
+  return found;
+}
+
+/**
+ * How far the curve between loads is off the contacts that the study solved within its own oscillation, beyond their error: one more condition. Null where it solved none.
+ * A surface of which single spots decide may have a curve that is far off.
+ */
+function curveCondition(point, k, law) {
+  const contacts = point.answer?.damping_constant;
+  if (!contacts?.error?.some(known)) return null;
+  const motion = motionOf({...studiedMotion(point), hold: point.damping.hold}, point.damping.modulus_ratio), middle = meanIndentation(law, k, motion), slips = point.slip_followed === "yes";
+  const loss = middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;
+  const off = curve / contacts.mean[k] - 1, error = contacts.error[k] / contacts.mean[k], beyond = Math.max(0, Math.abs(off) - error);
+  const verdict = !known(beyond) ? "unknown" : beyond > 0.2 ? "broken" : beyond > 0.05 ? "doubtful" : "holds";
+  return {name: "curve", verdict, condition: `curve between loads: within 5${NARROW}% of contacts solved in the oscillation`, remedy: verdict === "holds" ? "" : "`study` with this motion solves them",
+    here: known(off) ? `${quantity(curve, "N s/m", 3)} and ${quantity(contacts.mean[k], "N s/m", 3)} to ${errorPercent(error)}, in the motion of the study` : "not known at this load"};
+}
+
+/** What the program says of a motion at load ‹k› of the mean curve; numbers that it does not give are NaN, and `why` says so. */
+function explore(point, k, set) {
+  const law = lawOf(point), motion = motionOf({...set, hold: point.damping.hold}, point.damping.modulus_ratio);
+  const nothing = (why) => ({work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", conditions: [], why});
+  for (const name of ["normal_amplitude", "frequency", motion.drag ? "drag_velocity" : "tangential_amplitude"]) if (!(set[name] > 0)) return nothing(`\`${name}\` must be > 0.`);
+  for (const name of ["friction_coefficient", "excursion"]) if (set[name] <= 0) return nothing(`\`${name}\` must be > 0.`);
+  const middle = meanIndentation(law, k, motion);
+  if (!known(middle)) return nothing("The contact at this load did not converge.");
+  if (!(middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high)) return nothing("`normal_amplitude` leaves the curve’s range; reduce the amplitude or extend the curve.");
+  const loss = losses(law, middle, motion), slips = known(motion.friction_coefficient);
+  const curve = curveCondition(point, k, law), conditions = [...(curve ? [curve] : []), ...conditionsOf(point, k, law, middle, motion, loss)].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)), worst = conditions.find((one) => one.name !== "coupling" || one.verdict !== "unknown");
+  const why = motion.drag && slips && !known(motion.excursion) ? "`excursion` decides and is not given." : motion.drag && motion.excursion < motion.way ? "An excursion that one normal cycle covers is no slow motion."
+    : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; `study` with this motion solves what it needs." : "";
+  const work = why ? NaN : slips ? loss.relaxation + loss.slip : loss.stick;
+  return {work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
+    validity: VALIDITY[worst?.verdict ?? "holds"], conditions, why: why || (slipsDownTo(middle, motion) < law.low ? "Levels slip that touch below the lowest load of the study; there the curve is continued as an exponential." : "")};
+}
+
+/** The motion of the study, with what it knows of friction. */
+function studiedMotion(point) {
+  const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, modulus_ratio} = point.damping, frequency = angular_frequency / (2 * Math.PI);
+  const any = (name) => point.premises[name].value.find(known) ?? NaN;
+  const speed = drag_velocity === undefined ? tangential_amplitude : drag_velocity / angular_frequency;
+  return {normal_amplitude, frequency, ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion: any("slip_of_closed_levels")}),
+    friction_coefficient: Number((any("slip_of_opening_levels") * modulus_ratio * speed / normal_amplitude).toPrecision(6))};
+}
+
+const CONTROLS = {normal_amplitude: ["normal amplitude ‹u›_{z}", "m"], frequency: ["frequency", "Hz"], drag_velocity: ["velocity ‹v›", "m/s"], tangential_amplitude: ["tangential amplitude ‹u›_{x}", "m"], phase: ["phase", "rad"],
+  excursion: ["excursion ‹X›, from one turning point to the other", "m"], friction_coefficient: ["friction coefficient ‹μ›", "1"]};
+
+function explorer(body, point) {
+  const studied = studiedMotion(point), set = {...studied}, panel = h("div", {class: "answer", "aria-live": "polite"});
+  const result = () => explore(point, shownLoad(point), set);
+  let pending = 0;
+  const soon = () => { cancelAnimationFrame(pending); pending = requestAnimationFrame(update); };
+  const number_ = (name) => {
+    const [label, unit] = CONTROLS[name], {factor, label: shown} = scaleFor([known(studied[name]) ? studied[name] : unit === "m" ? studied.normal_amplitude : 1], unit);
+    return h("label", {for: `explore-${name}`}, h("span", {}, rich(label), shown ? `, ${shown}` : ""), h("input", {type: "number", id: `explore-${name}`, min: name === "phase" ? null : 0, step: "any", value: known(studied[name]) ? Number((studied[name] * factor).toPrecision(6)) : "",
+      oninput: (event) => { set[name] = event.target.value === "" ? NaN : Number(event.target.value) / factor; soon(); }}));
+  };
+  const update = () => {
+    const answer = result();
+    const share = (value) => (known(value) ? `${number(100 * value, 3)}${NARROW}%` : "n/a");
+    const rows = [["damping constant ‹γ›", quantity(answer.damping_constant, "N s/m", 3)], ["work per cycle ‹W›", quantity(answer.work_per_cycle, "J", 3)], ["by relaxation", share(answer.relaxation_share)], ["by slip", share(answer.slip_share)],
+      ["‹γ› without slip", quantity(answer.damping_constant_without_slip, "N s/m", 3)], ["regime", answer.regime], ["validity", answer.validity]];
+    panel.replaceChildren(h("dl", {}, rows.map(([name, value]) => h("div", {}, h("dt", {}, rich(name)), h("dd", {}, value)))),
+      answer.why ? h("p", {class: "why"}, coded(answer.why)) : "",
+      h("ul", {class: "conditions"}, answer.conditions.map((one) => h("li", {class: one.verdict}, h("strong", {}, `${one.verdict}: `), coded(one.condition), one.here ? [one.verdict === "unknown" || one.name === "curve" ? "; " : "; here ", coded(one.here)] : "", one.remedy ? [" – ", coded(one.remedy)] : ""))));
+    map?.redraw();
+  };
+  body.append(h("form", {class: "explorer card", onsubmit: (event) => event.preventDefault()},
+    h("div", {class: "controls"}, loadChooser(point, "explore-load"), Object.keys(CONTROLS).filter((name) => name in studied).map(number_),
+      h("button", {type: "button", onclick: () => { for (const name of Object.keys(studied)) { const input = document.getElementById(`explore-${name}`); input.value = input.defaultValue; } Object.assign(set, studied); soon(); }}, "Motion of the study")), panel));
+  const map = known(studied.drag_velocity) ? regimeMap(body, point, set) : null;
+  onLoad.push(soon);
+  update();
+}
+
+/** Regimes of the slow motion over velocity and excursion, with borders as regime_map() of the library, and the motion that is set. */
+function regimeMap(parent, point, set) {
+  const borders = () => {
+    const law = lawOf(point), k = shownLoad(point), at = (velocity) => motionOf({...set, drag_velocity: velocity, hold: point.damping.hold}, point.damping.modulus_ratio);
+    const slips = set.friction_coefficient > 0, critical = slips ? at(1).stretch * set.normal_amplitude * 2 * Math.PI * set.frequency : set.drag_velocity;
+    const ends = [Math.min(critical, set.drag_velocity) / 100, Math.max(critical, set.drag_velocity) * 10];
+    const velocity = Array.from({length: 31}, (_, i) => ends[0] * (ends[1] / ends[0]) ** (i / 30)), way = velocity.map((v) => at(v).way);
+    const middle = meanIndentation(law, k, at(1)), bottom = middle - set.normal_amplitude;
+    // Where a condition that holds at the lower end no longer does.
+    const last = (low, high, holds) => { if (!holds(low)) return 0; for (let i = 0; i < 40; ++i) { const m = Math.sqrt(low * high); if (holds(m)) low = m; else high = m; } return low; };
+    if (!slips || !(bottom >= law.low && middle + set.normal_amplitude <= law.high)) return {velocity, way, noSlip: way.map(() => null), sliding: null, critical: null};
+    const noSlip = velocity.map((v, i) => {
+      const motion = at(v), {stick, relaxation} = losses(law, middle, {...motion, excursion: way[i]});
+      return Math.abs(relaxation / stick - 1) > 0.05 ? 0 : last(way[i], 1e4 * way[i], (excursion) => slipLoss(law, middle, {...motion, excursion}) <= 0.05 * stick);
+    });
+    const length = (law.high - law.low) / 1e4;
+    return {velocity, way, noSlip, sliding: 2 * at(1).stretch * last(length, bottom - law.deepest, (depth) => law.force(bottom - depth) > 0.05 * law.force(bottom)), critical};
+  };
+  const mine = () => explore(point, shownLoad(point), set);
+  return addFigure(parent, {
+    id: "regime-map", title: "Regimes of the slow motion", height: 420,
+    alt: () => `Map of regimes over velocity and excursion at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)}; the motion set, ${quantity(set.drag_velocity, "m/s", 3)} over ${quantity(set.excursion, "m", 3)}: ${mine().regime}.`,
+    caption: () => `Regimes at ${quantity(point.pressure[shownLoad(point)], "Pa", 3)} for the normal oscillation and the friction that are set. No slip: the loss is that without slip to 5${NARROW}%. Sliding: less than 5${NARROW}% of the least normal force sticks at all times. Grey: one normal cycle covers the excursion, and the motion is not slow.`,
+    axes: {x: {label: "velocity ‹v›", unit: "m/s", log: true, fixed: true, values: () => [set.drag_velocity]}, y: {label: "excursion ‹X›", unit: "m", log: true, fixed: true, values: () => [known(set.excursion) ? set.excursion : set.normal_amplitude]}},
+    columns: () => { const b = borders(); return [{label: "velocity", key: "velocity", unit: "m/s", values: b.velocity}, {label: "way in a normal cycle", key: "way_per_cycle", unit: "m", values: b.way}, {label: "largest excursion without slip", key: "no_slip_excursion", unit: "m", values: b.noSlip}, {label: "excursion from which it slides", key: "sliding_excursion", unit: "m", values: b.velocity.map(() => b.sliding)}]; },
+    plot: () => {
+      const b = borders(), x = set.excursion, floor = Math.min(b.way[0], x || Infinity) / 3, top = Math.max(b.way.at(-1), b.sliding ?? 0, x || 0) * 3;
+      const first = b.way, second = first.map((w, i) => Math.max(w, b.noSlip[i] ?? 0)), third = second.map((s) => Math.max(s, b.sliding ?? s)), last = first.map(() => top);
+      const region = (label, from, to, paint) => ({label, x: [...b.velocity, ...[...b.velocity].reverse()], y: [...from, ...[...to].reverse()], fill: "toself", mode: "none", fillcolor: paint, hoverinfo: "skip"});
+      return {series: [region("not slow", first.map(() => floor), first, faint("slate", 0.35)), ...(b.sliding ? [region("no slip", first, second, faint("green", 0.45)), region("partial slip", second, third, faint("blue", 0.35)), region("sliding", third, last, faint("vermilion", 0.4))] : []),
+        ...(known(x) ? [{label: "motion set", x: [set.drag_velocity], y: [x], mode: "markers", marker: {symbol: "star", size: 15, color: color("ink")}, text: [`v = ${quantity(set.drag_velocity, "m/s", 3)}, X = ${quantity(x, "m", 3)}: ${mine().regime}`]}] : [])]};
+    },
+  });
+}
