@@ -4,12 +4,15 @@
 
 const isDrag = (point) => point.damping?.mode === "drag";
 
-/** The three routes to one number, as DampingPoint has them. */
+const slipFollowed = (point) => point.slip_followed === "yes" && point.answer?.damping_constant?.mean.some(known);
+
+/** The loss of the motion described, and the three routes to that without slip, as DampingPoint has them. */
 function routes(point) {
   return {
+    ...(slipFollowed(point) ? {answer: {label: "computed, with slip", style: {color: "purple", symbol: "triangle-up", dash: "solid"}}} : {}),
     law: {label: isDrag(point) ? "Eq. (16), fitted ‹l›" : "Eq. (12), fitted ‹l›", style: {color: "vermilion", symbol: "square", dash: "dash"}},
     small: {label: isDrag(point) ? "Eq. (15), ‹F›″ of the curve" : "Eq. (12), ‹F›″ of the curve", style: {color: "ochre", symbol: "diamond", dash: "dot"}},
-    curve: {label: "computed", style: {color: "blue", symbol: "circle", dash: "solid"}},
+    curve: {label: slipFollowed(point) ? "computed, without slip" : "computed", style: {color: "blue", symbol: "circle", dash: "solid"}},
   };
 }
 
@@ -33,33 +36,40 @@ function dampingFigure(parent, point) {
   const select = (id, label, options, change) => h("label", {class: "choice", for: id}, label + " ",
     h("select", {id, onchange: (event) => { change(event.target.value); figure.redraw(); }}, options.map(([value, text]) => h("option", {value}, text))));
   // Work and damping constant are proportional, whatever the motion.
-  const perWork = () => {
+  const constantPerWork = () => {
     const ratios = point.models.flatMap((m) => ["curve", "law"].flatMap((route) => (damping[route]?.work_per_cycle?.[m.name]?.mean ?? []).map((w, i) => damping[route].damping_constant[m.name].mean[i] / w))).filter(known);
-    return measure === "work_per_cycle" ? 1 : ratios[0];
+    return ratios[0];
   };
-  const direct = () => (damping.direct ?? []).map((d) => ({...d, value: d.work_per_cycle * perWork()}));
-  const estimate = (route) => damping[route]?.[measure]?.[model.name];
+  const direct = () => (damping.direct ?? []).map((d) => ({...d, value: d.work_per_cycle * (measure === "work_per_cycle" ? 1 : constantPerWork())}));
+  const estimate = (route) => (route !== "answer" ? damping[route]?.[measure]?.[model.name] : model.name !== "bem" ? undefined : ratioOf(point.answer.damping_constant, measure === "work_per_cycle" ? constantPerWork() : 1));
+  // A second derivative of a curve may be far off everything else; such points stand in the table.
+  const shown = (key) => {
+    const values = estimate(key), others = ["answer", "curve", "law"].filter((route) => route in routes(point)).flatMap((route) => estimate(route)?.mean ?? []).filter((v) => v > 0);
+    if (key !== "small" || !values || !others.length) return values;
+    const near = values.mean.map((v) => v > Math.min(...others) / 5 && v < 5 * Math.max(...others));
+    return Object.fromEntries(Object.entries(values).map(([member, list]) => [member, list.map((v, i) => (near[i] ? v : null))]));
+  };
   const spec = {
     id: "damping-curve", title: "Damping against force", height: 420,
     controls: [select("damping-model", "Model", [model, ...models.filter((m) => m !== model)].map((m) => [m.name, m.title]), (name) => { model = models.find((m) => m.name === name); }),
       select("damping-measure", "Show", Object.entries(MEASURES).map(([key, m]) => [key, m.title]), (key) => { measure = key; })],
     alt: () => {
       const curve = estimate("curve"), i = curve ? curve.mean.findLastIndex(known) : -1;
-      return `${MEASURES[measure].title} against force by three routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: computed ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
+      return `${MEASURES[measure].title} against force by ${Object.keys(routes(point)).filter(estimate).length} routes for ${model.title}.` + (i >= 0 ? ` At ${quantity(force[i], "N", 3)}: ${routes(point).curve.label} ${quantity(curve.mean[i], MEASURES[measure].unit, 3)}, ${plainText(routes(point).law.label)} ${quantity(estimate("law")?.mean[i], MEASURES[measure].unit, 3)}.` : "");
     },
-    caption: () => `By the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t}, which holds at any amplitude: for boundary elements from contacts inside the oscillation, with bars of the numerical error, for other models on their curve. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. No value where the curve of a model does not cover the cycle, or where the error is larger than the number.${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
+    caption: () => `${slipFollowed(point) ? "With slip, by contacts where levels slip: the loss of the motion described. Without slip: by" : "By"} the paper's closed form with the fitted law, by the same form with the curvature that the computed curve has at each force, and by the theorem ‹W› = ½∮‹s›² d‹K›_{t}, which holds at any amplitude: for boundary elements from contacts inside the oscillation, with bars of the numerical error, for other models on their curve. ${damping.interval_method && f.count > 1 ? `Bands: ${damping.interval_method}. ` : ""}Motion: ${describeMotion(damping)}. No value where the curve of a model does not cover the cycle, or where the error is larger than the number.${estimate("small") && shown("small").mean.some((v, i) => v !== estimate("small").mean[i]) ? " Points of Eq. (15) that are far off all others stand in the table." : ""}${damping.direct ? " Stars: direct three-dimensional simulation of one surface." : ""}`,
     get axes() { return {x: {label: "mean force ‹F›", short: "‹F›", unit: "N", log: true}, y: {...MEASURES[measure], log: true}}; },
     columns: () => [{label: "force", key: "force", unit: "N", values: force}, {label: "pressure", key: "pressure", unit: "Pa", values: point.pressure},
       ...Object.entries(routes(point)).flatMap(([key, route]) => (estimate(key) ? estimateColumns(route.label, `${key}_${measure}`, MEASURES[measure].unit, estimate(key)) : []))],
     plot: () => ({series: [...(damping.direct ? [{label: "direct simulation", x: direct().map((d) => d.force), y: direct().map((d) => d.value), mode: "markers", marker: {symbol: "star", size: 13, color: color("ink")},
       text: direct().map((d) => `direct simulation, ${escaped(d.file)}: ${quantity(d.value, MEASURES[measure].unit)}<br><i>F</i> = ${quantity(d.force, "N")}`)}] : []), ...Object.entries(routes(point)).flatMap(([key, route]) => {
-      const values = estimate(key);
+      const values = shown(key);
       if (!values) return [];
       const reference = estimate("curve");
       const drawn = band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
         + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
         + (known(values.error?.[i]) && known(values.mean[i]) ? `<br>numerical error ${errorPercent(values.error[i] / Math.abs(values.mean[i]))}` : "")
-        + (key !== "curve" && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+        + (!["curve", "answer"].includes(key) && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
       if (values.error?.some(known)) drawn.at(-1).error_y = {type: "data", array: values.error.map((e, i) => (known(e) && known(values.mean[i]) ? e : 0)), color: color(route.style.color), thickness: 1.5};
       return drawn;
     })].sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))}),

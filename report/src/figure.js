@@ -89,7 +89,7 @@ function logarithmicTicks(values) {
   const there = values.filter((v) => known(v) && v > 0);
   if (!there.length) return {};
   const low = Math.log10(Math.min(...there)), high = Math.log10(Math.max(...there));
-  return {exponentformat: low > -3.5 && high < 4.5 ? "none" : "power", ...(high - low > 2.2 ? {dtick: 1} : high - low > 0.7 ? {minor: {}, tickvals: [-1, 0, 1, 2, 3].flatMap((decade) => [1, 2, 5].map((first) => Number(`${first}e${Math.floor(low) + decade}`)))} : {})};
+  return {exponentformat: low > -3.5 && high < 4.5 ? "none" : "power", ...(high - low > 2.2 ? {dtick: 1} : high - low > 0.7 ? low < -3.5 || high > 4.1 ? {dtick: 1} : {minor: {}, tickvals: [-1, 0, 1, 2, 3].flatMap((decade) => [1, 2, 5].map((first) => Number(`${first}e${Math.floor(low) + decade}`)))} : {})};
 }
 
 function axisLayout(axis, mode, scale, values) {
@@ -110,7 +110,7 @@ function draw(spec, state, plot, legend, figure) {
     .flatMap((s) => Array.from(s[name[0]] ?? []));
   const scales = {}, layout = {
     paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", font: axisFont(), showlegend: false, hovermode: "closest",
-    margin: {l: 12, r: 14, t: 8, b: 12}, dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", autosize: true,
+    separators: `.${NARROW}`, margin: {l: 12, r: 14, t: 8, b: 12}, dragmode: matchMedia("(pointer: coarse)").matches ? false : "zoom", autosize: true,
     hoverlabel: {bgcolor: color("raised"), bordercolor: color("line"), font: {...axisFont(), color: color("ink")}, align: "left"},
     modebar: {bgcolor: "rgba(0,0,0,0)", color: color("muted"), activecolor: color("blue")},
   };

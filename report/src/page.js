@@ -71,7 +71,10 @@ function conclusion(main, point) {
       element.append(h("p", {class: "verdict"}, h("strong", {}, "Conditions of the damping constant. ")));
       element.append(h("pre", {class: "conditions", tabindex: "0", role: "region", "aria-label": "Conditions"}, point.conditions.replaceAll("`", "")));
     }
-    if (damping) element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), describeMotion(damping)[0].toUpperCase() + describeMotion(damping).slice(1) + "."));
+    if (damping) {
+      const {excursion, friction_coefficient: friction} = point.premises ? studiedMotion(point) : {}, motion = describeMotion(damping);
+      element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), `${motion[0].toUpperCase()}${motion.slice(1)}${known(excursion) ? `, excursion ${quantity(excursion, "m", 3)}` : ""}${known(friction) ? `, friction coefficient ${number(friction)}` : ""}.`));
+    }
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
     const warnings = warningsOf(point);
     element.append(h("div", {class: "warnings", role: "region", "aria-label": "Warnings"},
@@ -123,7 +126,7 @@ function settings(main, point) {
     const seeds = (surface.seed ?? []).filter((s) => s !== 0);
     const entries = [["Results file", data.results], ["Command", provenance.command_line, "code"], ["Made", provenance.created?.replace("T", " ").replace("Z", " UTC")], ["Run time of the command", runTime(provenance)],
       ["Program", provenance.version ? `${provenance.program ?? "salebra"} ${provenance.version}${provenance.revision ? `, revision ${provenance.revision}` : ""}; report by salebra ${data.report_version}` : null],
-      ["Libraries", provenance.libraries], ["Surface", point.picture?.origin], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
+      ["Libraries", provenance.libraries], ["Surface", point.picture?.origin?.replace(/(rolloff|short_cutoff|rms_height)=([-+.\de]+)/g, (_, name, value) => `${name} = ${quantity(Number(value), "m")},`).replace(/,$/, "")], ["Seeds", seeds.length ? seedText(seeds) : null], ["Tangential stiffness", point.damping?.tangential_stiffness], ["E*, G*/E*", point.damping ? `${quantity(point.damping.contact_modulus, "Pa")}, ${number(point.damping.modulus_ratio)}` : null]];
     body.append(h("dl", {}, entries.filter(([, text]) => text).map(([name, text, tag]) => h("div", {}, h("dt", {}, name), h("dd", {}, tag ? h(tag, {}, text) : text)))));
     if (provenance.configuration?.trim()) body.append(h("details", {}, h("summary", {}, "Configuration, as it was read"), h("pre", {tabindex: "0", role: "region", "aria-label": "Configuration"}, provenance.configuration)));
   });
@@ -157,7 +160,7 @@ function heading(point) {
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
   document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")));
-  const sections = {conclusion: "Conclusion", ...(point.premises ? {explorer: "Explorer"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", damping: "Damping", ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
+  const sections = {conclusion: "Conclusion", ...(point.premises ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", damping: "Damping", ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
   document.getElementById("bar").replaceChildren(loadChooser(point, "load"), h("ul", {}, Object.entries(sections).map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text)))));
 }
 
