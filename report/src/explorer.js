@@ -141,7 +141,7 @@ function slipsDownTo(middle, motion) {
 /** How much of the contact slips, as Premises::regime. */
 function regimeOf(law, middle, motion, loss) {
   if (!known(motion.stretch) || (motion.drag && !(motion.excursion >= motion.way))) return "unknown";
-  const bottom = middle - motion.amplitude, changed = (with_, without) => !(Math.abs(with_ / without - 1) <= 0.05);
+  const bottom = middle - motion.amplitude, changed = (slipping, stick) => !(Math.abs(slipping / stick - 1) <= 0.05);
   // Slip of opening and of closed levels may cancel: smaller motions than this one are asked too.
   const ladder = [];
   if (!motion.drag) for (let part = 1; motion.tangential_amplitude * part > 0.01 * motion.stretch * motion.amplitude; part /= 1.2) ladder.push(part);
@@ -233,7 +233,7 @@ function explorer(body, point) {
   const result = () => explore(point, shownLoad(point), set);
   let pending = 0;
   const soon = () => { cancelAnimationFrame(pending); pending = requestAnimationFrame(update); };
-  const number_ = (name) => {
+  const control = (name) => {
     const [label, unit] = CONTROLS[name], {factor, label: shown} = scaleFor([known(studied[name]) ? studied[name] : unit === "m" ? studied.normal_amplitude : 1], unit);
     return h("label", {for: `explore-${name}`}, h("span", {}, rich(label), shown ? `, ${shown}` : ""), h("input", {type: "number", id: `explore-${name}`, min: name === "phase" ? null : 0, step: "any", value: known(studied[name]) ? Number((studied[name] * factor).toPrecision(6)) : "",
       oninput: (event) => { set[name] = event.target.value === "" ? NaN : Number(event.target.value) / factor; soon(); }}));
@@ -249,7 +249,7 @@ function explorer(body, point) {
     map?.redraw();
   };
   body.append(h("form", {class: "explorer card", onsubmit: (event) => event.preventDefault()},
-    h("div", {class: "controls"}, loadChooser(point, "explore-load"), Object.keys(CONTROLS).filter((name) => name in studied).map(number_),
+    h("div", {class: "controls"}, loadChooser(point, "explore-load"), Object.keys(CONTROLS).filter((name) => name in studied).map(control),
       h("button", {type: "button", onclick: () => { for (const name of Object.keys(studied)) { const input = document.getElementById(`explore-${name}`); input.value = input.defaultValue; } Object.assign(set, studied); soon(); }}, "Motion of the study")), panel));
   const map = known(studied.drag_velocity) ? regimeMap(body, point, set) : null;
   onLoad.push(soon);

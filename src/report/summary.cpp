@@ -86,15 +86,22 @@ std::string damping(const Json& point) {
   const auto at = [](const Json* list, std::size_t i) {
     return list && i < list->size() ? &(*list)[i] : nullptr;
   };
+  const Json* followed = find(point, {"slip_followed"});
+  const bool slips = followed && followed->text() == "yes";
+  std::vector<std::string> heads{"pressure", "force", "closed form, fitted l", "without slip"};
+  if (slips) heads.push_back("with slip");
   std::string text = "<table><caption>Damping constant by boundary elements</caption><thead>" +
-                     row({"pressure", "force", "closed form, fitted l", "computed"}, "th") +
-                     "</thead><tbody>";
-  for (std::size_t i = 0; i < forces->size(); ++i)
-    text +=
-        row({shown(at(pressures, i), Dimension::pressure), shown(at(forces, i), Dimension::force),
-             shown(at(column("law"), i), Dimension::damping),
-             shown(at(column("curve"), i), Dimension::damping)},
-            "td");
+                     row(heads, "th") + "</thead><tbody>";
+  for (std::size_t i = 0; i < forces->size(); ++i) {
+    std::vector<std::string> cells{shown(at(pressures, i), Dimension::pressure),
+                                   shown(at(forces, i), Dimension::force),
+                                   shown(at(column("law"), i), Dimension::damping),
+                                   shown(at(column("curve"), i), Dimension::damping)};
+    if (slips)
+      cells.push_back(
+          shown(at(find(point, {"answer", "damping_constant", "mean"}), i), Dimension::damping));
+    text += row(cells, "td");
+  }
   return text + "</tbody></table>";
 }
 

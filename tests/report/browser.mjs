@@ -258,6 +258,10 @@ check(/Decay length l of F ∝ exp\(−ū\/l\): [\d.]+ [nµ]m/.test(said) && /Th
 check((await bare.locator("main table tbody tr").count()) === 12, "full.html without JavaScript: has no table of damping constants");
 const drawnVerdict = await full.locator("#conclusion .verdict strong").first().textContent();
 check(said.includes(drawnVerdict.trim()), `full.html: the verdicts with and without JavaScript differ: ${drawnVerdict}`);
+// With friction, the constant of the motion described.
+await bare.goto(`file://${join(folder, "grid.html")}`, {waitUntil: "load"});
+const bareHeads = await bare.locator("main table").first().locator("th").allTextContents(), bareCells = await bare.locator("main table").first().locator("tbody td:last-child").allTextContents();
+check(bareHeads.join() === "pressure,force,closed form, fitted l,without slip,with slip" && bareCells.filter((text) => /N s\/m$/.test(text)).length > 4, `grid.html without JavaScript: has the columns ${bareHeads}, the last ${bareCells}`);
 await bare.context().close();
 
 /** Of each sheet of a PDF by Chromium the heights of its lines of text, as parts of the sheet from its top. */
