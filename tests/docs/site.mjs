@@ -30,7 +30,7 @@ const browser = await chromium.launch({executablePath, headless: true, timeout: 
 
 /** What is first in a list of pages that a search finds, by titles and by words of other authors. */
 const SEARCHES = {"decay length": "docs/theory.html", "glossary": "docs/glossary.html", "install": "docs/install.html",
-  "outlier": "docs/howto/damping_curve.html", "levelling": "docs/statistics.html", "Ra": "docs/statistics.html", "stiffness": "docs/theory_contact.html"};
+  "outlier": "docs/howto/damping_curve.html", "levelling": "docs/statistics.html", "Ra": "docs/statistics.html", "stiffness": "docs/theory_contact.html", "excursion": "docs/limits.html", "microslip": "docs/howto/joint.html"};
 const PAGES = ["docs/index", "docs/start", "docs/glossary", "docs/examples", "docs/theory", "docs/theory_contact", "docs/theory_friction", "docs/theory_validity", "docs/questions", "docs/install",
   "docs/notebooks/12_joint", "docs/python/contact"].filter((one) => existsSync(join(site, `${one}.html`)));
 
