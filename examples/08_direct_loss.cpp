@@ -38,7 +38,7 @@ int main(int argc, char** argv) try {
       simulate_cycle(boundary_element_levels(surface, material.contact_modulus,
                                              {.tolerance = 1e-8, .boundary = Boundary::free}),
                      grid, material, trajectory_of(motion, indentation), options);
-  if (!cycle.converged) return 1;
+  if (!cycle.converged()) return 1;
 
   // 4. The same loss from the law of the paraboloid alone, and from Eq. (12).
   const IndenterLaw law(paraboloid_profile(radius), material);

@@ -17,6 +17,7 @@
 #include "answers.hpp"
 #include "contact_command.hpp"
 #include "curve_figure.hpp"
+#include "option_words.hpp"
 #include "program.hpp"
 #include "results/columns.hpp"
 #include "results/describe.hpp"
@@ -111,9 +112,9 @@ void press_once(const ContactArguments& arguments, Session& session) {
   const NormalContactState state =
       press(surface, contact_modulus, target_of(arguments, surface), options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const bool kept =
-      !state.converged && arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
-  if (state.interrupted)
+  const bool kept = !state.converged() &&
+                    arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
+  if (state.termination == Termination::interrupted)
     throw Interrupted(kept ? fmt::format("contact: interrupted; continue with --initial {}",
                                          arguments.checkpoint.file)
                            : "contact: interrupted; nothing was written");
@@ -122,12 +123,12 @@ void press_once(const ContactArguments& arguments, Session& session) {
         "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
         "or take a larger piece of the surface");
 
-  if (state.converged && session.has_output()) {
+  if (state.converged() && session.has_output()) {
     write_contact(arguments, session, surface.grid, state);
   }
-  if (state.converged && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
+  if (state.converged() && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
   std::optional<FirstLoading> first_loading;
-  if (arguments.hardness && state.converged) {
+  if (arguments.hardness && state.converged()) {
     const ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
     first_loading = residual.first_loading;
     if (!arguments.residual.empty())
@@ -139,7 +140,7 @@ void press_once(const ContactArguments& arguments, Session& session) {
   answer.add(json_of(state));
   answer["seconds"] = elapsed.count();
   add_first_loading(answer, first_loading);
-  if (arguments.stiffness && state.converged) {
+  if (arguments.stiffness && state.converged()) {
     const ForceSample sample =
         force_sample(state, surface, material, {.contact = options, .stick = arguments.stick});
     const Json columns = json_of(sample, surface.grid.area());
@@ -153,13 +154,10 @@ void press_once(const ContactArguments& arguments, Session& session) {
     }
   }
   session.answer(answer);
-  if (!state.converged) {
-    throw NotConverged(
-        fmt::format("contact: residual {:.3g} after {} iterations did not reach the tolerance; {}",
-                    state.residual, state.iterations,
-                    state.iterations >= arguments.max_iterations ? "raise --max-iterations"
-                                                                 : "allow a larger --tolerance"));
-  }
+  if (!state.converged())
+    throw NotConverged(fmt::format("contact: residual {:.3g} after {} iterations {}",
+                                   state.residual, state.iterations,
+                                   in_options(message(state.termination))));
   arguments.checkpoint.remove(session);
 }
 

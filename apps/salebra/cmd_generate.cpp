@@ -136,8 +136,9 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
     NonGaussianSurface made = non_gaussian(
         grid, *spectrum, *distribution, arguments.seed,
         {.exact = *value_of<Exact>(arguments.exact), .on_progress = session.progress()});
-    if (made.interrupted) throw Interrupted("generate: interrupted; no surface was written");
-    if (!made.converged)
+    if (made.termination == Termination::interrupted)
+      throw Interrupted("generate: interrupted; no surface was written");
+    if (!made.converged())
       throw NotConverged(
           fmt::format("generate: the spectrum still changes after {} iterations; "
                       "take heights closer to Gaussian ones",

@@ -70,7 +70,7 @@ void write_cycle(QuantityGroup& group, const CycleResult& cycle, const Grid2D& g
 
 void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain,
                    Session& session) {
-  if (!cycle.converged || std::abs(cycle.work_per_cycle) <= uncertain) return;
+  if (!cycle.converged() || std::abs(cycle.work_per_cycle) <= uncertain) return;
   if (!cycle.steady)
     session.warn(fmt::format(
         "{}: after {} periods the loss still differs from that of the period before by more than "

@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
           worst[k].applications = std::max(worst[k].applications, found.outcome.ladder_count);
           seconds[k] = std::min(seconds[k], found.seconds);
           residual = std::max(residual, found.outcome.residual);
-          all_converged = all_converged && found.outcome.converged;
+          all_converged = all_converged && found.outcome.converged();
           if (k == 1 && repeat == 0)
             contracted = std::max(contracted, contraction(surface, c, found.pressure));
         }

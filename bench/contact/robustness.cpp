@@ -46,12 +46,12 @@ class Outcomes {
     tally.residual = std::max(tally.residual, residual);
     tally.balance = std::max(tally.balance, balance);
     // The other transform rounds differently: 1e-15 of the heights.
-    if (state.converged && residual < 1.1 * tolerance_of(precision) && balance < allowed) return;
+    if (state.converged() && residual < 1.1 * tolerance_of(precision) && balance < allowed) return;
     ++tally.failures;
     failures_.push_back(family + ", " + name_of(precision) + ": " + name);
     std::printf(
         "FAILED %s: converged %d, e_c %.2e (found again %.2e), off by %.2e, %d iterations\n",
-        failures_.back().c_str(), state.converged, state.residual, residual, balance,
+        failures_.back().c_str(), state.converged(), state.residual, residual, balance,
         state.iterations);
     std::fflush(stdout);
   }

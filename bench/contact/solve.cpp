@@ -60,8 +60,8 @@ int main(int argc, char** argv) {
       "{\"wall\": %.6f, \"setup\": %.6f, \"cpu\": %.6f, \"bytes\": %ld, \"pairs\": %d, "
       "\"iterations\": %d, \"e_c\": %.3e, \"converged\": %s}\n",
       wall, setup_seconds(surface), spent, bytes_more, state.fft_count, state.iterations,
-      state.residual, state.converged ? "true" : "false");
+      state.residual, state.converged() ? "true" : "false");
   std::ofstream(argv[6], std::ios::binary)
       .write(reinterpret_cast<const char*>(state.contact_pressure.data()), bytes);
-  return state.converged ? 0 : 1;
+  return state.converged() ? 0 : 1;
 }

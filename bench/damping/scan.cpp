@@ -44,7 +44,7 @@ class WarmLevels {
 
  private:
   ContactSetAt take(NormalContactState state) {
-    ContactSetAt level{contact_set(state), state.force, state.converged};
+    ContactSetAt level{contact_set(state), state.force, state.converged()};
     before_ = std::move(last_);
     before_at_ = last_at_;
     last_ = std::move(state.contact_pressure);
@@ -83,7 +83,7 @@ int main(int count, char** words) {
                  result.curve.samples.front().contact_area_fraction) *
                     double(surface.grid.points()),
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-                result.converged ? "" : " not converged");
+                result.converged() ? "" : " not converged");
     std::fflush(stdout);
   }
 }

@@ -84,7 +84,7 @@ int main(int count, char** arguments) {
       std::printf("%.3g | %.1f %% | %.3g | %+.1f %%%s |\n", simulated,
                   100 * cycle.slip_work / cycle.dissipated, on_its_cells,
                   100 * (on_its_cells / simulated - 1),
-                  cycle.steady && cycle.converged ? "" : ", not steady");
+                  cycle.steady && cycle.converged() ? "" : ", not steady");
       std::fflush(stdout);
     }
 }

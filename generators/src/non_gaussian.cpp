@@ -169,18 +169,18 @@ NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
   if (!keep_going() || !ranks.apply(heights, keep_going))
     throw Interrupted("non-gaussian: interrupted");
   result.spectrum_mismatch = amplitudes.measure(heights);
-  while (result.iterations < options.max_iterations && !result.converged) {
+  while (result.iterations < options.max_iterations && !result.converged()) {
     const Field previous = heights;
     const double before = result.spectrum_mismatch;
     amplitudes.impose(heights);
     if (!keep_going() || !ranks.apply(heights, keep_going) || !keep_going()) {
       heights = previous;
-      result.interrupted = true;
+      result.termination = Termination::interrupted;
       break;
     }
     const double after = amplitudes.measure(heights);
     ++result.iterations;
-    result.converged = !(after < before * (1 - options.tolerance));
+    if (!(after < before * (1 - options.tolerance))) result.termination = Termination::converged;
     if (after > before)
       heights = previous;
     else

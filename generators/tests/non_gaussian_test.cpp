@@ -110,7 +110,7 @@ TEST_CASE("A non-Gaussian surface has the distribution exactly and the spectrum 
       GENERATE(weibull_heights(1.5), johnson_heights(-0.8, 3.5), gaussian_heights());
   const SelfAffineSpectrum spectrum = rough();
   const NonGaussianSurface result = non_gaussian(grid, spectrum, distribution, 5);
-  CHECK(result.converged);
+  CHECK(result.converged());
   const double rms = spectrum.lattice_moments(grid).rms_height();
   CHECK(std::abs(result.surface.heights.mean()) < 1e-13 * rms);
   CHECK(std::sqrt(result.surface.heights.square().mean()) == Approx(rms).epsilon(1e-12));
@@ -162,9 +162,9 @@ TEST_CASE(
   const NonGaussianSurface stopped =
       non_gaussian(grid, spectrum, weibull_heights(2), 1,
                    {.on_progress = [](const ProgressReport& report) { return report.step < 2; }});
-  CHECK(stopped.interrupted);
+  CHECK(stopped.termination == Termination::interrupted);
   CHECK(stopped.iterations == 2);
-  CHECK_FALSE(stopped.converged);
+  CHECK_FALSE(stopped.converged());
   // The surface is the one that two iterations make, at whichever report of the third the stop
   // came.
   const Field two =
@@ -198,7 +198,7 @@ TEST_CASE("Of all its iterates a non-Gaussian surface is the one nearest to the 
            if (report.step > 0) least = std::min(least, report.residual);
            return true;
          }});
-    REQUIRE(found.converged);
+    REQUIRE(found.converged());
     CHECK(found.spectrum_mismatch == least);
   }
 }

@@ -279,7 +279,7 @@ def _missing_file(error: Exception, signature: inspect.Signature, arguments: tup
 
 def _warn(name: str, signature: inspect.Signature, result: Any) -> None:
     converged = getattr(result, "converged", True)
-    if converged is True or getattr(result, "interrupted", False) is True:
+    if converged is True or getattr(result, "termination", None) == "interrupted":
         return
     if isinstance(converged, np.ndarray):
         failed = int(np.size(converged) - np.count_nonzero(converged))

@@ -239,8 +239,9 @@ void bind_first_loading(nb::module_& m) {
           return after_first_loading(surface.surface, contact_modulus, pressure, options,
                                      normal_amplitude);
         });
-        if (residual.interrupted) throw Interrupted("after_first_loading: interrupted");
-        if (!residual.converged)
+        if (residual.termination == Termination::interrupted)
+          throw Interrupted("after_first_loading: interrupted");
+        if (!residual.converged())
           throw NotConverged("after_first_loading: the contact did not reach its tolerance");
         return nb::borrow<nb::typed<nb::tuple, BoundSurface, FirstLoading>>(nb::make_tuple(
             nb::cast(new_surface(std::move(residual.surface)), nb::rv_policy::take_ownership),

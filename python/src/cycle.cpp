@@ -134,7 +134,7 @@ CycleResult simulation(CycleOptions options, const std::optional<std::filesystem
                            std::move(settings), {});
     CycleResult result =
         recorder.run(options, [&](const CycleOptions& chosen) { return simulate(chosen, told); });
-    if (!result.interrupted) recorder.done();
+    if (result.termination != Termination::interrupted) recorder.done();
     return result;
   });
 }

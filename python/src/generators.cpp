@@ -300,9 +300,9 @@ void bind_non_gaussian(nb::module_& m) {
           "__getstate__",
           [](const BoundNonGaussian& self) {
             return nb::make_tuple(self.made, self.iterations, self.spectrum_mismatch,
-                                  self.converged, self.interrupted);
+                                  word_of(self.termination));
           },
-          nb::sig("def __getstate__(self) -> tuple[Surface, int, float, bool, bool]"))
+          nb::sig("def __getstate__(self) -> tuple[Surface, int, float, str]"))
       .def(
           "__setstate__",
           [](BoundNonGaussian* self, const nb::tuple& state) {
@@ -310,11 +310,9 @@ void bind_non_gaussian(nb::module_& m) {
             self->made = state[0];
             self->iterations = nb::cast<int>(state[1]);
             self->spectrum_mismatch = nb::cast<double>(state[2]);
-            self->converged = nb::cast<bool>(state[3]);
-            self->interrupted = nb::cast<bool>(state[4]);
+            self->termination = value_of<Termination>(nb::cast<std::string>(state[3])).value();
           },
-          nb::sig(
-              "def __setstate__(self, state: tuple[Surface, int, float, bool, bool], /) -> None"))
+          nb::sig("def __setstate__(self, state: tuple[Surface, int, float, str], /) -> None"))
       .def(
           "__eq__",
           [](nb::handle self, nb::handle other) {

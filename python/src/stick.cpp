@@ -185,7 +185,14 @@ tolerance, max_iterations, boundary
       .def_prop_ro("stored_energy", &SlidingContact::stored_energy, "J")
       .def_prop_ro("work", &SlidingContact::work, "∫F dx since the start, J.")
       .def_prop_ro("released_energy", &SlidingContact::released_energy, "J")
-      .def_prop_ro("converged", &SlidingContact::converged, "Every increment did.");
+      .def_prop_ro(
+          "converged",
+          [](const SlidingContact& self) { return self.termination() == Termination::converged; },
+          "Every increment did.")
+      .def_prop_ro(
+          "termination", [](const SlidingContact& self) { return word_of(self.termination()); },
+          "How the increments ended, the worst of them: 'converged', 'stalled', 'iteration_limit', "
+          "'out_of_range' or 'interrupted'.");
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
   sample.force = state.force;
   sample.pressure = state.mean_pressure;
   sample.contact_area_fraction = state.contact_area_fraction;
-  sample.converged = state.converged;
-  if (options.stiffness && state.converged) {
+  sample.converged = state.converged();
+  if (options.stiffness && state.converged()) {
     Field punch_pressure;
     sample.normal_stiffness =
         normal_stiffness(state, surface.grid, material.contact_modulus, options.contact,
@@ -49,7 +49,7 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
           stick_stiffness(contact_set(state), surface.grid, material, stick, true,
                           punch_pressure * material.modulus_ratio(), surface.ranks);
       sample.tangential_stiffness = stiffness.xx;
-      sample.converged = sample.converged && stiffness.converged;
+      sample.converged = sample.converged && stiffness.converged();
     } else if (std::isfinite(material.tangential_modulus)) {
       // Exact for one circular contact and for ν = 0; about 1 % off for rough ones at ν = 0.3
       // (docs/theory.md, section 7).
@@ -157,12 +157,12 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
     const std::size_t k = mine[static_cast<std::size_t>(turn)];
     const auto state =
         press(surface, material.contact_modulus, {.pressure = pressures[k]}, inner.contact);
-    if (state.interrupted) return loop.stop();
+    if (state.termination == Termination::interrupted) return loop.stop();
     const ForceSample sample = force_sample(state, surface, material, inner);
     // A stiffness solve that was stopped half-way is not a load that failed.
     if (!surface.ranks.all_agree(!loop.stopped() || sample.converged)) return loop.stop();
     samples[k] = sample;
-    if (options.on_state && state.converged) options.on_state(k, state);
+    if (options.on_state && state.converged()) options.on_state(k, state);
   });
   if (groups.count() > 1) gather(groups, samples);
 

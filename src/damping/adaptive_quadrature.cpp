@@ -59,10 +59,10 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
         std::max({result.quadrature.error_estimate, by_levels == unknown ? 0 : by_levels,
                   by_grid == unknown ? 0 : by_grid});
     const bool compared = by_levels < unknown && by_grid < unknown;
-    result.reached = compared && result.quadrature.converged &&
+    result.reached = compared && result.quadrature.converged() &&
                      result.error_estimate <=
                          options.relative_error * std::abs(result.quadrature.work_per_cycle);
-    if (result.reached || !result.quadrature.converged) break;
+    if (result.reached || !result.quadrature.converged()) break;
     const bool levels_next = more_levels() && (by_levels >= by_grid || !finer_grid());
     if (!levels_next && !finer_grid()) break;
     if (levels_next) {

@@ -91,13 +91,14 @@ class CycleRun {
 
   CycleResult go(bool first_is_steady) {
     const int steps = options_.steps;
+    result_.termination = Termination::converged;
     bool sampled = options_.resume != nullptr;  // whether the step k has its sample already
     for (int k = state_.step;; sampled = false) {
       if (!sampled) take_step(k);
-      if (body_.interrupted() ||
+      if (body_.termination() == Termination::interrupted ||
           (options_.on_progress &&
            !options_.on_progress({"cycle", static_cast<double>(k) / steps, k, 0}))) {
-        result_.interrupted = true;
+        result_.termination = Termination::interrupted;
         finish_period();
         break;
       }
@@ -150,7 +151,7 @@ class CycleRun {
          .contact_area = grid_.cell_area() * static_cast<double>(now.contact.count()),
          .slip_area = grid_.cell_area() * static_cast<double>(now.slipping),
          .tangential_stiffness = now.tangential_stiffness});
-    if (options_.on_state && !body_.interrupted()) {
+    if (options_.on_state && body_.termination() != Termination::interrupted) {
       CycleState copy = state_;
       copy.body = body_.state();
       options_.on_state(std::move(copy));
@@ -188,7 +189,7 @@ class CycleRun {
     const CycleReading end = body_.reading();
     result_.iterations = end.iterations;
     result_.fft_count = end.fft_count;
-    result_.converged = end.converged && !result_.interrupted;
+    result_.termination = std::max(result_.termination, body_.termination());
     return std::move(result_);
   }
 

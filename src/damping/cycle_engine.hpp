@@ -19,7 +19,6 @@ struct CycleReading {
   double tangential_stiffness = std::numeric_limits<double>::quiet_NaN();  ///< N/m
   long iterations = 0;
   long fft_count = 0;
-  bool converged = true;
 };
 
 /// A body in contact that a cycle drives: what differs between the three simulations. Its
@@ -33,7 +32,7 @@ class CycleBody {
   virtual double advance(int step, double from) = 0;
   virtual CycleReading reading() const = 0;
   virtual double stored_energy() const = 0;  ///< J
-  virtual bool interrupted() const = 0;
+  virtual Termination termination() const = 0;  ///< of all solves so far
   virtual decltype(CycleState::body) state() const = 0;
 };
 

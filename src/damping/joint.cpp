@@ -206,8 +206,8 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
 
 // Contacts of a surface, none of which may fail.
 NormalContactState solved(NormalContactState state) {
-  if (state.interrupted) throw Interrupted("joint: interrupted");
-  if (!state.converged) throw NotConverged("joint: a contact of the surface did not converge");
+  if (state.termination == Termination::interrupted) throw Interrupted("joint: interrupted");
+  if (!state.converged()) throw NotConverged("joint: a contact of the surface did not converge");
   return state;
 }
 
@@ -399,7 +399,7 @@ JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
   loss.slip_work = cycle.slip_work;
   loss.relaxation_work = cycle.relaxation_work;
   loss.storage_stiffness = (force.values * x.out).sum() / x.out.square().sum();
-  loss.converged = cycle.converged && cycle.steady;
+  loss.converged = cycle.converged() && cycle.steady;
   set_ratios(loss);
   return loss;
 }

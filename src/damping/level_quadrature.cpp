@@ -148,7 +148,8 @@ class LevelSolver {
         static_cast<double>(level.contact.count()) / static_cast<double>(grid_.points());
     values.sample.converged = level.converged;
     if (with_stiffness) add_stiffness(level, values);
-    result_.converged = result_.converged && values.sample.converged;
+    if (!level.converged)
+      result_.termination = std::max(result_.termination, Termination::iteration_limit);
     return values;
   }
 
@@ -172,7 +173,8 @@ class LevelSolver {
     values.sample.normal_stiffness = punch.normal_stiffness;
     if (punch.normal_stiffness > 0)
       values.ratio = values.sample.tangential_stiffness / (modulus_ratio * punch.normal_stiffness);
-    values.sample.converged = level.converged && stick.converged && punch.converged;
+    values.sample.converged = level.converged && stick.converged() && punch.converged();
+    result_.termination = std::max({result_.termination, stick.termination, punch.termination});
     result_.iterations += stick.iterations + punch.iterations;
     result_.fft_count += stick.fft_count + punch.fft_count;
   }
@@ -301,7 +303,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   const bool drag = std::holds_alternative<Drag>(motion);
   const int count = options.levels > 0 ? options.levels : (drag ? 32 : 16);
   LevelQuadratureResult result;
-  result.converged = true;
+  result.termination = Termination::converged;
   LevelSolver solver(levels, grid, material, options, result);
   Levels solved{gauss_nodes(count), {}, {}};
   const auto solve = [&](double theta, bool with_stiffness) {
@@ -314,8 +316,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
     const auto done = static_cast<int>(solved.theta.size());
     if (options.on_progress &&
         !options.on_progress({"levels", static_cast<double>(done) / (count + 2), done, 0})) {
-      result.interrupted = true;
-      result.converged = false;
+      result.termination = Termination::interrupted;
       return result;
     }
     solve(node.theta, true);

@@ -34,18 +34,18 @@ class StepPressures {
       auto next = stored_.lower_bound(indentation - resolution);
       if (next == stored_.end() || next->first > indentation + resolution) {
         next = stored_.emplace(indentation, levels(indentation)).first;
-        converged_ = converged_ && next->second.converged;
+        if (!next->second.converged) termination_ = Termination::iteration_limit;
       }
       steps_.push_back(&next->second);
     }
   }
   const PressureAt& at(int step) const { return *steps_[static_cast<std::size_t>(step)]; }
-  bool converged() const { return converged_; }
+  Termination termination() const { return termination_; }
 
  private:
   std::map<double, PressureAt> stored_;
   std::vector<const PressureAt*> steps_;
-  bool converged_ = true;
+  Termination termination_ = Termination::converged;
 };
 
 // What both have in common: a contact that slips, driven along a straight line.
@@ -83,8 +83,7 @@ class SlidingBody : public detail::CycleBody {
             .loss = &contact.loss(),
             .slipping = contact.slipping(),
             .iterations = contact.iterations(),
-            .fft_count = contact.fft_count(),
-            .converged = contact.converged()};
+            .fft_count = contact.fft_count()};
   }
 
  private:
@@ -125,11 +124,12 @@ class FrictionalBody : public SlidingBody {
   detail::CycleReading reading() const override {
     detail::CycleReading now = reading_of(contact_);
     now.normal_force = normal_force_;
-    now.converged = now.converged && pressures_.converged();
     return now;
   }
   double stored_energy() const override { return contact_.stored_energy(); }
-  bool interrupted() const override { return contact_.interrupted(); }
+  Termination termination() const override {
+    return std::max(contact_.termination(), pressures_.termination());
+  }
   decltype(CycleState::body) state() const override { return contact_.state(); }
 
  protected:
@@ -170,7 +170,7 @@ class ForcedBody final : public FrictionalBody {
     require_positive(greatest, "tangential_force");
     const StickStiffness stiffness = stick_stiffness(level(0).contact_pressure > 0, grid, material,
                                                      options.stick, /*along_x_only=*/true);
-    converged_ = stiffness.converged;
+    termination_ = stiffness.termination;
     stiffness_ = stiffness.xx;
     tolerance_ = 1e-7 * greatest;
     contact().set_motion_scale(greatest / stiffness_);
@@ -187,8 +187,8 @@ class ForcedBody final : public FrictionalBody {
           contact().attempt(pressure, along(distance), nullptr, increment ? &*increment : nullptr);
       const double excess = force_of(*increment) - forces_[std::size_t(step)];
       const bool met = std::abs(excess) <= tolerance_;
-      if (met || search == 60 || increment->report.interrupted) {
-        converged_ = converged_ && met;
+      if (met || search == 60 || increment->report.termination == Termination::interrupted) {
+        if (!met) termination_ = std::max(termination_, Termination::iteration_limit);
         break;
       }
       (excess < 0 ? low : high) = distance;
@@ -205,10 +205,8 @@ class ForcedBody final : public FrictionalBody {
     return from + distance;
   }
 
-  detail::CycleReading reading() const override {
-    detail::CycleReading now = FrictionalBody::reading();
-    now.converged = now.converged && converged_;
-    return now;
+  Termination termination() const override {
+    return std::max(FrictionalBody::termination(), termination_);
   }
 
  private:
@@ -218,7 +216,7 @@ class ForcedBody final : public FrictionalBody {
 
   std::vector<double> forces_;
   double cell_area_, stiffness_ = 0, tolerance_ = 0;
-  bool converged_ = true;
+  Termination termination_ = Termination::converged;
 };
 
 class CoupledBody final : public SlidingBody {
@@ -251,11 +249,10 @@ class CoupledBody final : public SlidingBody {
     now.normal_force = contact_.normal_force();
     now.normal_work = contact_.normal_work();
     now.gap_work = contact_.gap_work();
-    now.converged = contact_.converged();
     return now;
   }
   double stored_energy() const override { return contact_.stored_energy(); }
-  bool interrupted() const override { return contact_.interrupted(); }
+  Termination termination() const override { return contact_.termination(); }
   decltype(CycleState::body) state() const override { return contact_.state(); }
 
  private:
@@ -276,7 +273,7 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
       return PressureAt{.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
     NormalContactState state =
         press(surface, contact_modulus, {.indentation = indentation}, options);
-    return PressureAt{std::move(state.contact_pressure), state.force, state.converged};
+    return PressureAt{std::move(state.contact_pressure), state.force, state.converged()};
   };
 }
 

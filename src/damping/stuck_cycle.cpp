@@ -69,7 +69,7 @@ class StuckBody final : public detail::CycleBody {
     state_.traction = zero();
     state_.unit_traction = zero();
     change_to(levels_.at(trajectory.indentation(0)));
-    state_.converged = state_.converged && widest.converged;
+    note(widest);
   }
 
   void start_period() override { state_.work = state_.released = 0; }
@@ -89,13 +89,12 @@ class StuckBody final : public detail::CycleBody {
             .released = state_.released,
             .tangential_stiffness = along_motion(state_.unit_traction),
             .iterations = state_.iterations,
-            .fft_count = state_.fft_count,
-            .converged = state_.converged};
+            .fft_count = state_.fft_count};
   }
   double stored_energy() const override {
     return cell_area_ / 2 * inner_product(state_.traction, state_.displacement);
   }
-  bool interrupted() const override { return interrupted_; }
+  Termination termination() const override { return state_.termination; }
   decltype(CycleState::body) state() const override { return state_; }
 
  private:
@@ -119,7 +118,7 @@ class StuckBody final : public detail::CycleBody {
 
   // Replaces the contact set at rest.
   void change_to(const ContactSetAt& level) {
-    state_.converged = state_.converged && level.converged;
+    note(level);
     normal_force_ = level.force;
     const ContactSet& contact = level.contact;
     if ((contact == state_.contact).all()) return;
@@ -138,11 +137,15 @@ class StuckBody final : public detail::CycleBody {
     count(solver_.solve(contact, unit_motion_, 1.0, state_.unit_traction));
   }
 
+  void note(const ContactSetAt& level) {
+    if (!level.converged)
+      state_.termination = std::max(state_.termination, Termination::iteration_limit);
+  }
+
   void count(const StickReport& report) {
     state_.iterations += report.iterations;
     state_.fft_count += report.fft_count;
-    state_.converged = state_.converged && report.converged;
-    interrupted_ = interrupted_ || report.interrupted;
+    state_.termination = std::max(state_.termination, report.termination);
   }
 
   double release(const ContactSet& leaving, const ContactSet& staying) {
@@ -171,7 +174,6 @@ class StuckBody final : public detail::CycleBody {
   TangentialField unit_motion_;  // the body's direction
   StuckState state_;
   double normal_force_ = 0;
-  bool interrupted_ = false;
 };
 
 // Loss estimated from every stride-th contact set.
@@ -249,7 +251,7 @@ ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
       return ContactSetAt{ContactSet::Constant(surface.grid.nx, surface.grid.ny, false)};
     const NormalContactState state =
         press(surface, contact_modulus, {.indentation = indentation}, options);
-    return ContactSetAt{contact_set(state), state.force, state.converged};
+    return ContactSetAt{contact_set(state), state.force, state.converged()};
   };
 }
 
@@ -268,7 +270,9 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
   const bool from_minimum =
       trajectory.indentation(0) <= range.indentation_min + 1e-9 * range.sweep();
   CycleResult result = detail::run_cycle(body, grid, trajectory, options, from_minimum);
-  result.step_error = result.interrupted ? 0 : step_error_of(result, trajectory, grid.cell_area());
+  result.step_error = result.termination == Termination::interrupted
+                          ? 0
+                          : step_error_of(result, trajectory, grid.cell_area());
   return result;
 }
 

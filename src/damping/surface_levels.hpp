@@ -160,7 +160,7 @@ class Levels {
     const StickStiffness tangential =
         stick_stiffness(contact_set(state), surface_.grid, material, stick, true,
                         punch_pressure * material.modulus_ratio(), surface_.ranks);
-    converged_ = converged_ && tangential.converged;
+    converged_ = converged_ && tangential.converged();
     return {sample.force, tangential.xx / (material.modulus_ratio() * sample.stiffness)};
   }
 
@@ -220,8 +220,8 @@ class Levels {
 
   /// The state becomes the start of the next; its pressure is moved away.
   void take(NormalContactState& state) {
-    if (state.interrupted) throw Interrupted("damping: interrupted");
-    converged_ = converged_ && state.converged;
+    if (state.termination == Termination::interrupted) throw Interrupted("damping: interrupted");
+    converged_ = converged_ && state.converged();
     StiffnessSample& sample = known_[state.indentation];
     const ContactSpots spots =
         contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.ranks);

@@ -266,8 +266,9 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
   contact.hardness = *hardness;
   ResidualSurface residual = after_first_loading(std::move(surface), contact_modulus,
                                                  nominal_pressure, contact, normal_amplitude);
-  if (residual.interrupted) throw Interrupted("interrupted; nothing was written");
-  if (!residual.converged) throw NotConverged("`hardness`: the first loading did not converge");
+  if (residual.termination == Termination::interrupted)
+    throw Interrupted("interrupted; nothing was written");
+  if (!residual.converged()) throw NotConverged("`hardness`: the first loading did not converge");
   surface = std::move(residual.surface);
   return residual.first_loading;
 }

@@ -60,7 +60,7 @@ ContactLevels levels_of(const OscillatingBody& body, const Material& material) {
 NormalContactState contact_at(const Target& position, const OscillatingBody& body,
                               double contact_modulus, const NormalContactOptions& options) {
   NormalContactState state = press(body.surface, contact_modulus, position, options);
-  if (!state.converged)
+  if (!state.converged())
     throw NotConverged("oscillate: the contact at the mean position did not converge");
   return state;
 }
@@ -139,13 +139,13 @@ bool OscillationOutcome::bends_down() const {
 }
 
 bool OscillationOutcome::converged() const {
-  const auto done = [](const std::optional<CycleResult>& one) { return !one || one->converged; };
-  return levels.converged && done(cycle) && done(frictional) && done(coupled);
+  const auto done = [](const std::optional<CycleResult>& one) { return !one || one->converged(); };
+  return levels.converged() && done(cycle) && done(frictional) && done(coupled);
 }
 
 bool OscillationOutcome::interrupted() const {
   const auto stopped = [](const std::optional<CycleResult>& one) {
-    return one && one->interrupted;
+    return one && one->termination == Termination::interrupted;
   };
   return stopped(cycle) || stopped(frictional) || stopped(coupled);
 }
@@ -221,7 +221,8 @@ OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationR
         level_quadrature(levels_of(contact.body, contact.material), grid, contact.material,
                          contact.motion, contact.indentation, routes.levels);
   }
-  if (outcome.levels.interrupted) throw Interrupted("interrupted; nothing was written");
+  if (outcome.levels.termination == Termination::interrupted)
+    throw Interrupted("interrupted; nothing was written");
   return outcome;
 }
 

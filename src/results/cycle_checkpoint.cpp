@@ -42,6 +42,11 @@ class StateWriter {
   void put(const Kept& line, Count count) {
     group_.attribute(std::string(line.name), static_cast<std::int64_t>(count));
   }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void put(const Kept& line, Enum value) {
+    group_.attribute(std::string(line.name), std::string(word_of(value)));
+  }
   void put(const Kept& line, double number) {
     group_.scalar(std::string(line.name), number, unit(line), std::string(line.meaning));
   }
@@ -111,6 +116,16 @@ class StateReader {
     require(std::abs(*found) <= most, reader_.file().string(), name,
             "is out of range; remove the damaged file");
     count = static_cast<Count>(*found);
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void get(const Kept& line, Enum& value) {
+    const std::string name(line.name);
+    const std::optional<Enum> found =
+        value_of<Enum>(reader_.text_attribute(path_, name).value_or(""));
+    require(found.has_value(), reader_.file().string(), name,
+            "is missing; remove the damaged file");
+    value = *found;
   }
   void get(const Kept& line, double& number) {
     number = reader_.number(within(line));

@@ -57,7 +57,7 @@ CycleResult CycleRecorder::run(CycleOptions options,
     options.on_state = [&](CycleState state) { record(cycle, steps, std::move(state)); };
   try {
     CycleResult result = simulate(options);
-    if (result.interrupted) write_checkpoint();
+    if (result.termination == Termination::interrupted) write_checkpoint();
     return result;
   } catch (const IoError&) {
     throw;  // the checkpoint itself, as of a full disk

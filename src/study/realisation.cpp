@@ -232,8 +232,8 @@ ResidualSurface surface_to_press(const StudyConfiguration& configuration, std::u
   ResidualSurface residual = after_first_loading(
       std::move(surface), configuration.material.contact_modulus, largest_pressure, options,
       std::visit([](const auto& motion) { return motion.normal_amplitude; }, configuration.motion));
-  if (residual.interrupted) throw Interrupted("study: interrupted");
-  if (!residual.converged)
+  if (residual.termination == Termination::interrupted) throw Interrupted("study: interrupted");
+  if (!residual.converged())
     throw NotConverged(
         fmt::format("contact: the first loading did not converge to {}; allow a larger tolerance",
                     configuration.tolerance));

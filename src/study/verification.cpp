@@ -61,10 +61,10 @@ void check_hertz_by_boundary_elements(Checks& checks) {
   // 26 cells to the radius: the indentation is of second order in the cell, the peak follows the
   // centre's place in its cell.
   checks.push_back({"Hertz indentation by boundary elements",
-                    state.converged ? state.indentation : ForceSample::unknown,
+                    state.converged() ? state.indentation : ForceSample::unknown,
                     contact_radius * contact_radius / radius, 2e-3});
   checks.push_back({"Hertz peak pressure by boundary elements",
-                    state.converged ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
+                    state.converged() ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
                     2 * modulus * contact_radius / (pi * radius), 2e-3});
 }
 
@@ -82,7 +82,7 @@ void check_westergaard(Checks& checks) {
   // One Fourier mode, so no error of the grid: what the solver leaves.
   checks.push_back({"Westergaard full contact: area fraction", state.contact_area_fraction, 1, 0});
   checks.push_back({"Westergaard full contact: peak pressure",
-                    state.converged ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
+                    state.converged() ? state.contact_pressure.maxCoeff() : ForceSample::unknown,
                     2.01 * full, 1e-8});
 }
 

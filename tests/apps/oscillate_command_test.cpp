@@ -164,7 +164,8 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
   auto states = salebra::read_cycle_checkpoint(test.folder() / "c.h5", settings);
   REQUIRE(states.size() == 2);
   std::get<salebra::StuckState>(states[0].body).released *= 2;
-  std::get<salebra::SlidingState>(states[1].body).converged = false;
+  std::get<salebra::SlidingState>(states[1].body).termination =
+      salebra::Termination::iteration_limit;
   salebra::write_cycle_checkpoint(test.folder() / "other.h5", states, settings, {});
   const auto other = test.run(command + "--checkpoint other.h5 --resume");
   INFO(other.err);  // a setting that settings_in does not know is named here

@@ -97,7 +97,7 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
         Oscillation(EqualFrequency{0.5, 1e-6, pi / 4}), Oscillation(Drag{0.5, 1e-3, 700.0})}) {
     const Trajectory trajectory = trajectory_of(motion, 0.5);
     const CycleResult cycle = simulate_cycle(levels, grid, material, trajectory, options);
-    REQUIRE(cycle.converged);
+    REQUIRE(cycle.converged());
     CHECK(cycle.periods == 1);
     CHECK(cycle.steady);
     // Exact for the discretised problem: what remains is the solvers' 1e-9 of the motion, summed
@@ -137,7 +137,7 @@ TEST_CASE("Cells that enter and leave while the body rests release nothing", "[c
   CycleOptions options{.steps = 20, .direction = 0.7};
   options.stick.boundary = boundary;
   const CycleResult cycle = simulate_cycle(islands(grid), grid, material, trajectory, options);
-  REQUIRE(cycle.converged);
+  REQUIRE(cycle.converged());
   CHECK(cycle.largest.count() > 2 * cycle.smallest.count());
   const double core = stiffness_along(cycle.smallest, grid, material, options);
   const double stored = core * 1e-12 / 2;
@@ -250,7 +250,7 @@ TEST_CASE("The cone loses Eqs (12) and (15) at any amplitude", "[cycle]") {
   const auto lost = [&](const Oscillation& motion) {
     const CycleResult cycle =
         simulate_cycle(cone(grid), grid, material, trajectory_of(motion, indentation), options);
-    REQUIRE(cycle.converged);
+    REQUIRE(cycle.converged());
     CHECK(cycle.contact_area_min == Approx(pi * 0.04e-6).epsilon(0.02));
     CHECK(cycle.contact_area_max == Approx(pi * 0.16e-6).epsilon(0.02));
     CHECK(cycle.smallest.count() * grid.cell_area() == cycle.contact_area_min);
@@ -339,18 +339,18 @@ TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
   CycleOptions options{.steps = 8};
   options.stick.max_iterations = 3;
-  CHECK_FALSE(simulate_cycle(islands(grid), grid, material, motion, options).converged);
+  CHECK_FALSE(simulate_cycle(islands(grid), grid, material, motion, options).converged());
   const ContactLevels doubtful = [&](double indentation) {
     ContactSetAt level = islands(grid)(indentation);
     level.converged = indentation < 0.4 || indentation > 0.6;  // met on the way, not at its ends
     return level;
   };
-  CHECK_FALSE(simulate_cycle(doubtful, grid, material, motion, {.steps = 8}).converged);
+  CHECK_FALSE(simulate_cycle(doubtful, grid, material, motion, {.steps = 8}).converged());
   const CycleOptions stopped{.steps = 8,
                              .on_progress = [](const ProgressReport& r) { return r.step < 3; }};
   const CycleResult partial = simulate_cycle(islands(grid), grid, material, motion, stopped);
-  CHECK(partial.interrupted);
-  CHECK_FALSE(partial.converged);
+  CHECK(partial.termination == Termination::interrupted);
+  CHECK_FALSE(partial.converged());
   CHECK_THROWS_WITH(simulate_cycle(islands(grid), grid, material, motion, {.steps = 3}),
                     Catch::StartsWith("steps: 3"));
   CHECK_THROWS_AS(trajectory_of(Drag{0.1, 1.0, 0.0}, 0), InvalidInput);

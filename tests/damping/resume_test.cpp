@@ -46,7 +46,7 @@ TEST_CASE("A cycle resumed from any of its steps ends in the same bits", "[cycle
       CHECK(resumed.samples[i].tangential_force == whole.samples[i].tangential_force);
     }
     CHECK(resumed.steady);
-    CHECK(resumed.converged);
+    CHECK(resumed.converged());
   }
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("A cycle with friction resumed from any of its steps ends in the same 
   std::vector<CycleState> states;
   options.on_state = [&](const CycleState& state) { states.push_back(state); };
   const CycleResult whole = simulate_frictional_cycle(pressures, grid, material, motion, options);
-  REQUIRE(whole.converged);
+  REQUIRE(whole.converged());
   REQUIRE(whole.periods > 1);
   CHECK(whole.slip_work > 0);
   REQUIRE(states.size() == static_cast<std::size_t>(whole.periods) * 9);
@@ -92,7 +92,7 @@ TEST_CASE("A cycle with friction resumed from any of its steps ends in the same 
     for (std::size_t i = 0; i < whole.samples.size(); ++i)
       CHECK(resumed.samples[i].tangential_force == whole.samples[i].tangential_force);
     CHECK(resumed.steady == whole.steady);
-    CHECK(resumed.converged);
+    CHECK(resumed.converged());
   }
   CycleOptions coarser{.friction_coefficient = 0.4, .steps = 4};
   coarser.resume = &states[8];
@@ -118,7 +118,7 @@ TEST_CASE("A coupled cycle resumed from any of its steps ends in the same bits",
   CycleOptions recorded = options;
   recorded.on_state = [&](CycleState state) { states.push_back(std::move(state)); };
   const CycleResult whole = simulate_coupled_cycle(surface, material, motion, recorded, normal);
-  REQUIRE(whole.converged);
+  REQUIRE(whole.converged());
   REQUIRE(whole.periods == 2);
   CHECK(whole.slip_work > 0);
   REQUIRE(states.size() == 14);
@@ -136,6 +136,6 @@ TEST_CASE("A coupled cycle resumed from any of its steps ends in the same bits",
       CHECK(resumed.samples[i].normal_force == whole.samples[i].normal_force);
       CHECK(resumed.samples[i].tangential_force == whole.samples[i].tangential_force);
     }
-    CHECK(resumed.converged);
+    CHECK(resumed.converged());
   }
 }

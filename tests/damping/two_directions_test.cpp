@@ -39,7 +39,7 @@ double simulated_work(const std::function<ContactSet(double)>& set_at, const Gri
     const double before = traction.x.sum() * dx + traction.y.sum() * dy;
     displacement.x += contact.select(Field::Constant(grid.nx, grid.ny, dx), 0.0);
     displacement.y += contact.select(Field::Constant(grid.nx, grid.ny, dy), 0.0);
-    REQUIRE(solver.solve(contact, displacement, 1e-6, traction).converged);
+    REQUIRE(solver.solve(contact, displacement, 1e-6, traction).converged());
     work += grid.cell_area() * (before + traction.x.sum() * dx + traction.y.sum() * dy) / 2;
   };
   for (int step = 1; step <= steps; ++step) {
@@ -47,7 +47,7 @@ double simulated_work(const std::function<ContactSet(double)>& set_at, const Gri
     move(from, (from + to) / 2);
     const ContactSet next = set_at(indentation_at(to));
     const ContactSet staying = contact && next, entering = next && !contact;
-    REQUIRE(solver.solve(staying, displacement, 1e-6, traction).converged);
+    REQUIRE(solver.solve(staying, displacement, 1e-6, traction).converged());
     const TangentialField present = solver.displacement(staying, traction, entering);
     displacement.x = entering.select(present.x, staying.select(displacement.x, 0.0));
     displacement.y = entering.select(present.y, staying.select(displacement.y, 0.0));

@@ -50,7 +50,7 @@ CycleState coupled_state() {
                     .indentation = 1.5e-6,
                     .normal_work = 2.5e-9,
                     .gap_work = -3.5e-12,
-                    .converged = false};
+                    .termination = Termination::stalled};
   state.normal_work_at_period_start = 4.5e-9;
   state.gap_work_at_period_start = 5.5e-12;
   state.body = std::move(body);
@@ -70,7 +70,7 @@ void check_same(const StuckState& a, const StuckState& b) {
   check_same(a.unit_traction, b.unit_traction);
   CHECK(a.work == b.work);
   CHECK(a.released == b.released);
-  CHECK(a.converged == b.converged);
+  CHECK(a.termination == b.termination);
   CHECK(a.iterations == b.iterations);
   CHECK(a.fft_count == b.fft_count);
 }
@@ -85,7 +85,7 @@ void check_same(const SlidingState& a, const SlidingState& b) {
   CHECK(a.slipping == b.slipping);
   CHECK(a.work == b.work);
   CHECK(a.released == b.released);
-  CHECK(a.converged == b.converged);
+  CHECK(a.termination == b.termination);
   CHECK(a.iterations == b.iterations);
   CHECK(a.fft_count == b.fft_count);
 }
@@ -95,7 +95,7 @@ void check_same(const CoupledState& a, const CoupledState& b) {
   CHECK(a.indentation == b.indentation);
   CHECK(a.normal_work == b.normal_work);
   CHECK(a.gap_work == b.gap_work);
-  CHECK(a.converged == b.converged);
+  CHECK(a.termination == b.termination);
 }
 
 // Every member of a state, with every column of its samples.
@@ -391,12 +391,12 @@ TEST_CASE("A recorded cycle that fails or is stopped resumes from its last step"
     runs.frictional = recorder.run(options, [&](const CycleOptions& with_states) {
       return simulate_frictional_cycle(island_pressures(grid), grid, material, motion, with_states);
     });
-    if (!runs.frictional.interrupted) recorder.done();
+    if (runs.frictional.termination != Termination::interrupted) recorder.done();
     return runs;
   };
   const Runs whole = run(-1, false);
   CHECK_FALSE(std::filesystem::exists(record.checkpoint));
-  CHECK(run(3, false).frictional.interrupted);
+  CHECK(run(3, false).frictional.termination == Termination::interrupted);
   REQUIRE(std::filesystem::exists(record.checkpoint));
   CHECK_THROWS_WITH(CycleRecorder({.checkpoint = record.checkpoint}, {}, {}),
                     Contains("cycle.h5: exists; resume from it"));

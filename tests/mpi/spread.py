@@ -230,7 +230,7 @@ def test_stops() -> None:
         if number < 2:
             raised(salebra.Interrupted, lambda: call(stop))
         elif number == 2:
-            assert call(stop).interrupted
+            assert call(stop).termination == "interrupted"
         else:
             assert len(call(stop)) == 0
         raised(KeyError if last else salebra.Interrupted, lambda: call(fail))

@@ -98,7 +98,7 @@ struct StuckState {
   TangentialField unit_traction;  ///< stick traction of a unit move, Pa/m
   double work = 0;                ///< of the period, J
   double released = 0;            ///< of the period, J
-  bool converged = true;
+  Termination termination = Termination::converged;  ///< of all solves
   long iterations = 0;
   long fft_count = 0;
 };
@@ -113,7 +113,7 @@ constexpr void describe(auto&& visit, std::type_identity<StuckState>) {
         Kept{"unit_traction", "shear traction of a unit move", stiffness_per_area});
   visit(&S::work, Kept{"work", "work of the tangential force", energy});
   visit(&S::released, Kept{"released", "energy dissipated by cells as they opened", energy});
-  visit(&S::converged, Kept{"converged", "every solve did"});
+  visit(&S::termination, Kept{"termination", "how the solves ended"});
   visit(&S::iterations, Kept{"iterations", "iterations so far"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms so far, in pairs"});
 }
@@ -175,9 +175,10 @@ struct CycleResult {
   long iterations = 0;     ///< of all tangential solves
   long fft_count = 0;      ///< pairs of scalar fields
   bool steady = false;     ///< the period repeats
-  bool converged = false;  ///< every solve did; otherwise do not use the numbers
-  bool interrupted = false;
+  /// Of all solves; unless converged, do not use the numbers.
+  Termination termination = Termination::iteration_limit;
 
+  bool converged() const { return termination == Termination::converged; }
   /// How far the other sum is from work_per_cycle, relative: 0 up to the solvers' tolerance.
   double balance() const { return (dissipated + gap_work - work_per_cycle) / work_per_cycle; }
   /// (nx, ny): 0 never in contact, 1 during a part of the cycle, 2 always.
@@ -214,8 +215,8 @@ constexpr void describe(auto&& visit, std::type_identity<CycleResult>) {
   visit(&S::iterations, Kept{"iterations", "of all tangential solves"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of all solves, in pairs"});
   visit(&S::steady, Quantity{"steady", dimensionless, "whether the period repeats"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Quantity{"converged", dimensionless, "whether every solve converged"});
-  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
   visit(&S::balance, Quantity{"balance", dimensionless,
                               "difference of dissipated and work_per_cycle, relative"});
   visit(&S::contact_map, Quantity{"contact_map", dimensionless,

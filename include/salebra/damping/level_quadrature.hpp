@@ -30,8 +30,10 @@ struct LevelQuadratureResult {
   ForceCurve curve;                 ///< the levels; K_t is that along the motion
   long iterations = 0;              ///< of all linear solves on contact sets
   long fft_count = 0;
-  bool converged = false;  ///< every level did; otherwise do not use the numbers
-  bool interrupted = false;
+  /// Of all levels; unless converged, do not use the numbers.
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LevelQuadratureResult>) {
@@ -52,8 +54,8 @@ constexpr void describe(auto&& visit, std::type_identity<LevelQuadratureResult>)
   visit(&S::curve, Kept{"curve", "the levels"});
   visit(&S::iterations, Kept{"iterations", "of all linear solves on contact sets"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of all solves, in pairs"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Kept{"converged", "whether every level converged"});
-  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
 }
 
 /// The loss of an oscillating contact by steps and by levels, beside what the equations say of it.

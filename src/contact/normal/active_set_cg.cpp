@@ -301,7 +301,7 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   const bool exact =
       run.limits.exact &&
       !(on_ladder_ && run.estimate > std::max(exact_below, 0.7 * run.limits.tolerance));
-  const bool whole = last || run.estimate < 2 * run.limits.tolerance || run.outcome.interrupted ||
+  const bool whole = last || run.estimate < 2 * run.limits.tolerance || run.interrupted() ||
                      run.outcome.iterations >= run.limits.max_iterations ||
                      (!run.limits.exact && run.refreshes + 1 >= most_inexact_refreshes);
   const auto [level, residual] = dense_gap(run, exact, whole);
@@ -314,8 +314,9 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   }
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());
   ++run.refreshes;
-  run.outcome.converged = residual < run.limits.tolerance && exact == run.limits.exact;
-  run.finished = run.outcome.converged || run.outcome.interrupted ||
+  if (!run.interrupted() && residual < run.limits.tolerance && exact == run.limits.exact)
+    run.outcome.termination = Termination::converged;
+  run.finished = run.outcome.converged() || run.interrupted() ||
                  run.outcome.iterations >= run.limits.max_iterations ||
                  (!run.limits.exact && run.refreshes >= most_inexact_refreshes);
   if (run.finished && !whole) dense_gap(run, exact, true);
@@ -345,7 +346,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     const bool progressed = iterate(run);
     if (limits.keep_going &&
         !rows_.ranks().all_agree(limits.keep_going(run.outcome.iterations, run.estimate)))
-      run.outcome.interrupted = true;
+      run.outcome.termination = Termination::interrupted;
     if (limits.take_checkpoint && rows_.ranks().all_agree(limits.checkpoint_due())) {
       unpack_pressure(run, 1);
       limits.take_checkpoint();
@@ -353,7 +354,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     const bool stalled = run.stalls > other_thresholds.size();
     const double factor = on_ladder_ && limits.exact ? ladder_refresh_after : refresh_after;
     const bool fresh_needed =
-        run.estimate < 0.7 * limits.tolerance || run.outcome.interrupted ||
+        run.estimate < 0.7 * limits.tolerance || run.interrupted() ||
         run.outcome.iterations >= limits.max_iterations ||
         (std::is_same_v<Real, float> && run.estimate < factor * run.at_refresh);
     const bool gives_way = stalled || !progressed;

@@ -95,6 +95,7 @@ class ActiveSetCg {
     bool finished = false;
 
     bool load_given() const { return target.load_given(); }
+    bool interrupted() const { return outcome.termination == Termination::interrupted; }
   };
 
   Index points() const { return rows_.count() * grid_.ny; }  // of this process
@@ -210,7 +211,7 @@ class ActiveSetCg {
   void choose_operator();
   void hold_punch_set(const double* p, double bound);
   void begin_punch();
-  bool punch_rounds(const PunchLimits& limits, PunchOutcome& outcome);
+  Termination punch_rounds(const PunchLimits& limits, PunchOutcome& outcome);
   void measure_punch(PunchOutcome& outcome, Field* pressure);
   double punch_step(double& curvature, PunchOutcome& outcome);
   void renew_punch_residual();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <salebra/base/progress.hpp>
 #include <salebra/base/share.hpp>
 
 namespace salebra::detail {
@@ -49,8 +50,9 @@ struct PunchOutcome {
   int fft_count = 0;
   int ladder_count = 0;
   double fft_seconds = 0, ladder_seconds = 0;  // for profiles
-  bool converged = false;
-  bool interrupted = false;
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 struct ActiveSetLimits {
@@ -85,8 +87,9 @@ struct ActiveSetOutcome {
   // of the tiles summed over the iterations.
   double fft_seconds = 0, exact_fft_seconds = 0, ladder_seconds = 0;
   double active_cells = 0, resting_cells = 0;
-  bool converged = false;
-  bool interrupted = false;
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 // Measures over all cells where the contact plane is, and how far p and g are from complementary.

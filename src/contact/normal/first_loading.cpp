@@ -67,7 +67,7 @@ std::optional<NormalContactState> at_top(const Surface& residual, double contact
   options.initial_pressure = &start;
   const NormalContactState mean =
       press(residual, contact_modulus, {.pressure = nominal_pressure}, options);
-  if (!mean.converged) return mean;
+  if (!mean.converged()) return mean;
   const double top = mean.indentation + normal_amplitude;
   if (options.boundary == Boundary::periodic &&
       top >= (residual.heights.maxCoeff() - residual.heights).mean())
@@ -85,11 +85,9 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
   require(state.contact_pressure.rows() == surface.grid.nx &&
               state.contact_pressure.cols() == surface.grid.ny,
           "pressure", state.contact_pressure.size(), "points do not fill the grid");
-  ResidualSurface residual{.surface = std::move(surface),
-                           .first_loading = {},
-                           .converged = state.converged,
-                           .interrupted = state.interrupted};
-  if (!state.converged) return residual;
+  ResidualSurface residual{
+      .surface = std::move(surface), .first_loading = {}, .termination = state.termination};
+  if (!state.converged()) return residual;
   if ((state.contact_pressure < options.hardness).all()) {
     residual.first_loading = {.pressure = state.mean_pressure,
                               .yielded_area_fraction = 0,
@@ -118,14 +116,15 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
   if (normal_amplitude == 0)
     return residual_surface(std::move(surface), contact_modulus, state, options);
   ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
-  for (int loading = 1; residual.converged; ++loading) {
+  for (int loading = 1; residual.converged(); ++loading) {
     const std::optional<NormalContactState> top =
         at_top(residual.surface, contact_modulus, nominal_pressure, normal_amplitude,
                state.contact_pressure, options);
     if (!top) return residual;
-    residual.converged = top->converged && loading < most_loadings;
-    residual.interrupted = top->interrupted;
-    if (!residual.converged) return residual;
+    residual.termination = top->converged() && loading >= most_loadings
+                               ? Termination::iteration_limit
+                               : top->termination;
+    if (!residual.converged()) return residual;
     const double load = top->mean_pressure;
     if (!residual.first_loading.yielded() && (top->contact_pressure < options.hardness).all()) {
       residual.first_loading.pressure = load;

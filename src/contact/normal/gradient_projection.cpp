@@ -238,25 +238,28 @@ void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits
     descent.descend_on_face(
         std::min(most_steps_on_a_face, limits.max_iterations - outcome.iterations));
     auto now = contact_residual(grid, rows, problem.target, problem.rms_height, p, g);
-    const bool ends =
-        fruitless >= most_fruitless_rounds || outcome.iterations >= limits.max_iterations;
+    const bool stalled = fruitless >= most_fruitless_rounds;
+    const bool ends = stalled || outcome.iterations >= limits.max_iterations;
+    bool interrupted = false;
     if (limits.keep_going &&
         !rows.ranks().all_agree(limits.keep_going(outcome.iterations, now.residual)))
-      outcome.interrupted = true;
+      interrupted = true;
     if (limits.take_checkpoint && rows.ranks().all_agree(limits.checkpoint_due())) {
       const std::vector<double> kept(p, p + rows.count() * grid.ny);
       limits.take_checkpoint();
       std::ranges::copy(kept, p);
     }
-    if (now.residual < limits.tolerance || ends || outcome.interrupted ||
-        round % refresh_every == 0) {
+    if (now.residual < limits.tolerance || ends || interrupted || round % refresh_every == 0) {
       descent.refresh();
       now = contact_residual(grid, rows, problem.target, problem.rms_height, p, g);
     }
     outcome.residual = now.residual;
     outcome.level = now.level;
-    outcome.converged = now.residual < limits.tolerance;
-    if (outcome.converged || ends || outcome.interrupted) return;
+    outcome.termination = interrupted                       ? Termination::interrupted
+                          : now.residual < limits.tolerance ? Termination::converged
+                          : stalled                         ? Termination::stalled
+                                                            : Termination::iteration_limit;
+    if (outcome.converged() || ends || interrupted) return;
   }
 }
 

@@ -195,7 +195,7 @@ class NestedSolve {
         target_here.value += mean_depth_of(level) - mean_depth;
       solution_.outcome =
           solver.solve(target_here, limits, solution_.pressure.data(), solution_.gap.data());
-      if (solution_.outcome.interrupted && k > 0) {
+      if (solution_.outcome.termination == Termination::interrupted && k > 0) {
         show_nothing();
         break;
       }
@@ -261,7 +261,6 @@ class NestedSolve {
     solution_.gap =
         Field::NullaryExpr(nx, ny, [&](Index i, Index j) { return -problem_.heights[i * ny + j]; });
     solution_.outcome.level = 0;
-    solution_.outcome.converged = false;
   }
 
   const Problem problem_;
@@ -321,8 +320,9 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
   const bool finite = std::isfinite(state.force) && std::isfinite(state.mean_gap) &&
                       std::isfinite(state.elastic_energy);
   if (!finite) state.residual = std::numeric_limits<double>::infinity();
-  state.converged = outcome.converged && finite;
-  state.interrupted = outcome.interrupted;
+  state.termination = finite || outcome.termination == Termination::interrupted
+                          ? outcome.termination
+                          : Termination::out_of_range;
   return state;
 }
 
@@ -336,7 +336,7 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
   state.mean_pressure = nominal_pressure;
   state.force = nominal_pressure * surface.grid.area();
   state.contact_area_fraction = 1;
-  state.converged = true;
+  state.termination = Termination::converged;
   return state;
 }
 

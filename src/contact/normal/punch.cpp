@@ -107,7 +107,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
   hold_punch_set(p, bound);
   std::fill_n(g_, tile_points(), -1.0);
   begin_punch();
-  outcome.converged = punch_rounds(limits, outcome);
+  outcome.termination = punch_rounds(limits, outcome);
   measure_punch(outcome, pressure);
   return outcome;
 }
@@ -133,24 +133,21 @@ void ActiveSetCg<Real>::hold_punch_set(const double* p, double bound) {
   }
 }
 
-// Whether steps ended because they gained too little.
+// Converged where steps ended because they gained too little.
 template <class Real>
-bool ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutcome& outcome) {
+Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutcome& outcome) {
   double curvature = 1, gained = 0, round_gained = 0;
   double contraction = 1;  // of what is left to gain, from round to round
   if (on_ladder_) contraction = std::pow(ladder_->error() / (1 - ladder_->error()), 2);
   double last_round = 0;
   int small_gains = 0;
   while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
-    if (limits.keep_going && !rows_.ranks().all_agree(limits.keep_going(outcome.iterations))) {
-      outcome.interrupted = true;
-      break;
-    }
+    if (limits.keep_going && !rows_.ranks().all_agree(limits.keep_going(outcome.iterations)))
+      return Termination::interrupted;
     const double gain = punch_step(curvature, outcome);
     if (!(gain > 0)) {
       // Nothing is left to gain, as after one step on a single cell; or the values are NaN.
-      if (gain == 0) small_gains = gains_in_a_row;
-      break;
+      return gain == 0 ? Termination::converged : Termination::out_of_range;
     }
     gained += gain;
     round_gained += gain;
@@ -170,7 +167,7 @@ bool ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutcome& ou
       }
     }
   }
-  return small_gains == gains_in_a_row;
+  return small_gains == gains_in_a_row ? Termination::converged : Termination::iteration_limit;
 }
 
 // Load and residual by one exact application.
@@ -304,8 +301,7 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
           .fft_count = outcome.fft_count,
           .ladder_count = outcome.ladder_count,
           .residual = outcome.residual,
-          .converged = outcome.converged,
-          .interrupted = outcome.interrupted};
+          .termination = outcome.termination};
 }
 
 std::function<bool(int)> keep_going(const Progress& progress) {
@@ -335,7 +331,7 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
        options.boundary, options.precision},
       {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
       punch_pressure);
-  return punch.converged ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
+  return punch.converged() ? punch.normal_stiffness : std::numeric_limits<double>::quiet_NaN();
 }
 
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
@@ -347,7 +343,7 @@ PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
   detail::require_contact(contact, grid, options.boundary);
   if (!contact.any()) {
     if (pressure) *pressure = Field::Zero(grid.nx, grid.ny);
-    return {.converged = true};
+    return {.termination = Termination::converged};
   }
   // K is a minimum: its relative error is of the order of the square of the displacement's.
   const double gain = std::clamp(options.tolerance * options.tolerance, 1e-14, 1e-4);

@@ -19,7 +19,7 @@ struct CoupledContact::Parts {
   SlidingContact sliding;
   double indentation = 0, normal_work = 0, gap_work = 0;
   Field gap;  // now
-  bool converged = true, interrupted = false;
+  Termination termination = Termination::converged;
 
   Parts(const Surface& given, const Material& material, const CoupledContactOptions& wanted)
       : surface(given),
@@ -54,7 +54,7 @@ struct CoupledContact::Parts {
       NormalContactState apart;
       apart.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny);
       apart.gap = highest - (surface.heights - sunk) - approach;
-      apart.converged = true;
+      apart.termination = Termination::converged;
       return apart;
     }
     NormalContactState state =
@@ -92,7 +92,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   increment.contact_pressure = p.sliding.contact_pressure();
   increment.traction = p.sliding.traction();
   Field gap;
-  bool solved = false;
+  Termination solved = Termination::iteration_limit;
   // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has
   // left once too often stays out.
   constexpr int patience = 8;
@@ -112,17 +112,16 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     const double total = next.contact_pressure.sum();
     increment = std::move(next);
     gap = std::move(state.gap);
-    solved = state.converged && increment.report.converged;
+    solved = std::max(state.termination, increment.report.termination);
     report.change = total > 0 ? change / total : 0;
-    report.interrupted = state.interrupted || increment.report.interrupted;
     ++report.sweeps;
     // Round-off of the last digits apart, nothing that is less than the solvers' own error can be
     // asked for.
-    if (report.interrupted || report.change < p.options.tolerance) break;
+    if (solved == Termination::interrupted || report.change < p.options.tolerance) break;
   }
-  report.converged = solved && report.change < p.options.tolerance && !report.interrupted;
-  p.converged = p.converged && report.converged;
-  p.interrupted = p.interrupted || report.interrupted;
+  report.termination =
+      report.change < p.options.tolerance ? solved : std::max(solved, Termination::iteration_limit);
+  p.termination = std::max(p.termination, report.termination);
   const Field &pressure = p.sliding.contact_pressure(), &next_pressure = increment.contact_pressure;
   const Field across = (pressure <= 0).select(next_pressure * p.gap, 0.0) -
                        (next_pressure <= 0).select(pressure * gap, 0.0);
@@ -141,7 +140,7 @@ CoupledState CoupledContact::state() const {
           .indentation = p.indentation,
           .normal_work = p.normal_work,
           .gap_work = p.gap_work,
-          .converged = p.converged};
+          .termination = p.termination};
 }
 
 void CoupledContact::restore(CoupledState state) {
@@ -153,7 +152,7 @@ void CoupledContact::restore(CoupledState state) {
   p.indentation = state.indentation;
   p.normal_work = state.normal_work;
   p.gap_work = state.gap_work;
-  p.converged = state.converged;
+  p.termination = state.termination;
 }
 
 const SlidingContact& CoupledContact::sliding() const { return parts_->sliding; }
@@ -161,8 +160,7 @@ double CoupledContact::indentation() const { return parts_->indentation; }
 double CoupledContact::normal_force() const { return parts_->force(); }
 double CoupledContact::normal_work() const { return parts_->normal_work; }
 double CoupledContact::gap_work() const { return parts_->gap_work; }
-bool CoupledContact::converged() const { return parts_->converged; }
-bool CoupledContact::interrupted() const { return parts_->interrupted; }
+Termination CoupledContact::termination() const { return parts_->termination; }
 
 double CoupledContact::stored_energy() const {
   const Parts& p = *parts_;

@@ -202,12 +202,12 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
   std::vector<char> last_bound;
   for (;;) {
     report.residual = residual(iterate);
-    report.converged = report.residual < tolerance;
-    if (report.converged || report.iterations >= max_iterations) break;
+    if (report.residual < tolerance) report.termination = Termination::converged;
+    if (report.converged() || report.iterations >= max_iterations) break;
     if (progress &&
         !progress({"partial slip", report.iterations / static_cast<double>(max_iterations),
                    report.iterations, report.residual})) {
-      report.interrupted = true;
+      report.termination = Termination::interrupted;
       break;
     }
     bool moved = false;
@@ -225,7 +225,10 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
       moved = gradient_step(iterate);
     }
     ++report.steps;
-    if (!moved) break;  // round-off has used up the energy's accuracy
+    if (!moved) {  // round-off has used up the energy's accuracy
+      report.termination = Termination::stalled;
+      break;
+    }
   }
   for (std::size_t k = 0; k < count(); ++k)
     report.slipping += slips(iterate.tractions, iterate.gradient, k);

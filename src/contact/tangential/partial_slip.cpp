@@ -33,7 +33,7 @@ PartialSlipReport PartialSlipSolver::solve(const Field& limit, const TangentialF
   }
   PartialSlipReport report;
   if (points.size() == 0) {
-    report.converged = true;
+    report.termination = Termination::converged;
   } else {
     // K̂ = (2π/q)(c1 + c2 …) lies between the values along and across the wave; 2/(E q) with their
     // mean.

@@ -113,8 +113,7 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
       solver_.solve(limit_of(state_.contact_pressure, options_.friction_coefficient), target,
                     state_.motion_scale, increment.traction_halfway, slip);
   count(report);
-  increment.report.converged = report.converged;
-  increment.report.interrupted = report.interrupted;
+  increment.report.termination = report.termination;
   return displacement_under(contact_, increment.traction_halfway, halfway, entering);
 }
 
@@ -159,7 +158,7 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
                       .displacement_before = state_.displacement,
                       .slip = {},
                       .move = move,
-                      .report = {.converged = true}};
+                      .report = {.termination = Termination::converged}};
   if (entering.any()) {
     const TangentialField present =
         displacement_under(contact_, state_.traction, state_.shift, entering);
@@ -182,12 +181,11 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
   }
   const TangentialField target{increment.displacement.x - increment.shift.x,
                                increment.displacement.y - increment.shift.y};
-  const PartialSlipReport halfway = increment.report;
+  const Termination halfway = increment.report.termination;
   increment.report =
       solver_.solve(limit, target, state_.motion_scale, increment.traction, increment.slip);
   count(increment.report);
-  increment.report.converged = increment.report.converged && halfway.converged;
-  increment.report.interrupted = increment.report.interrupted || halfway.interrupted;
+  increment.report.termination = std::max(increment.report.termination, halfway);
   increment.displacement.x -= increment.slip.x;
   increment.displacement.y -= increment.slip.y;
   return increment;
@@ -199,8 +197,7 @@ void SlidingContact::count(const PartialSlipReport& report) {
 }
 
 void SlidingContact::accept(Increment increment) {
-  state_.converged = state_.converged && increment.report.converged;
-  interrupted_ = interrupted_ || increment.report.interrupted;
+  state_.termination = std::max(state_.termination, increment.report.termination);
   state_.slipping = increment.report.slipping;
   const ContactSet contact =
       limit_of(increment.contact_pressure, options_.friction_coefficient) > 0;

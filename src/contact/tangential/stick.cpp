@@ -123,9 +123,9 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
     stiffness.fft_count += report.fft_count;
     stiffness.ladder_count += report.ladder_count;
     stiffness.residual = std::max(stiffness.residual, report.residual);
-    stiffness.converged = stiffness.converged && report.converged;
+    stiffness.termination = std::max(stiffness.termination, report.termination);
   };
-  stiffness.converged = true;
+  stiffness.termination = Termination::converged;
   add(along_x.report);
   stiffness.xx = stiffness_of(system, points, 0, along_x, along_x) * grid.cell_area();
   if (along_x_only) {

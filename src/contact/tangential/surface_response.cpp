@@ -171,7 +171,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
   const std::size_t unknowns = displacements.size();
   misfit = displacements;
   if (ranks.all_agree(unknowns == 0)) {
-    report.converged = true;
+    report.termination = Termination::converged;
     return report;
   }
   if (!ranks.all_agree(std::ranges::all_of(tractions, [](double t) { return t == 0; }))) {
@@ -187,13 +187,16 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
   const double root = std::sqrt(unknowns_of_all);
   const auto stop = [&](double square, int iterations) {
     report.residual = std::sqrt(square) / root;
-    report.converged = report.residual < tolerance;
-    if (report.converged || iterations == max_iterations) return true;
-    report.interrupted =
-        progress &&
+    // Where the iteration ends by itself, before the next call, round-off has stopped it.
+    report.termination = report.residual < tolerance    ? Termination::converged
+                         : iterations == max_iterations ? Termination::iteration_limit
+                                                        : Termination::stalled;
+    if (report.termination != Termination::stalled) return true;
+    if (progress &&
         !ranks.all_agree(progress({"stick", iterations / static_cast<double>(max_iterations),
-                                   iterations, report.residual}));
-    return report.interrupted;
+                                   iterations, report.residual})))
+      report.termination = Termination::interrupted;
+    return report.termination == Termination::interrupted;
   };
   if (!inverse_) inverse_.emplace(window_grid_, rows_, boundary_);
   const bool on_ladder = inverse_->hold(points.windowed);

@@ -81,7 +81,7 @@ TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]"
       const Surface surface = filtered_noise({points, points, 1, 1}, spectrum, seed);
       const NormalContactState state =
           press(surface, 1, {.pressure = 0.02 * 0.1}, {.tolerance = 1e-8});
-      REQUIRE(state.converged);
+      REQUIRE(state.converged());
       return contact_spots(state.contact_pressure, surface.grid);
     };
     const ContactSpots coarse = spots_of(64), fine = spots_of(256);

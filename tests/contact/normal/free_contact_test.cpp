@@ -164,7 +164,7 @@ TEST_CASE(
           press(surface, contact_modulus, {.indentation = approach - touch}, free_contact());
       const auto loaded = press(surface, contact_modulus, {.pressure = force / surface.grid.area()},
                                 free_contact());
-      REQUIRE((held.converged && loaded.converged));
+      REQUIRE((held.converged() && loaded.converged()));
       const auto add = [](double& sum, double value, double exact) {
         sum += std::abs(value / exact - 1) / 6;
       };
@@ -198,7 +198,7 @@ TEST_CASE("Hertz: force, indentation and stiffness are one curve", "[normal]") {
   const double indentation = 5e-6;
   const auto options = free_contact();
   const auto state = press(surface, contact_modulus, {.indentation = indentation}, options);
-  REQUIRE(state.converged);
+  REQUIRE(state.converged());
   CHECK(state.indentation == Approx(indentation).epsilon(1e-12));
   CHECK(state.force ==
         Approx(4.0 / 3 * contact_modulus * std::sqrt(1e-2) * std::pow(indentation, 1.5))
@@ -216,7 +216,7 @@ TEST_CASE("A flat square punch is linear: its force is its stiffness times its i
   const auto stiffness = [&](Index n) {
     const Surface punch = surface_of({n, n, side, side}, [](double, double) { return 0.25; });
     const auto state = press(punch, contact_modulus, {.indentation = indentation}, free_contact());
-    REQUIRE(state.converged);
+    REQUIRE(state.converged());
     CHECK(state.contact_area_fraction == 1);
     const double value = normal_stiffness(state, punch.grid, contact_modulus, free_contact());
     CHECK(value * indentation == Approx(state.force).epsilon(1e-8));
@@ -245,7 +245,7 @@ TEST_CASE("A free contact does not feel the size of its grid", "[normal]") {
                  free_contact(1e-13));
   };
   const auto small = pressed(48, 0.6e-3), large = pressed(80, 1e-3);
-  REQUIRE((small.converged && large.converged));
+  REQUIRE((small.converged() && large.converged()));
   CHECK(small.indentation == Approx(large.indentation).epsilon(1e-8));
   CHECK(small.contact_pressure.maxCoeff() ==
         Approx(large.contact_pressure.maxCoeff()).epsilon(1e-6));
@@ -263,7 +263,7 @@ TEST_CASE("A free contact does not feel where on its grid it lies, nor from wher
   const double pressure = 0.3 / surface.grid.area();
   const auto here = press(surface, contact_modulus, {.pressure = pressure}, free_contact(1e-14));
   const auto there = press(moved, contact_modulus, {.pressure = pressure}, free_contact(1e-14));
-  REQUIRE((here.converged && there.converged));
+  REQUIRE((here.converged() && there.converged()));
   CHECK(here.contact_area_fraction > 0.01);
   CHECK(there.contact_area_fraction == here.contact_area_fraction);
   CHECK(there.indentation == Approx(here.indentation).epsilon(1e-10));
@@ -289,7 +289,7 @@ TEST_CASE("Saturated cells carry exactly the hardness, and forces balance", "[no
   const auto elastic = press(surface, contact_modulus, {.pressure = pressure}, options);
   options.hardness = 0.3 * elastic.contact_pressure.maxCoeff();
   const auto state = press(surface, contact_modulus, {.pressure = pressure}, options);
-  REQUIRE(state.converged);
+  REQUIRE(state.converged());
   CHECK(state.contact_pressure.maxCoeff() == options.hardness);
   const Index saturated = (state.contact_pressure == options.hardness).count();
   CHECK(saturated > 100);
@@ -314,7 +314,7 @@ TEST_CASE("Hardness that most of the load meets: soft as a cushion, still a solu
   NormalContactOptions options;
   options.hardness = hardness;
   const auto state = press(surface, contact_modulus, {.pressure = 1e6}, options);
-  REQUIRE(state.converged);
+  REQUIRE(state.converged());
   CHECK(state.contact_pressure.mean() == Approx(1e6).epsilon(1e-10));
   CHECK(state.contact_pressure.maxCoeff() == hardness);
   // No cell carries more than its hardness: at least so much area is in contact.

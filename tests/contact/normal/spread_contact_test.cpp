@@ -44,7 +44,7 @@ bool same_rows(const Field& whole, const Field& mine, const Share& rows) {
 
 void require_same(const NormalContactState& alone, const NormalContactState& together,
                   const Share& rows) {
-  if (!together.converged) throw Error("not converged");
+  if (!together.converged()) throw Error("not converged");
   if (alone.iterations != together.iterations || alone.fft_count != together.fft_count ||
       alone.ladder_count != together.ladder_count)
     throw Error("another number of iterations");
@@ -66,7 +66,7 @@ using Press = std::function<NormalContactState(const Surface&)>;
 void compare(const Surface& surface, const Press& press, const NormalContactOptions& options,
              int ranks) {
   const NormalContactState alone = press(surface);
-  REQUIRE(alone.converged);
+  REQUIRE(alone.converged());
   Field alone_punch;
   const double alone_stiffness = normal_stiffness(alone, surface.grid, 1, options, &alone_punch);
   run_ranks(ranks, [&](const Communicator& all) {
@@ -188,7 +188,7 @@ TEST_CASE("The ladder over processes has the bits of one process", "[spread]") {
   };
   Field p, g;
   const ActiveSetOutcome alone = solve(surface, p, g);
-  REQUIRE(alone.converged);
+  REQUIRE(alone.converged());
   REQUIRE(alone.ladder_count > 10);
   run_ranks(ranks, [&](const Communicator& all) {
     const Surface mine = spread(surface, all);
@@ -220,12 +220,12 @@ TEST_CASE("The slower method that finishes stalled contacts has the bits of one 
     return outcome;
   };
   Field p, g;
-  REQUIRE(solve(surface, p, g).converged);
+  REQUIRE(solve(surface, p, g).converged());
   const int ranks = GENERATE(2, 5, 8);
   run_ranks(ranks, [&](const Communicator& all) {
     const Surface mine = spread(surface, all);
     Field my_p, my_g;
-    if (!solve(mine, my_p, my_g).converged) throw Error("not converged");
+    if (!solve(mine, my_p, my_g).converged()) throw Error("not converged");
     if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
       throw Error("other bits of a field");
   });
@@ -335,7 +335,7 @@ TEST_CASE("The stiffness of both directions over processes has the bits of one p
   StickOptions options;
   options.hold_lateral = GENERATE(true, false);
   const StickStiffness alone = stick_stiffness(contact, surface.grid, material, options);
-  REQUIRE(alone.converged);
+  REQUIRE(alone.converged());
   run_ranks(5, [&](const Communicator& all) {
     const Share rows(all, 128);
     const ContactSet mine = contact.middleRows(rows.begin(), rows.count());
@@ -355,7 +355,8 @@ TEST_CASE("A stop and a bad surface in one process end all of them", "[spread]")
     options.on_progress = [&](const ProgressReport& report) {
       return all.rank() != 1 || report.step < 3;
     };
-    if (!press(mine, 1, {.pressure = 1e-3}, options).interrupted) throw Error("not interrupted");
+    if (press(mine, 1, {.pressure = 1e-3}, options).termination != Termination::interrupted)
+      throw Error("not interrupted");
     if (all.rank() == 2) mine.heights(0, 5) = std::nan("");
     try {
       press(mine, 1, {.pressure = 1e-3});
@@ -424,7 +425,9 @@ TEST_CASE("Two hundred faults, each in one process, end all of them alike", "[sp
       if (kind == 4) options.on_progress = [&](const ProgressReport&) { return !fails; };
       std::string& end = ends[static_cast<std::size_t>(all.rank())];
       try {
-        end = press(mine, 1, {.pressure = 1e-3}, options).interrupted ? "interrupted" : "solved";
+        end = press(mine, 1, {.pressure = 1e-3}, options).termination == Termination::interrupted
+                  ? "interrupted"
+                  : "solved";
       } catch (const InvalidInput& error) {
         end = error.field();
       }

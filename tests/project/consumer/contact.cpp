@@ -17,5 +17,5 @@ int main() {
   const auto state =
       salebra::press(surface, material.contact_modulus, {.pressure = 1.01 * closing});
   std::printf("area fraction %.4f, mean gap %.3g m\n", state.contact_area_fraction, state.mean_gap);
-  return state.converged && state.contact_area_fraction == 1 ? 0 : 1;
+  return state.converged() && state.contact_area_fraction == 1 ? 0 : 1;
 }

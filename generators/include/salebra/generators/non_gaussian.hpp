@@ -69,9 +69,11 @@ struct NonGaussianSurface {
   /// above 0: what is left is what the pair of distribution and spectrum cannot have at once on
   /// this grid.
   double spectrum_mismatch = 0;
-  bool converged = false;  ///< the mismatch has stopped falling
-  /// The progress callback said stop; the surface is that of the last iteration that was finished.
-  bool interrupted = false;
+  /// Converged: the mismatch has stopped falling. Interrupted: the surface is that of the last
+  /// iteration that was finished.
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<NonGaussianSurface>) {
@@ -81,9 +83,9 @@ constexpr void describe(auto&& visit, std::type_identity<NonGaussianSurface>) {
   visit(&S::iterations, Quantity{"iterations", dimensionless, "iterations of the solver"});
   visit(&S::spectrum_mismatch, Quantity{"spectrum_mismatch", dimensionless,
                                         "relative error of the spectrum of the heights"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged,
         Quantity{"converged", dimensionless, "whether the mismatch has stopped falling"});
-  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
 }
 
 /// A periodic surface with a given spectrum and a given height distribution, by the iterated

@@ -47,8 +47,9 @@ constexpr void describe(auto&& visit, std::type_identity<FirstLoading>) {
 struct ResidualSurface {
   Surface surface;
   FirstLoading first_loading = {};
-  bool converged = false;
-  bool interrupted = false;  ///< the progress callback said stop
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 /// The surface that is left after a contact with a hardness, at any load. Heights of cells below

@@ -70,9 +70,10 @@ struct NormalContactState {
   int iterations = 0;                ///< on the finest level
   int fft_count = 0;     ///< forward-and-backward pairs of the finest level, both precisions
   int ladder_count = 0;  ///< applications of the near-field ladder there, each in place of a pair
-  bool converged = false;
-  bool interrupted = false;  ///< the progress callback said stop
-  Communicator ranks = {};   ///< the processes that hold the fields, as those of the surface
+  Termination termination = Termination::iteration_limit;
+  Communicator ranks = {};  ///< the processes that hold the fields, as those of the surface
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
@@ -94,8 +95,8 @@ constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
         Quantity{"fft_count", dimensionless, "Fourier transforms of the solver, in pairs"});
   visit(&S::ladder_count,
         Quantity{"ladder_count", dimensionless, "applications of the near-field ladder"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
-  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
   visit(&S::ranks, Kept{});
 }
 

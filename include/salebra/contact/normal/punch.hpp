@@ -27,8 +27,10 @@ struct PunchStiffness {
   double residual =
       0;  ///< rms error of the displacement over the set, relative; that of K is of the order of
           ///< its square
-  bool converged = false;    ///< K settled to the square of the tolerance, or to 1e-14
-  bool interrupted = false;  ///< the progress callback said stop
+  /// Converged: K settled to the square of the tolerance, or to 1e-14.
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
@@ -39,8 +41,8 @@ constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of the solver, in pairs"});
   visit(&S::ladder_count, Kept{"ladder_count", "applications of the near-field ladder"});
   visit(&S::residual, Kept{"residual", "rms error of the displacement over the set, relative"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});
-  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
 }
 
 /// pressure, where given, receives that of a unit approach, Pa/m.

@@ -23,8 +23,9 @@ struct CoupledContactOptions {
 struct CoupledReport {
   int sweeps = 0;
   double change = 0;  ///< (Σ|Δp| + Σ|Δτ|)/Σp of the last sweep
-  bool converged = false;
-  bool interrupted = false;
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 /// All that a coupled contact remembers from one increment to the next.
@@ -34,7 +35,7 @@ struct CoupledState {
   double indentation = 0;  ///< m
   double normal_work = 0;  ///< ∫F dδ since the start, J
   double gap_work = 0;     ///< of it, J
-  bool converged = true;   ///< every increment did
+  Termination termination = Termination::converged;  ///< of all increments
 };
 
 constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
@@ -45,7 +46,7 @@ constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
   visit(&S::indentation, Kept{"indentation", "indentation", length});
   visit(&S::normal_work, Kept{"normal_work", "work of the normal force", energy});
   visit(&S::gap_work, Kept{"gap_work", "work across gaps", energy});
-  visit(&S::converged, Kept{"increments_converged", "every increment did"});
+  visit(&S::termination, Kept{"increments_termination", "how the increments ended"});
 }
 
 /// A rough contact with friction and with the coupling of normal and tangential directions
@@ -84,8 +85,7 @@ class CoupledContact {
   /// balance to the tolerance of the sweeps. It vanishes with the increments unless cells part at a
   /// finite pressure.
   double gap_work() const;
-  bool converged() const;  ///< every increment and every solve in it did
-  bool interrupted() const;
+  Termination termination() const;  ///< of all increments and the solves in them
 
  private:
   struct Parts;

@@ -18,8 +18,9 @@ struct PartialSlipReport {
   /// error where a cell sticks, and 0 only at the solution.
   double residual = 0;
   Index slipping = 0;  ///< cells that slip
-  bool converged = false;
-  bool interrupted = false;  ///< the progress callback said stop
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<PartialSlipReport>) {
@@ -29,8 +30,8 @@ constexpr void describe(auto&& visit, std::type_identity<PartialSlipReport>) {
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of scalar fields, in pairs"});
   visit(&S::residual, Kept{"residual", "rms of the projected gradient over the set, relative"});
   visit(&S::slipping, Kept{"slipping", "cells that slip"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Kept{"converged", "false: do not use the tractions"});
-  visit(&S::interrupted, Kept{"interrupted", "whether the progress function said stop"});
 }
 
 /// Coulomb friction on a contact set, one step in time: which tractions does a move of the body

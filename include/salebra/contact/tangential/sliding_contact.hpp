@@ -37,7 +37,7 @@ struct SlidingState {
   Index slipping = 0;       ///< cells at their limit after the last increment
   double work = 0;          ///< ∫F dx since the start, J
   double released = 0;      ///< of the sum of `loss`, by cells as they opened, J
-  bool converged = true;    ///< every increment did
+  Termination termination = Termination::converged;  ///< of all increments
   long iterations = 0;
   long fft_count = 0;
 };
@@ -56,7 +56,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
   visit(&S::slipping, Kept{"slipping", "cells at their limit"});
   visit(&S::work, Kept{"work", "work of the tangential force", energy});
   visit(&S::released, Kept{"released", "energy dissipated by cells as they opened", energy});
-  visit(&S::converged, Kept{"converged", "every increment did"});
+  visit(&S::termination, Kept{"termination", "how the increments ended"});
   visit(&S::iterations, Kept{"iterations", "iterations so far"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms so far, in pairs"});
 }
@@ -139,8 +139,7 @@ class SlidingContact {
   /// all of it at μ = ∞; at finite μ it vanishes with the increments, since a cell slips to zero
   /// before it opens.
   double released_energy() const { return state_.released; }
-  bool converged() const { return state_.converged; }  ///< every increment did
-  bool interrupted() const { return interrupted_; }
+  Termination termination() const { return state_.termination; }  ///< of all increments
   long iterations() const { return state_.iterations; }
   long fft_count() const { return state_.fft_count; }
 
@@ -157,7 +156,6 @@ class SlidingContact {
   PartialSlipSolver solver_;
   SlidingState state_;
   ContactSet contact_;  // cells that carry traction: p > 0 and μ > 0
-  bool interrupted_ = false;
 };
 
 }  // namespace salebra

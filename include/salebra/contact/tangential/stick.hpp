@@ -30,8 +30,9 @@ struct StickReport {
   int ladder_count = 0;  ///< applications of the near-field ladder, in the preconditioner
   double residual =
       0;  ///< rms of the displacement error over the contact set, in units of the scale
-  bool converged = false;
-  bool interrupted = false;  ///< the progress callback said stop
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 /// Full stick on a contact set: which tractions move its cells as one piece?
@@ -85,7 +86,9 @@ struct StickStiffness {
   int fft_count = 0;     ///< pairs of both solves
   int ladder_count = 0;  ///< of both solves
   double residual = 0;   ///< the larger of both
-  bool converged = false;
+  Termination termination = Termination::iteration_limit;
+
+  bool converged() const { return termination == Termination::converged; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
@@ -97,6 +100,7 @@ constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of both solves, in pairs"});
   visit(&S::ladder_count, Kept{"ladder_count", "applications of the near-field ladder"});
   visit(&S::residual, Kept{"residual", "rms error of the displacement over the set, relative"});
+  visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});
 }
 
