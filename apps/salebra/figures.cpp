@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/units.hpp>
+#include <salebra/questions/damping.hpp>
 
 #include "result_tables.hpp"
 

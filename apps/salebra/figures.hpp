@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/questions/damping.hpp>
+#include <salebra/questions/contact.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/plot.hpp"
+
+namespace salebra {
+struct DamperAnswer;
+struct FrictionMap;
+struct StressMap;
+struct TrajectoryDamping;
+}  // namespace salebra
 
 /// The pictures of the commands about damping.
 namespace salebra::cli {

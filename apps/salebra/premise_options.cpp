@@ -8,7 +8,6 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/damping.hpp>
 
 #include "option_words.hpp"
 #include "results/answer_json.hpp"
