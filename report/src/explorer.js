@@ -87,6 +87,26 @@ function meanRise(ratio) {
   return (2 * Math.PI - stuck - (Math.sin(from) - Math.sin(low)) + 2 * Math.sin(from / 2) ** 2 * stuck + ratio * stuck * stuck / 2) / (2 * Math.PI);
 }
 
+/** What a level that never opens loses on a way between turning points at random phases, as SlidingLevels (damping/level_loss.hpp). */
+function slidingLevels({amplitude, stretch, speed, excursion}) {
+  const swing = stretch * amplitude, rise = swing * meanRise(speed / swing), phases = 240, step = 2 * Math.PI * speed / phases, above = [];
+  let last = 0, back = 0;
+  for (let i = -phases; i < 2 * phases; ++i) {
+    last = Math.min(swing * (1 - Math.cos(2 * Math.PI * i / phases)), last + step);
+    if (i >= 0) above.push(last);
+  }
+  for (let i = 0; i < phases; ++i) {
+    let most = 0;
+    for (let j = i + 1; j < i + phases; ++j) most = Math.max(most, above[i] - above[j] - (j - i) * step);
+    back += most / phases;
+  }
+  const linear = excursion - 4 * rise + 2 * back, rest = rise * (excursion - 2 * rise + 4 / 3 * back);
+  return {
+    deepest: (linear + Math.sqrt(linear * linear + 8 * Math.max(0, rest))) / 4,
+    lossOfWay: (least) => Math.max(0, (least + rise) * (excursion - 2 * (least + rise)) + (2 * least + 4 / 3 * rise) * back),
+  };
+}
+
 /** The motion of the numbers that a reader sets; g is the ratio of the moduli. */
 function motionOf(set, g) {
   const omega = 2 * Math.PI * set.frequency, speed = set.drag_velocity / omega;
@@ -113,9 +133,17 @@ function losses(law, middle, motion) {
   const opening = Array.from({length: cells + 1}, (_, i) => middle + amplitude * Math.cos(Math.PI * i / cells));
   const half = (level) => Math.acos((level - middle) / amplitude);
   const stick = overLevels(law, opening, (level) => (motion.place(half(level)) - motion.place(-half(level))) ** 2 / 2);
-  if (!known(stretch)) return {stick, relaxation: NaN, slip: NaN};
-  const relaxation = overLevels(law, opening, (level) => springLoss(motion, level - middle, half(level), 1));
-  return {stick, relaxation, slip: slipLoss(law, middle, motion)};
+  if (!known(stretch)) return {stick, opened: NaN, relaxation: NaN, slip: NaN};
+  const opened = overLevels(law, opening, (level) => springLoss(motion, level - middle, half(level), 1));
+  const taken = motion.drag && known(motion.excursion) ? costOfTurning(law, middle, amplitude) * motion.way / motion.excursion : 0;
+  return {stick, opened, relaxation: opened * Math.max(0, 1 - taken), slip: slipLoss(law, middle, motion)};
+}
+
+/** What a turning point of a slow motion takes, in losses of one normal cycle of levels that open. */
+function costOfTurning(law, middle, amplitude) {
+  const angles = Array.from({length: 360}, (_, i) => Math.PI * (i + 0.5) / 360), closed = law.stiffness(middle - amplitude);
+  const opening = angles.map((angle) => law.stiffness(middle + amplitude * Math.cos(angle)) - closed);
+  return angles.reduce((sum, angle, i) => sum + angle * angle * opening[i], 0) / (Math.PI * angles.reduce((sum, angle, i) => sum + angle * opening[i], 0));
 }
 
 /** Of levels that stay closed, by their slip. */
@@ -124,16 +152,15 @@ function slipLoss(law, middle, motion) {
   if (!(depth > 0)) return motion.drag && !known(excursion) ? NaN : 0;
   const levels = Array.from({length: cells + 1}, (_, i) => bottom - depth * i / cells);
   if (motion.drag) {
-    // It slides but for twice its stretch after each turning point.
-    const rise = stretch * amplitude * meanRise(motion.speed / (stretch * amplitude));
-    return overLevels(law, levels, (level) => { const limit = stretch * (bottom - level); return (limit + rise) * Math.max(0, excursion - 2 * limit) * way / excursion; });
+    const {lossOfWay} = slidingLevels(motion);
+    return overLevels(law, levels, (level) => lossOfWay(stretch * (bottom - level)) * way / excursion);
   }
   return overLevels(law, levels, (level) => springLoss(motion, level - middle, Math.PI, 2));
 }
 
 /** The deepest level that slips: deeper ones stick where one anchor is within their limit of x at all times. */
 function slipsDownTo(middle, motion) {
-  if (motion.drag) return middle - motion.amplitude - motion.excursion / (2 * motion.stretch);
+  if (motion.drag) return middle - motion.amplitude - slidingLevels(motion).deepest / motion.stretch;
   const angles = Array.from({length: 360}, (_, i) => 2 * Math.PI * i / 360), limit = (angle) => motion.stretch * motion.amplitude * Math.cos(angle);
   return middle - (Math.max(...angles.map((angle) => motion.place(angle) - limit(angle))) - Math.min(...angles.map((angle) => motion.place(angle) + limit(angle)))) / (2 * motion.stretch);
 }
@@ -145,8 +172,8 @@ function regimeOf(law, middle, motion, loss) {
   // Slip of opening and of closed levels may cancel: smaller motions than this one are asked too.
   const ladder = [];
   if (!motion.drag) for (let part = 1; motion.tangential_amplitude * part > 0.01 * motion.stretch * motion.amplitude; part /= 1.2) ladder.push(part);
-  const slips = motion.drag ? changed(loss.relaxation, loss.stick) || !(loss.slip <= 0.05 * loss.stick)
-    : ladder.some((part) => { const one = losses(law, middle, {...motion, place: (angle) => part * motion.place(angle)}); return changed(one.relaxation + one.slip, one.stick); });
+  const slips = motion.drag ? changed(loss.opened, loss.stick) || !(loss.slip <= 0.05 * loss.stick)
+    : ladder.some((part) => { const one = losses(law, middle, {...motion, place: (angle) => part * motion.place(angle)}); return changed(one.opened + one.slip, one.stick); });
   if (!slips) return "no slip";
   return law.force(slipsDownTo(middle, motion)) <= 0.05 * law.force(bottom) ? "sliding" : "partial slip";
 }
@@ -166,10 +193,7 @@ function conditionsOf(point, k, law, middle, motion, loss) {
   };
   if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_levels", "slip_of_closed_levels"]) add(name, "unknown", null, null, "friction_coefficient");
   if (motion.drag) {
-    const angles = Array.from({length: 360}, (_, i) => Math.PI * (i + 0.5) / 360), closed = law.stiffness(middle - motion.amplitude);
-    const opening = angles.map((angle) => law.stiffness(middle + motion.amplitude * Math.cos(angle)) - closed);
-    const cost = angles.reduce((sum, angle, i) => sum + angle * angle * opening[i], 0) / (Math.PI * angles.reduce((sum, angle, i) => sum + angle * opening[i], 0));
-    const cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
+    const cost = costOfTurning(law, middle, motion.amplitude), cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
     add("slow_motion", known(cycles) ? judge(-cycles, -five, -twenty) : "unknown", cycles, five, "excursion");
   }
   const stored = (name, column = "value") => point.premises[name][column][k];
@@ -268,8 +292,8 @@ function regimeMap(parent, point, set) {
     const last = (low, high, holds) => { if (!holds(low)) return 0; for (let i = 0; i < 40; ++i) { const m = Math.sqrt(low * high); if (holds(m)) low = m; else high = m; } return low; };
     if (!slips || !(bottom >= law.low && middle + set.normal_amplitude <= law.high)) return {velocity, way, noSlip: way.map(() => null), sliding: null, critical: null};
     const noSlip = velocity.map((v, i) => {
-      const motion = at(v), {stick, relaxation} = losses(law, middle, {...motion, excursion: way[i]});
-      return Math.abs(relaxation / stick - 1) > 0.05 ? 0 : last(way[i], 1e4 * way[i], (excursion) => slipLoss(law, middle, {...motion, excursion}) <= 0.05 * stick);
+      const motion = at(v), {stick, opened} = losses(law, middle, {...motion, excursion: way[i]});
+      return Math.abs(opened / stick - 1) > 0.05 ? 0 : last(way[i], 1e4 * way[i], (excursion) => slipLoss(law, middle, {...motion, excursion}) <= 0.05 * stick);
     });
     const length = (law.high - law.low) / 1e4;
     return {velocity, way, noSlip, sliding: 2 * at(1).stretch * last(length, bottom - law.deepest, (depth) => law.force(bottom - depth) > 0.05 * law.force(bottom)), critical};

@@ -3,6 +3,7 @@
 #include "level_loss.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <variant>
@@ -19,6 +20,36 @@ constexpr int steps = 360;  // the loss is then good to 1e-4
 
 }  // namespace
 
+SlidingLevels::SlidingLevels(double swing, double speed) : rise_(swing * mean_rise(speed / swing)) {
+  // The stretch above the least one follows the limit down, and sticks where the limit runs away.
+  constexpr int phases = 240;
+  const double step = 2 * pi * speed / phases;
+  std::array<double, 2 * phases> stretch;
+  double last = 0;
+  for (int i = -phases; i < 2 * phases; ++i) {
+    last = std::min(swing * (1 - std::cos(2 * pi * i / phases)), last + step);
+    if (i >= 0) stretch[std::size_t(i)] = last;
+  }
+  for (std::size_t i = 0; i < phases; ++i) {
+    double back = 0;
+    for (std::size_t j = i + 1; j < i + phases; ++j)
+      back = std::max(back, stretch[i] - stretch[j] - double(j - i) * step);
+    back_ += back / phases;
+  }
+}
+
+double SlidingLevels::loss_of_way(double least_stretch, double excursion) const {
+  const double mean = least_stretch + rise_;
+  return std::max(0.0,
+                  mean * (excursion - 2 * mean) + (2 * least_stretch + 4.0 / 3 * rise_) * back_);
+}
+
+double SlidingLevels::deepest(double excursion) const {
+  const double linear = excursion - 4 * rise_ + 2 * back_;
+  const double rest = rise_ * (excursion - 2 * rise_ + 4.0 / 3 * back_);
+  return (linear + std::sqrt(linear * linear + 8 * std::max(0.0, rest))) / 4;
+}
+
 LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion)
     : motion_(motion),
       amplitude_(normal_amplitude(motion)),
@@ -27,8 +58,8 @@ LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion
   if (const auto* drag = std::get_if<Drag>(&motion)) {
     const double speed = std::abs(drag->drag_velocity) / drag->angular_frequency;
     way_ = 2 * pi * speed;
-    rise_ = stretch * amplitude_ * mean_rise(speed / (stretch * amplitude_));
-    depth_ = excursion / (2 * stretch);
+    closed_.emplace(stretch * amplitude_, speed);
+    depth_ = closed_->deepest(excursion) / stretch;
   } else {
     // A level sticks where one anchor is within its limit of x at all times.
     double low = HUGE_VAL, high = -HUGE_VAL;
@@ -56,11 +87,14 @@ double LevelLoss::displacement(double angle) const {
 
 double LevelLoss::operator()(double level) const {
   if (level >= amplitude_) return 0;
-  if (level > -amplitude_) return followed(level, std::acos(level / amplitude_), 1);
-  if (std::holds_alternative<EqualFrequency>(motion_)) return followed(level, pi, 2);
-  // It slides but for twice its stretch after each turning point.
-  const double limit = stretch_ * (-amplitude_ - level);
-  return (limit + rise_) * std::max(0.0, excursion_ - 2 * limit) * way_ / excursion_;
+  if (level > -amplitude_) {
+    const double half = std::acos(level / amplitude_), loss = followed(level, half, 1);
+    // A turning point while it is closed leaves it a third of its loss in this cycle, of a slow
+    // motion; the share is that with which levels begin to stay closed.
+    return closed_ ? loss * (1 - closed_->turning_share(excursion_) * half / pi) : loss;
+  }
+  if (!closed_) return followed(level, pi, 2);
+  return closed_->loss_of_way(stretch_ * (-amplitude_ - level), excursion_) * way_ / excursion_;
 }
 
 // ∮s dx of a spring that touches from −half to half, in the last of the periods: exact for straight

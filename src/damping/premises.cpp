@@ -15,7 +15,7 @@
 
 #include "base/special_values.hpp"
 #include "judge.hpp"
-#include "mean_rise.hpp"
+#include "level_loss.hpp"
 
 namespace salebra {
 namespace {
@@ -345,22 +345,22 @@ class ClosedLevels {
       : law_(law),
         bottom_(bottom),
         way_per_cycle_(2 * pi * displacement),
-        rise_(amplitude * detail::mean_rise(displacement / amplitude)),
+        levels_(amplitude, displacement),
         // A little beyond, for levels that all touch at once.
         depth_(1.001 * depth_of_share(law, bottom, 1e-9)) {}
 
   double way_per_cycle() const { return way_per_cycle_; }
-  // ∫K_t'(e + rise)(X − 2e) dζ, the loss on a way X, e = δ_min − ζ.
+  // The loss on a way, by the stretches δ_min − ζ of the levels.
   double loss(double excursion) const {
     constexpr int cells = 256;
     // Cells of a longer way would be wider than the levels reach.
-    const double depth = std::fmin(0.5 * excursion, depth_);
+    const double depth = std::fmin(levels_.deepest(excursion), depth_);
     double sum = 0, above = law_.tangential_stiffness(bottom_);
     for (int i = 0; i < cells; ++i) {
       const double end = depth * (i + 1) / cells;
       const double below = law_.tangential_stiffness(bottom_ - end);
       const double stretch = depth * (i + 0.5) / cells;
-      sum += (above - below) * (stretch + rise_) * (excursion - 2 * stretch);
+      sum += (above - below) * levels_.loss_of_way(stretch, excursion);
       above = below;
     }
     return sum;
@@ -387,7 +387,9 @@ class ClosedLevels {
 
  private:
   const ContactLaw& law_;
-  double bottom_, way_per_cycle_, rise_, depth_;
+  double bottom_, way_per_cycle_;
+  detail::SlidingLevels levels_;
+  double depth_;
 };
 
 // Displacements, in units of μ/g, at which slip changes the loss, and the loss without slip at the
@@ -771,9 +773,10 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
             full_stick};
   }
   const double bottom = mean_indentation - one.amplitude, way = 2 * pi * displacement;
-  const double relaxation = Springs(law, *one.path, false, way).at(displacement).total;
-  double slip = 0;
+  double relaxation = Springs(law, *one.path, false, way).at(displacement).total, slip = 0;
   if (!std::isnan(excursion)) {
+    const double cost = cost_of_turning(law, one.mean, one.amplitude);
+    relaxation *= std::max(0.0, 1 - cost * way * limit / excursion);
     slip = ClosedLevels(law, bottom, one.amplitude, displacement).loss_per_cycle(excursion / limit);
   } else if (law.tangential_stiffness(bottom) > 0) {
     // Forty F/K below its edge an exponential contact has nothing left.
@@ -801,6 +804,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   const double length = length_of(law, mean_indentation, amplitude);
   const DampingResult without = relaxation_damping(given, AtIndentation{mean_indentation}, drag);
   const SlipLimits slip = slip_limits(law, motion, length);
+  const double cost = cost_of_turning(law, mean_indentation, amplitude);
 
   const auto rows = static_cast<Index>(velocities.size());
   const auto columns = static_cast<Index>(excursions.size());
@@ -837,7 +841,8 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
                                                                        : Regime::partial_slip);
       if (!(stick > 0)) continue;
       map.slip_ratio(i, j) = closed.loss_per_cycle(excursion) / stick;
-      map.loss_ratio(i, j) = relaxation / stick + map.slip_ratio(i, j);
+      const double kept = std::max(0.0, 1 - cost * closed.way_per_cycle() / excursion);
+      map.loss_ratio(i, j) = kept * relaxation / stick + map.slip_ratio(i, j);
     }
   }
   return map;

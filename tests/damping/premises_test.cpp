@@ -33,23 +33,6 @@ ForceCurve exponential_curve(double length) {
   return curve;
 }
 
-/// X there and back at the velocity v, with `cycles` normal cycles each way; from and to the least
-/// indentation.
-SampledMotion there_and_back(const Drag& drag, double mean, int cycles) {
-  constexpr int steps = 400;
-  SampledMotion path;
-  for (int i = 0; i <= 2 * cycles * steps; ++i) {
-    const double angle = 2 * pi * i / steps;
-    path.time.push_back(angle / drag.angular_frequency);
-    path.indentation.push_back(mean -
-                               drag.normal_amplitude * std::cos(2 * pi * (i % steps) / steps));
-    const double whole = 2 * pi * cycles;
-    path.displacement.push_back(drag.drag_velocity / drag.angular_frequency *
-                                std::min(angle, 2 * whole - angle));
-  }
-  return path;
-}
-
 /// X there and back in `cycles` normal cycles each way, with turning points `offset` steps after
 /// the least indentation.
 SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, int offset) {
@@ -63,6 +46,27 @@ SampledMotion turning_at(const Drag& drag, double mean, int cycles, int steps, i
                                 std::min(angle, 4 * pi * cycles - angle));
   }
   return path;
+}
+
+/// Losses of a normal cycle, means over sixteen phases of the turning points.
+struct TurningLoss {
+  double stick = 0, work = 0, slip_work = 0;
+};
+TurningLoss loss_of_turning(const ContactLaw& law, const Drag& drag, double mean, int cycles,
+                            double friction) {
+  constexpr int phases = 16, steps = 320;
+  TurningLoss loss;
+  for (int phase = 0; phase < phases; ++phase) {
+    const SampledMotion path =
+        turning_at(drag, mean, cycles, steps, (2 * phase + 1) * steps / (2 * phases));
+    const double part = 1.0 / (phases * 2 * cycles);
+    const TrajectoryDamping slips =
+        trajectory_damping(law, path, {.friction_coefficient = friction});
+    loss.stick += part * trajectory_damping(law, path).work_per_cycle;
+    loss.work += part * slips.work_per_cycle;
+    loss.slip_work += part * slips.slip_work;
+  }
+  return loss;
 }
 
 }  // namespace
@@ -193,17 +197,19 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     // Slow enough for an excursion of that many cycles to be near the limit.
     const double number = 1.5 * std::pow(cycles / 0.238, 2);
     drag.drag_velocity = friction / ratio * drag.normal_amplitude * drag.angular_frequency / number;
-    const SampledMotion path = there_and_back(drag, 0, cycles);
-    const double stick = trajectory_damping(law, path).work_per_cycle;
-    const double slip = trajectory_damping(law, path, {.friction_coefficient = friction}).slip_work;
+    const TurningLoss simulated = loss_of_turning(law, drag, 0, cycles, friction);
     const double excursion = cycles * 2 * pi * drag.drag_velocity / drag.angular_frequency;
-    const double mean_slip = loss_with_slip(law, 0, drag, friction, excursion).slip_work;
-    // The turning points take part of a cycle each.
-    CHECK(2 * cycles * mean_slip == Approx(slip).epsilon(0.6 / cycles));
+    const LossWithSlip loss = loss_with_slip(law, 0, drag, friction, excursion);
+    INFO(loss.slip_work / simulated.slip_work - 1 << ' '
+                                                  << loss.work_per_cycle / simulated.work - 1);
+    // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.
+    CHECK(loss.slip_work == Approx(simulated.slip_work).epsilon(0.1 / (cycles * cycles) + 3e-3));
+    CHECK(loss.work_per_cycle == Approx(simulated.work).epsilon(0.1 / (cycles * cycles) + 3e-3));
     const Premises premises =
         premises_of(law, 0, drag, {.friction_coefficient = friction, .excursion = excursion});
     // The share goes like X².
-    const double expected = excursion * std::sqrt(0.05 * stick / slip);
+    const double steady = relaxation_damping(law, AtIndentation{0}, drag).work_per_cycle;
+    const double expected = excursion * std::sqrt(0.05 * steady / simulated.slip_work);
     CHECK(premises.slip_of_closed_levels.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
   }
   // The example of many introductions: 1 mm/s, 1 nm, 20 kHz, l = 30 nm.
@@ -543,8 +549,10 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
         CHECK_FALSE(loss < less * (1 - 1e-9));
         less = loss;
         if (map.regime[i][j] == Regime::no_slip && !std::isnan(loss)) {
-          // 5 % by each of both premises.
-          CHECK(std::abs(loss - 1) < 0.1001);
+          // 5 % by each of both premises, beside what the turning points take.
+          const Premise& slow = premises.slow_motion;
+          const double taken = one.law == &punch ? 0 : 0.05 * slow.limit_5_percent / slow.value;
+          CHECK(std::abs(loss - 1 + taken) < 0.1001);
           CHECK(premises.slip_of_closed_levels.verdict == Verdict::holds);
           CHECK(premises.slip_of_opening_levels.verdict == Verdict::holds);
         }
@@ -554,7 +562,13 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
     // slips at the edge.
     if (one.law != &punch) {
       CHECK(map.regime[0][0] == Regime::no_slip);
-      CHECK(map.loss_ratio(0, 0) == Approx(1).epsilon(2e-3));
+      const Premise slow =
+          premises_of(*one.law, one.mean,
+                      Drag{one.amplitude, velocities[0], normal.angular_frequency},
+                      {.friction_coefficient = friction, .excursion = excursions[0]})
+              .slow_motion;
+      CHECK(map.loss_ratio(0, 0) ==
+            Approx(1 - 0.05 * slow.limit_5_percent / slow.value).epsilon(2e-3));
     }
   }
 }
@@ -573,17 +587,19 @@ TEST_CASE("The loss in each regime is that of the simulated springs", "[regimes]
                              Point{0.7, 10, Regime::sliding}, Point{1.5, 10, Regime::sliding}}) {
     CAPTURE(point.velocity_ratio, point.cycles);
     const Drag drag{amplitude, point.velocity_ratio * critical, omega};
-    const SampledMotion path = there_and_back(drag, mean, point.cycles);
+    const TurningLoss loss = loss_of_turning(paraboloid, drag, mean, point.cycles, friction);
     const double excursion = point.cycles * 2 * pi * drag.drag_velocity / omega;
-    const double stick = trajectory_damping(paraboloid, path).work_per_cycle;
-    const TrajectoryDamping loss =
-        trajectory_damping(paraboloid, path, {.friction_coefficient = friction});
+    const double stick = relaxation_damping(paraboloid, AtIndentation{mean}, drag).work_per_cycle;
     const RegimeMap map = regime_map(paraboloid, mean, {amplitude, omega}, {drag.drag_velocity},
                                      {excursion}, friction);
     CHECK(word_of(map.regime[0][0]) == word_of(point.regime));
-    // The turning points, at the least indentation, take a part of a cycle each.
-    CHECK(map.slip_ratio(0, 0) == Approx(loss.slip_work / stick).epsilon(0.3 / point.cycles));
-    CHECK(map.loss_ratio(0, 0) == Approx(loss.work_per_cycle / stick).epsilon(0.3 / point.cycles));
+    INFO(map.slip_ratio(0, 0) * stick / loss.slip_work - 1
+         << ' ' << map.loss_ratio(0, 0) * stick / loss.work - 1);
+    // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.
+    CHECK(map.slip_ratio(0, 0) ==
+          Approx(loss.slip_work / stick).epsilon(0.1 / (point.cycles * point.cycles) + 3e-3));
+    CHECK(map.loss_ratio(0, 0) ==
+          Approx(loss.work / stick).epsilon(0.1 / (point.cycles * point.cycles) + 3e-3));
   }
 }
 
