@@ -102,6 +102,7 @@ function slidingLevels({amplitude, stretch, speed, excursion}) {
   }
   const linear = excursion - 4 * rise + 2 * back, rest = rise * (excursion - 2 * rise + 4 / 3 * back);
   return {
+    turningShare: (2 * rise - 4 / 3 * back) / excursion,
     deepest: (linear + Math.sqrt(linear * linear + 8 * Math.max(0, rest))) / 4,
     lossOfWay: (least) => Math.max(0, (least + rise) * (excursion - 2 * (least + rise)) + (2 * least + 4 / 3 * rise) * back),
   };
@@ -135,7 +136,7 @@ function losses(law, middle, motion) {
   const stick = overLevels(law, opening, (level) => (motion.place(half(level)) - motion.place(-half(level))) ** 2 / 2);
   if (!known(stretch)) return {stick, opened: NaN, relaxation: NaN, slip: NaN};
   const opened = overLevels(law, opening, (level) => springLoss(motion, level - middle, half(level), 1));
-  const taken = motion.drag && known(motion.excursion) ? costOfTurning(law, middle, amplitude) * motion.way / motion.excursion : 0;
+  const taken = motion.drag && known(motion.excursion) ? 1.5 * costOfTurning(law, middle, amplitude) * slidingLevels(motion).turningShare : 0;
   return {stick, opened, relaxation: opened * Math.max(0, 1 - taken), slip: slipLoss(law, middle, motion)};
 }
 

@@ -89,8 +89,7 @@ double LevelLoss::operator()(double level) const {
   if (level >= amplitude_) return 0;
   if (level > -amplitude_) {
     const double half = std::acos(level / amplitude_), loss = followed(level, half, 1);
-    // A turning point while it is closed leaves it a third of its loss in this cycle, of a slow
-    // motion; the share is that with which levels begin to stay closed.
+    // A turning point while it is closed leaves it, in slow motion, a third of its loss.
     return closed_ ? loss * (1 - closed_->turning_share(excursion_) * half / pi) : loss;
   }
   if (!closed_) return followed(level, pi, 2);

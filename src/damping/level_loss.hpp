@@ -22,7 +22,8 @@ class SlidingLevels {
   SlidingLevels(double swing, double speed);
 
   double rise() const { return rise_; }
-  /// 1 − W/(⟨r⟩X) at e = 0: what the turning points take where levels begin to stay closed.
+  /// 1 − W/(⟨r⟩X) at e = 0: the part that turning points take where levels begin to stay closed, and
+  /// θ/π of it of a level that touches from −θ to θ.
   double turning_share(double excursion) const { return (2 * rise_ - 4.0 / 3 * back_) / excursion; }
   /// W, m²; 0 where it is not above 0.
   double loss_of_way(double least_stretch, double excursion) const;
