@@ -140,7 +140,7 @@ TEST_CASE("Interaction moves the force-gap curve of summits to that of boundary 
     const InteractingSummits interacting(summits, soft, surface.grid, surface.heights.mean());
     const NormalContactState exact =
         press(surface, modulus, {.pressure = force}, {.tolerance = 1e-8});
-    REQUIRE(exact.converged);
+    REQUIRE(exact.converged());
     const double exact_length = force / normal_stiffness(exact, surface.grid, modulus);
     const double alone = independent.separation_of(force);
     const double together = interacting.separation_of(force);
