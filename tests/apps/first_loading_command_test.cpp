@@ -32,6 +32,9 @@ TEST_CASE("The residual surface of a contact carries the load by elasticity alon
   make_rough(test);
   const std::string press = " --pressure 20MPa" + material;
   const json plastic = test.answer("contact rough.h5 --hardness 150MPa --residual flat.h5" + press);
+  CHECK(plastic["max_pressure"] == 1.5e8);
+  CHECK(plastic["pressure"] == Approx(2e7).epsilon(1e-10));
+  CHECK(plastic["indentation"] > test.answer("contact rough.h5" + press)["indentation"]);
   CHECK(number(plastic, "first_loading", "yielded_area_fraction") > 0.01);
   CHECK(number(plastic, "first_loading", "max_plastic_depth") > 0);
   CHECK(number(plastic, "first_loading", "first_loading_pressure") == Approx(2e7));
