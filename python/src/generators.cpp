@@ -300,7 +300,7 @@ void bind_non_gaussian(nb::module_& m) {
           "__getstate__",
           [](const BoundNonGaussian& self) {
             return nb::make_tuple(self.made, self.iterations, self.spectrum_mismatch,
-                                  word_of(self.termination));
+                                  std::string(word_of(self.termination)));
           },
           nb::sig("def __getstate__(self) -> tuple[Surface, int, float, str]"))
       .def(

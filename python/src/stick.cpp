@@ -190,7 +190,8 @@ tolerance, max_iterations, boundary
           [](const SlidingContact& self) { return self.termination() == Termination::converged; },
           "Every increment did.")
       .def_prop_ro(
-          "termination", [](const SlidingContact& self) { return word_of(self.termination()); },
+          "termination",
+          [](const SlidingContact& self) { return std::string(word_of(self.termination())); },
           "How the increments ended, the worst of them: 'converged', 'stalled', 'iteration_limit', "
           "'out_of_range' or 'interrupted'.");
 }
