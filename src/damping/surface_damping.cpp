@@ -81,7 +81,9 @@ class Load {
     // A drag without turning points is followed by no slow motion.
     if (!std::isnan(options.friction_coefficient) &&
         (std::holds_alternative<EqualFrequency>(motion) || !std::isnan(options.excursion)))
-      slip_.emplace(motion, options.friction_coefficient / material.modulus_ratio(),
+      // A level of the force dF slips at μ dF, whatever its K_t is.
+      slip_.emplace(motion,
+                    options.friction_coefficient / (material.modulus_ratio() * ratio_.middle()),
                     options.excursion);
     for (const ForceSample& sample : curve.samples) {
       const auto point = detail::point_of(sample, material.modulus_ratio());

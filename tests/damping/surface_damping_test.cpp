@@ -176,6 +176,35 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("A surface that slides as a whole loses μF on its way, whatever its K_t is") {
+  // An elongated contact is stiffer along itself than G*/E* of K, and softer across.
+  constexpr double size = 1e-3, friction = 0.3;
+  const Grid2D grid{64, 64, size, size};
+  Surface surface{grid, Field(64, 64), false};
+  const Drag motion{2e-8, 1e-5, 1e5};
+  SurfaceDampingOptions options;
+  options.boundary = Boundary::free;
+  options.friction_coefficient = friction;
+  options.excursion = 1e-2;
+  for (const bool along : {true, false}) {
+    for (Index ix = 0; ix < 64; ++ix)
+      for (Index iy = 0; iy < 64; ++iy) {
+        const double x = size * (double(ix) - 31.3) / 64, y = size * (double(iy) - 31.8) / 64;
+        surface.heights(ix, iy) =
+            -(along ? x * x / 16e-3 + y * y / 1e-3 : x * x / 1e-3 + y * y / 16e-3);
+      }
+    const ForceCurve curve = sweep_pressures(
+        surface, material, {20e6}, {.contact = {.boundary = Boundary::free}, .stick = true});
+    const SurfaceDamping result = surface_damping(surface, material, motion, curve, options)[0];
+    INFO(result.stiffness_ratio);
+    CHECK(std::abs(result.stiffness_ratio - 1) > 0.03);
+    // Turning points take 4μδ/g of the excursion, below 0.5 %; the amplitude is 1e-3 of δ.
+    const double way = 2 * pi * motion.drag_velocity / motion.angular_frequency;
+    CHECK(result.relaxation_work + result.slip_work ==
+          Approx(friction * curve.samples[0].force * way).epsilon(0.01));
+  }
+}
+
 TEST_CASE("The loss of a paraboloid with slip is that of Hertz' law, from no slip to sliding") {
   constexpr double radius = 4e-3, size = 1e-3, mean_indentation = 20e-6, amplitude = 2e-6;
   const double coefficient = 4.0 / 3 * material.contact_modulus * std::sqrt(radius);
