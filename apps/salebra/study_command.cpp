@@ -234,7 +234,7 @@ StudyConfiguration StudyArguments::study() const {
   }
   if (!pressures.empty()) {
     require(pressures.size() >= 4, "--pressures", pressures.size(),
-            "values are too few; at least 4 make a curve");
+            "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
     study.pressures = pressures;
     study.relative_pressures = false;
   }

@@ -328,7 +328,7 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
         std::vector<double>(loads, 2));
   for (const std::string loads_given : {"10MPa", "10MPa,20MPa,30MPa"})
     check_refused(test.run(study + "--pressures " + loads_given + " -o t.h5"),
-                  "values are too few; at least 4 make a curve");
+                  "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
   check_refused(test.run(study + "--hardness 1kPa -o t.h5"),
                 "hardness: 1000 Pa is below the largest pressure");
   CHECK(!test.files().contains("t.h5"));
