@@ -207,17 +207,17 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
     if (slips) {
       answer.damping_constant_without_slip_error.push_back(load.damping_constant_error());
       follow_slip(answer, i,
-                  loss_of_works(load.relaxation_work + load.slip_work, load.slip_work, one));
-      result.error_estimate = load.work_with_slip_error;
+                  followed
+                      ? loss_of_works(load.relaxation_work + load.slip_work, load.slip_work, one)
+                      : unknown_loss());
+      if (followed) result.error_estimate = load.work_with_slip_error;
     }
-    if (!(result.error_estimate < std::abs(result.work_per_cycle)) || !followed) {
-      if (followed)
-        answer.doubts.push_back(
-            fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
-                        "a study of the surface with a `relative_error` halves the cells further",
-                        format_quantity(pressures[i], Dimension::pressure)));
+    if (followed && !(result.error_estimate < std::abs(result.work_per_cycle))) {
+      answer.doubts.push_back(
+          fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
+                      "a study of the surface with a `relative_error` halves the cells further",
+                      format_quantity(pressures[i], Dimension::pressure)));
       result.work_per_cycle = result.damping_constant = not_known;
-      if (!followed) result.error_estimate = not_known;
     }
     answer.damping_constant_error.push_back(
         closed_form::damping_constant(result.error_estimate, one));
