@@ -108,8 +108,7 @@ std::string why_unknown(const Case& one, const ContactFacts& facts) {
   const auto* drag = std::get_if<Drag>(&one.motion);
   if (drag && std::isnan(facts.excursion))
     return "with friction the loss of a slow motion depends on its `excursion`; give it";
-  if (drag &&
-      facts.excursion < 2 * std::numbers::pi * drag->drag_velocity / drag->angular_frequency)
+  if (drag && facts.excursion < drag->way_per_cycle())
     return "the motion turns back within one normal cycle: it is not slow; give a longer "
            "`excursion`, or a motion of equal frequencies";
   return {};
@@ -205,7 +204,8 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
     result.error_estimate = load.error;
     result.converged = load.converged;
     if (slips) {
-      answer.damping_constant_without_slip_error.push_back(load.damping_constant_error());
+      answer.damping_constant_without_slip_error.push_back(
+          closed_form::damping_constant(load.error, one));
       follow_slip(answer, i,
                   followed
                       ? loss_of_works(load.relaxation_work + load.slip_work, load.slip_work, one)

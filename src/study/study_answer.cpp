@@ -2,7 +2,6 @@
 // Answer of a study: the loss of the motion as described, and its conditions.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/study/study_answer.hpp>
@@ -108,9 +107,7 @@ StudyAnswer answer_of(const StudyResult& result) {
     }
   }
   // An excursion that one normal cycle covers is no slow motion.
-  const double way =
-      drag ? 2 * std::numbers::pi * drag->drag_velocity / drag->angular_frequency : 0;
-  if (!answer.needs.empty() || configuration.known.excursion < way)
+  if (!answer.needs.empty() || (drag && configuration.known.excursion < drag->way_per_cycle()))
     answer.damping_constant.assign(count, StatedMean());
   // γ of a loss of 1 J.
   const double per_work = closed_form::damping_constant(1, configuration.motion);

@@ -290,6 +290,22 @@ frequency = "20kHz"
   const auto two = test.answer("damping --surface rough.h5 --pressure 1MPa,3MPa" + motion);
   CHECK(two["work_per_cycle_per_area"][1] == Approx(number(two, "/work_per_cycle/1") / 1e-6));
   CHECK(two["damping_constant"][0] == Approx(one["damping_constant"]).epsilon(0.01));
+  // The way of a normal cycle is 50 pm: what turns back within it is not slow, and no number of it
+  // is given but those without slip.
+  const std::string slips =
+      "damping --surface rough.h5 --pressure 1MPa --friction-coefficient 0.3" + motion +
+      "--excursion ";
+  const auto turns = test.answer(slips + "40pm"), slow = test.answer(slips + "1nm");
+  for (const std::string name : {"work_per_cycle", "power", "damping_constant", "error_estimate",
+                                 "damping_constant_error", "slip_share", "relaxation_share"}) {
+    INFO(name);
+    CHECK(turns[name].is_null());
+    CHECK_FALSE(slow[name].is_null());
+  }
+  for (const auto& answer : {turns, slow}) {
+    CHECK(answer["damping_constant_without_slip"] == one["damping_constant"]);
+    CHECK(answer["damping_constant_without_slip_error"] == one["damping_constant_error"]);
+  }
   test.done(
       "joint --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
       "--friction-coefficient 0.3 --tangential-forces 10mN");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <salebra/base/words.hpp>
 #include <salebra/damping/quantities.hpp>
@@ -33,6 +35,11 @@ struct Drag {
   double normal_amplitude = 0;   ///< u_z >= 0, m
   double drag_velocity = 0;      ///< v, m/s
   double angular_frequency = 0;  ///< ω > 0, rad/s
+
+  /// w = |v|/f, m: slow is what turns back after many of them.
+  double way_per_cycle() const {
+    return 2 * std::numbers::pi * std::abs(drag_velocity) / angular_frequency;
+  }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Drag>) {
