@@ -89,16 +89,15 @@ function meanRise(ratio) {
 
 /** What a level that never opens loses on a way between turning points at random phases, as SlidingLevels (damping/level_loss.hpp). */
 function slidingLevels({amplitude, stretch, speed, excursion}) {
-  const swing = stretch * amplitude, rise = swing * meanRise(speed / swing), phases = 240, step = 2 * Math.PI * speed / phases, above = [];
-  let last = 0, back = 0;
-  for (let i = -phases; i < 2 * phases; ++i) {
+  const swing = stretch * amplitude, rise = swing * meanRise(speed / swing), phases = 240, step = 2 * Math.PI * speed / phases, place = [];
+  let last = 0, back = 0, lowest = Infinity;
+  for (let i = 0; i < 3 * phases; ++i) {
     last = Math.min(swing * (1 - Math.cos(2 * Math.PI * i / phases)), last + step);
-    if (i >= 0) above.push(last);
+    if (i >= phases) place.push(last + (i - phases) * step);
   }
-  for (let i = 0; i < phases; ++i) {
-    let most = 0;
-    for (let j = i + 1; j < i + phases; ++j) most = Math.max(most, above[i] - above[j] - (j - i) * step);
-    back += most / phases;
+  for (let i = place.length - 1; i >= 0; --i) {
+    lowest = Math.min(lowest, place[i]);
+    if (i < phases) back += (place[i] - lowest) / phases;
   }
   const linear = excursion - 4 * rise + 2 * back, rest = rise * (excursion - 2 * rise + 4 / 3 * back);
   return {

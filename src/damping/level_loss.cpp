@@ -21,20 +21,20 @@ constexpr int steps = 360;  // the loss is then good to 1e-4
 }  // namespace
 
 SlidingLevels::SlidingLevels(double swing, double speed) : rise_(swing * mean_rise(speed / swing)) {
-  // The stretch above the least one follows the limit down, and sticks where the limit runs away.
-  constexpr int phases = 240;
+  // The stretch above the least one follows the limit down, and sticks where the limit runs away: r
+  // + x in two cycles after a first. Later ones are greater by the way, and decide no minimum.
+  constexpr std::size_t phases = 240;
   const double step = 2 * pi * speed / phases;
-  std::array<double, 2 * phases> stretch;
-  double last = 0;
-  for (int i = -phases; i < 2 * phases; ++i) {
-    last = std::min(swing * (1 - std::cos(2 * pi * i / phases)), last + step);
-    if (i >= 0) stretch[std::size_t(i)] = last;
+  std::array<double, 2 * phases> place;
+  double stretch = 0;
+  for (std::size_t i = 0; i < 3 * phases; ++i) {
+    stretch = std::min(swing * (1 - std::cos(2 * pi * double(i) / phases)), stretch + step);
+    if (i >= phases) place[i - phases] = stretch + double(i - phases) * step;
   }
-  for (std::size_t i = 0; i < phases; ++i) {
-    double back = 0;
-    for (std::size_t j = i + 1; j < i + phases; ++j)
-      back = std::max(back, stretch[i] - stretch[j] - double(j - i) * step);
-    back_ += back / phases;
+  double least = place.back();
+  for (std::size_t i = place.size(); i-- > 0;) {
+    least = std::min(least, place[i]);
+    if (i < phases) back_ += (place[i] - least) / phases;
   }
 }
 
@@ -57,7 +57,7 @@ LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion
       excursion_(excursion) {
   if (const auto* drag = std::get_if<Drag>(&motion)) {
     const double speed = std::abs(drag->drag_velocity) / drag->angular_frequency;
-    way_ = 2 * pi * speed;
+    way_ = drag->way_per_cycle();
     closed_.emplace(stretch * amplitude_, speed);
     depth_ = closed_->deepest(excursion) / stretch;
   } else {

@@ -7,12 +7,12 @@
 
 namespace salebra::detail {
 
-/// Levels that stay closed on a slow way between turning points at random phases of the normal cycle,
-/// springs of 1 N/m. The least stretch of one in a cycle is e, and while it slides its stretch is e +
-/// r(φ), r = 0 at the least indentation. Sliding would lose (e + ⟨r⟩)X on the way X. After a turning
-/// point at φ a spring sticks until its limit meets it from ahead, and until then it may be dragged
-/// back by b(φ) = max(0, max(r(φ) − r(φ') − x(φ') + x(φ))) where its limit falls faster than it is
-/// drawn. The mean over φ is
+/// Levels that stay closed on a slow way between turning points at random phases of the normal
+/// cycle, springs of 1 N/m. The least stretch of one in a cycle is e, and while it slides its
+/// stretch is e + r(φ), r = 0 at the least indentation. Sliding would lose (e + ⟨r⟩)X on the way X.
+/// After a turning point at φ a spring sticks until its limit meets it from ahead, and until then it
+/// may be dragged back by b(φ) = max(0, max(r(φ) − r(φ') − x(φ') + x(φ))) where its limit falls
+/// faster than it is drawn. The mean over φ is
 ///     W = (e + ⟨r⟩) X − 2(e + ⟨r⟩)² + (2e + 4/3 ⟨r⟩)⟨b⟩,
 /// to first order in the way of a cycle over X, exact at e = 0 in slow motion, where ⟨b⟩ = ⟨r⟩/2.
 class SlidingLevels {
@@ -21,9 +21,8 @@ class SlidingLevels {
   /// speed  v/ω, m
   SlidingLevels(double swing, double speed);
 
-  double rise() const { return rise_; }
-  /// 1 − W/(⟨r⟩X) at e = 0: the part that turning points take where levels begin to stay closed, and
-  /// θ/π of it of a level that touches from −θ to θ.
+  /// 1 − W/(⟨r⟩X) at e = 0: the part that turning points take where levels begin to stay closed;
+  /// of a level that touches from −θ to θ, θ/π times it.
   double turning_share(double excursion) const { return (2 * rise_ - 4.0 / 3 * back_) / excursion; }
   /// W, m²; 0 where it is not above 0.
   double loss_of_way(double least_stretch, double excursion) const;
