@@ -62,7 +62,7 @@ constexpr std::string_view rest = R"(
 contact_modulus = "115GPa"   # E* of both bodies together: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; this is steel on steel
 poisson = 0.3                # of one elastic body on a rigid one, for G*
 # tangential_modulus = "95GPa"  # G*, instead of poisson
-# friction_coefficient = 0.3    # to judge slip, and for the loss with it; likewise density = 7800 (kg/m^3), to judge inertia
+# friction_coefficient = 0.3    # with it the damping constant is that with slip; density = 7800 (kg/m^3) is to judge inertia
 # hardness = "7GPa"             # the surface is first loaded to the largest pressure, and flows where the local one reaches this
 # young = ["210GPa", "70GPa"]   # instead of contact_modulus; then poisson = [0.3, 0.33]
 
@@ -82,7 +82,7 @@ tangential_stiffness = "stick"       # K_t by a solve on each contact; "proporti
 mode = "drag"                # slow tangential motion under a normal oscillation, Eqs (13) to (16)
 normal_amplitude = {amplitude}     # small against the decay length l (about half the rms height) for Eq. (16) to hold
 drag_velocity = "100nm/s"    # of a slow oscillation, far below (mu E*/G*) u_z omega; a drag without end slides
-# excursion = "0.1nm"          # of the slow oscillation, from one turning point to the other, to judge its slip
+# excursion = "0.1nm"          # of the slow oscillation, from one turning point to the other: decides its slip
 frequency = "20kHz"
 # angular_frequency = 125664   # rad/s, instead of frequency
 # mode = "equal-frequency"     # both directions oscillate, Eq. (12); then, instead of drag_velocity:

@@ -36,7 +36,7 @@ const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases
 void PremiseOptions::add_to(Command& command, bool excursion_judged) {
   const std::string group = "Premises";
   add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
-               "of the two bodies, to judge slip")
+               "of the two bodies, by which slip is followed or judged")
       ->group(group);
   add_quantity(command, "--hardness", hardness, Dimension::pressure,
                "of the softer body. A surface is first loaded to its largest pressure, with local "

@@ -110,9 +110,10 @@ class StudyReport {
   /// planned where there is no output, where the user wants no page, or where this build cannot
   /// make one, which write() then says.
   StudyReport(const StudyArguments& arguments, Session& session);
-  /// Writes what was planned, from the results file; its path, if there is one. Of several processes the
-  /// first does so. The results are safe by now, and their answer comes first: a page that is in
-  /// the way is a warning, and one that could not be written is thrown by require_written().
+  /// Writes what was planned, from the results file; its path, if there is one. Of several
+  /// processes the first does so. The results are safe by now, and their answer comes first: a page
+  /// that is in the way is a warning, and one that could not be written is thrown by
+  /// require_written().
   std::optional<std::string> write();
   /// Throws IoError where the system refused the page. Collective.
   void require_written() const;

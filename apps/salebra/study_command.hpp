@@ -36,7 +36,7 @@ struct StudyArguments {
   bool merge = false;
   bool no_report = false;
   bool verbose = false;  ///< of study
-  int groups = 0;  ///< of processes; 0: one
+  int groups = 0;        ///< of processes; 0: one
 
   /// over_processes: those of salebra-mpi may share the work.
   void add_to(Command& command, bool over_processes);
@@ -87,8 +87,8 @@ std::string ensemble_remarks(const StudyResult& result);
 PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result);
 /// γ and work of the motion as described, with the shares of slip.
 Json damping_json(const StudyAnswer& answer);
-/// Adds how many surfaces there are, what is wrong with them, their first loading where a hardness is
-/// known, and the premises.
+/// Adds how many surfaces there are, what is wrong with them, their first loading where a hardness
+/// is known, and the premises.
 void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found);
 
 }  // namespace salebra::cli

@@ -6,8 +6,8 @@
 // A table, one row a motion: excursion, friction, gamma of the study with its error and its part by
 // slip; gamma and part by slip of the simulation; gamma of springs by 150 contacts on the cells of
 // the simulation, twice as wide as the study's finest, and how far it is off the simulation. The
-// simulation turns back: by docs/theory.md, section 8, this alone makes 0.44 w/X = 2.2 % of the
-// relaxation loss.
+// simulation turns back a quarter of a normal cycle after the least indentation, which costs what
+// the mean over all phases does (src/damping/level_loss.hpp).
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

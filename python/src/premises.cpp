@@ -110,7 +110,9 @@ void bind_loss_with_slip(nb::module_& m) {
       nb::arg("law"), nb::arg("motion"), nb::arg("mean_indentation"), nb::kw_only(),
       nb::arg("friction_coefficient"), nb::arg("excursion") = ContactFacts::unknown,
       "The loss of a cycle with slip. Case (b) without an excursion (m): sliding without end, all "
-      "levels slip; with one: mean of a cycle on the way there and back.");
+      "levels slip; with one: mean of a cycle on the way there and back, and over the phases of "
+      "its "
+      "turning points.");
 }
 
 void bind_regime_map(nb::module_& m) {

@@ -370,8 +370,8 @@ class ClosedLevels {
     return loss(excursion) * way_per_cycle_ / excursion;
   }
 
-  // The part of the loss of levels that open which the turning points leave. cost: cost_of_turning(),
-  // two thirds of the mean θ/π of levels that touch from −θ to θ.
+  // What the turning points leave of the loss of levels that open. cost: cost_of_turning(), two
+  // thirds of the mean θ/π of levels that touch from −θ to θ.
   double kept(double cost, double excursion) const {
     return std::max(0.0, 1 - 1.5 * cost * levels_.turning_share(excursion));
   }

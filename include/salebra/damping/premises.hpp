@@ -299,7 +299,8 @@ constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
 }
 
 /// Takes the same springs with friction. Case (b) without an excursion: sliding that goes on, all
-/// levels slip; with one: mean of a cycle on the way there and back.
+/// levels slip; with one: mean of a cycle on the way there and back, and over the phases of the
+/// turning points, to first order in the way of a cycle over the excursion.
 /// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
 LossWithSlip loss_with_slip(const ContactLaw& law, double mean_indentation,
                             const Oscillation& motion, double friction_coefficient,

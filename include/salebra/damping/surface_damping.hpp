@@ -153,10 +153,11 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// solver: its tolerance, relative to F, times the weights of the forces in W.
 ///
 /// With a coefficient of friction, besides: the loss of the same springs with slip, as
-/// loss_with_slip() of a law, W = −∫K_t w' dζ with the loss w of one spring at each level, which slips
-/// at μ/(ρG*/E*) times its depth, so that a contact that slides as a whole carries μF. Where
-/// levels slip that stay closed, down to δ0 − u_z − gX/(2μ) in a drag or to first touch, further
-/// contacts give K, in pieces over which F falls by e^1.5. The loss is that at finite amplitude.
+/// loss_with_slip() of a law, W = −∫K_t w' dζ with the loss w of one spring at each level, which
+/// slips at μ/(ρG*/E*) times its depth, so that a contact that slides as a whole carries μF. Where
+/// levels slip that stay closed, about X/2 of stretch below δ0 − u_z in a drag or down to first
+/// touch, further contacts give K, in pieces over which F falls by e^1.5. The loss is that at finite
+/// amplitude.
 /// Its error has the same parts; ρ below the oscillation follows the curve, and counts as an error
 /// there. W without slip has the same bits as without friction.
 ///

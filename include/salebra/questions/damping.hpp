@@ -43,8 +43,8 @@ struct DampingAnswer {
   std::vector<Motion> motions = {};
   /// Of the contact as described. With friction work, power and damping constant are those with
   /// slip: followed step by step, of a slow motion by its turning points, of a surface by contacts
-  /// where levels slip. Unknown where a fact is missing that decides, the excursion of a slow motion,
-  /// where the motion is not slow at all, never repeats, or has its force given.
+  /// where levels slip. Unknown where a fact is missing that decides, the excursion of a slow
+  /// motion, where the motion is not slow at all, never repeats, or has its force given.
   std::vector<DampingResult> results = {};
   /// Of a surface, whose loss comes from contacts inside the oscillation, N s/m and J.
   std::vector<double> damping_constant_error = {}, error_estimate = {};

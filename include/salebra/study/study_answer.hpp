@@ -9,8 +9,8 @@
 namespace salebra {
 
 /// What a study says of the motion that was described, at each of its pressures, and whether it may
-/// be used. Premises are those of the mean curve of the boundary elements: gap, area and stiffnesses
-/// averaged over the surfaces at each pressure.
+/// be used. Premises are those of the mean curve of the boundary elements: gap, area and
+/// stiffnesses averaged over the surfaces at each pressure.
 struct StudyAnswer {
   std::vector<double> pressures = {};  ///< nominal, Pa
   /// γ = P/⟨ẋ²⟩, N s/m, of the contact as described: with slip where the coefficient of friction is
@@ -56,10 +56,11 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
 /// Cost: 10 ms for each pressure.
 StudyAnswer answer_of(const StudyResult& result);
 
-/// How many surfaces the mean of the damping constant without slip would need at each pressure for 95 %
-/// intervals of ±precision, by that of the n surfaces at hand: n (half its width/(precision·mean))²,
-/// and not below 2. The variance of few surfaces is itself known to √(2/(n − 1)) at the best. NaN where no
-/// interval is known. Throws InvalidInput for a precision that is not > 0.
+/// How many surfaces the mean of the damping constant without slip would need at each pressure for
+/// 95 % intervals of ±precision, by that of the n surfaces at hand: n (half its
+/// width/(precision·mean))², and not below 2. The variance of few surfaces is itself known to √(2/(n
+/// − 1)) at the best. NaN where no interval is known. Throws InvalidInput for a precision that is
+/// not > 0.
 std::vector<double> surfaces_for(const StudyResult& result, double precision);
 
 }  // namespace salebra
