@@ -173,6 +173,18 @@ void lose(const DampingArguments& arguments, Session& session) {
                                    answer.results.size()));
 }
 
+// The fields of a map that this answer has.
+std::vector<std::pair<std::string, const Field*>> fields_of(const DamperAnswer& answer) {
+  std::vector<std::pair<std::string, const Field*>> fields;
+  for (const auto& [name, field] :
+       {std::pair{"damping_constant", &answer.map.damping_constant},
+        {"damping_constant_error", &answer.damping_constant_error},
+        {"slip_share", &answer.slip_share},
+        {"damping_constant_without_slip", &answer.damping_constant_without_slip}})
+    if (field->size() > 0) fields.emplace_back(name, field);
+  return fields;
+}
+
 void write_map(const DamperAnswer& answer, const std::optional<double>& falling_slope,
                const Session& session) {
   const DamperMap& map = answer.map;
@@ -180,10 +192,8 @@ void write_map(const DamperAnswer& answer, const std::optional<double>& falling_
   QuantityGroup group(file.group("damper"));
   group.coordinate("normal_amplitude", map.normal_amplitude);
   group.coordinate("angular_frequency", map.angular_frequency);
-  group.dataset("damping_constant", map.damping_constant, "normal_amplitude", "angular_frequency");
-  if (answer.damping_constant_error.size() > 0)
-    group.dataset("damping_constant_error", answer.damping_constant_error, "normal_amplitude",
-                  "angular_frequency");
+  for (const auto& [name, field] : fields_of(answer))
+    group.dataset(name, *field, "normal_amplitude", "angular_frequency");
   if (falling_slope) {
     std::vector<bool> stable;
     for (Index i = 0; i < map.damping_constant.rows(); ++i)
@@ -217,10 +227,8 @@ std::string text_of(const Json& answer, const DamperAnswer& found) {
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
     for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
       Json pair{{"normal_amplitude", map.normal_amplitude[i]},
-                {"angular_frequency", map.angular_frequency[j]},
-                {"damping_constant", map.damping_constant(Index(i), Index(j))}};
-      if (found.contact.surface)
-        pair["damping_constant_error"] = found.damping_constant_error(Index(i), Index(j));
+                {"angular_frequency", map.angular_frequency[j]}};
+      for (const auto& [name, field] : fields_of(found)) pair[name] = (*field)(Index(i), Index(j));
       pairs.push_back(pair);
     }
   std::string text = to_text(Json{{"map", pairs}});
@@ -241,7 +249,7 @@ DamperQuestion damper_question(const DampingArguments& arguments) {
         {"--tangential-frequency", &motion.tangential_frequency}})
     require_that(values->empty(), option, "given, but --mode drag has none; leave it out");
   require(motion.drag_velocity.size() < 2, "--drag-velocity", motion.drag_velocity.size(),
-          "values are given; a damper takes one, to judge slip");
+          "values are given; a damper takes one");
   DamperQuestion question{.normal_amplitude = motion.normal_amplitude,
                           .angular_frequency = motion.frequency.angular(),
                           .hold = *value_of<Hold>(arguments.hold),
@@ -276,9 +284,7 @@ void damp(const DampingArguments& arguments, Session& session) {
   Json object = Json::object();
   if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
   if (omega.size() > 1) object["angular_frequency"] = omega;
-  if (!amplitudes.empty()) object["damping_constant"] = constants(answer.map.damping_constant);
-  if (answer.damping_constant_error.size() > 0)
-    object["damping_constant_error"] = constants(answer.damping_constant_error);
+  for (const auto& [name, field] : fields_of(answer)) object[name] = constants(*field);
   object.add(answer_json(answer));
   if (!amplitudes.empty() && session.has_output())
     write_map(answer, arguments.body.falling_slope, session);
@@ -292,7 +298,10 @@ void damp(const DampingArguments& arguments, Session& session) {
   const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
   const std::string text = pairs ? text_of(object, answer) : to_text(object);
   if (answer.premises.empty()) return session.answer(object, text);
-  PremiseReport{answer.premises, amplitudes.size() > 1}.answer(session, object, text);
+  PremiseReport{.cases = answer.premises,
+                .list = amplitudes.size() > 1,
+                .slip_followed = answer.slip_share.size() > 0 && !answer.slip_share.isNaN().all()}
+      .answer(session, object, text);
 }
 
 void run(const DampingArguments& arguments, Session& session) {

@@ -77,8 +77,18 @@ ContactFacts PremiseOptions::facts(const MaterialOptions& material,
   return facts;
 }
 
+std::vector<Condition> PremiseReport::all_conditions() const {
+  std::vector<Condition> all = conditions_of(cases, slip_followed, pressures);
+  // The loss of another body than the one judged is known without slip alone.
+  if (!body.empty())
+    for (Condition& one : all)
+      if (!one.remedy.empty() && one.name.starts_with("slip_of"))
+        one.remedy = "a smaller motion; slip is not followed here";
+  return all;
+}
+
 void PremiseReport::add_to(Json& answer) const {
-  const std::vector<Condition> judged_conditions = conditions_of(cases, slip_followed, pressures);
+  const std::vector<Condition> judged_conditions = all_conditions();
   answer["validity"] = std::string(word_of(validity_of(judged_conditions)));
   Json& conditions = answer["conditions"] = Json::array();
   for (Condition one : judged_conditions) {
@@ -120,7 +130,7 @@ void PremiseReport::add_to(Json& answer) const {
 }
 
 std::string PremiseReport::text() const {
-  const std::vector<Condition> conditions = conditions_of(cases, slip_followed, pressures);
+  const std::vector<Condition> conditions = all_conditions();
   std::string text;
   const std::string largest = motion_without_slip(cases);
   const bool judged = std::ranges::any_of(conditions, [](const Condition& one) {
@@ -131,7 +141,11 @@ std::string PremiseReport::text() const {
   text += fmt::format("Validity: {}\n{}", word_of(validity_of(conditions)),
                       in_options(in_words(conditions)));
   if (!list && cases.front().regime != Regime::unknown)
-    text += "Regime: " + std::string(word_of(cases.front().regime)) + "\n";
+    text += fmt::format(
+        "Regime: {}{}\n", word_of(cases.front().regime),
+        cases.front().regime == Regime::sliding
+            ? ": the mean friction of a motion that goes on is that of `salebra sliding`"
+            : "");
   if (!body.empty()) text += "The conditions are those of the " + body + "\n";
   return text;
 }

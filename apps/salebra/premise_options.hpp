@@ -37,6 +37,9 @@ struct PremiseReport {
   /// The answer with its premises, as JSON or text.
   void answer(Session& session, Json object, const std::string& text) const;
   void answer(Session& session, Json object) const;
+
+ private:
+  std::vector<Condition> all_conditions() const;
 };
 
 }  // namespace salebra::cli

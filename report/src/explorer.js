@@ -39,17 +39,19 @@ function lawOf(point) {
   const logStiffness = positive(tangential) ? monotoneCubic(x, loads.map((k) => Math.log(tangential[k]))) : null;
   const forceIn = (at) => Math.exp(logForce(at).value), stiffnessIn = (at) => (logStiffness ? Math.exp(logStiffness(at).value) : ratio * forceIn(at) * logForce(at).slope);
   const [low, high] = [x[0], x.at(-1)].map((at) => ({at, length: 1 / logForce(at).slope}));
+  // K_t/‹K›, by which levels slip: of a curve that has a ‹K›_t of its own; beyond the curve that of its end.
+  const ratioAt = (at) => { const inside = Math.min(high.at, Math.max(low.at, at)); return logStiffness ? stiffnessIn(inside) / (forceIn(inside) * logForce(inside).slope) : ratio; };
   const continued = (inside) => (at) => { const end = at < low.at ? low : at > high.at ? high : null; return end ? inside(end.at) * Math.exp((at - end.at) / end.length) : inside(at); };
   // Of levels deeper than the last 21 lengths e^{-21} = 1e-9 touches.
-  return {low: low.at, high: high.at, deepest: low.at - 21 * low.length, force: continued(forceIn), stiffness: continued(stiffnessIn), indentation: (k) => (loads.includes(k) ? -gap[k] : NaN)};
+  return {low: low.at, high: high.at, deepest: low.at - 21 * low.length, force: continued(forceIn), stiffness: continued(stiffnessIn), ratio: ratioAt, indentation: (k) => (loads.includes(k) ? -gap[k] : NaN)};
 }
 
 /** Where the indentation is in the mean: at the load, or where the mean force of the cycle is that of the load. */
-function meanIndentation(law, k, motion) {
+function meanIndentation(point, law, k, amplitude) {
   const rest = law.indentation(k), force = law.force(rest);
-  if (motion.hold !== "force") return rest;
-  const mean = (at) => Array.from({length: 90}, (_, i) => law.force(at + motion.amplitude * Math.cos(Math.PI * (i + 0.5) / 90))).reduce((a, b) => a + b) / 90;
-  let low = rest - motion.amplitude, high = rest;
+  if (point.damping.hold !== "force") return rest;
+  const mean = (at) => Array.from({length: 90}, (_, i) => law.force(at + amplitude * Math.cos(Math.PI * (i + 0.5) / 90))).reduce((a, b) => a + b) / 90;
+  let low = rest - amplitude, high = rest;
   for (let i = 0; i < 50; ++i) { const middle = (low + high) / 2; if (mean(middle) > force) high = middle; else low = middle; }
   return low;
 }
@@ -107,11 +109,11 @@ function slidingLevels({amplitude, stretch, speed, excursion}) {
   };
 }
 
-/** The motion of the numbers that a reader sets; g is the ratio of the moduli. */
-function motionOf(set, g) {
+/** The motion of the numbers that a reader sets, about an indentation. */
+function motionOf(law, middle, set) {
   const omega = 2 * Math.PI * set.frequency, speed = set.drag_velocity / omega;
   const drag = known(set.drag_velocity);
-  return {...set, amplitude: set.normal_amplitude, drag, omega, speed, way: drag ? 2 * Math.PI * speed : 0, stretch: set.friction_coefficient / g,
+  return {...set, amplitude: set.normal_amplitude, drag, omega, speed, way: drag ? 2 * Math.PI * speed : 0, stretch: set.friction_coefficient / law.ratio(middle),
     place: drag ? (angle) => speed * angle : (angle) => set.tangential_amplitude * Math.cos(angle + set.phase),
     perWork: set.frequency / (drag ? set.drag_velocity ** 2 : (omega * set.tangential_amplitude) ** 2 / 2)};
 }
@@ -214,7 +216,7 @@ function conditionsOf(point, k, law, middle, motion, loss) {
 function curveCondition(point, k, law) {
   const contacts = point.answer?.damping_constant;
   if (!contacts?.error?.some(known)) return null;
-  const motion = motionOf({...studiedMotion(point), hold: point.damping.hold}, point.damping.modulus_ratio), middle = meanIndentation(law, k, motion), slips = point.slip_followed === "yes";
+  const studied = studiedMotion(point), middle = meanIndentation(point, law, k, studied.normal_amplitude), motion = motionOf(law, middle, studied), slips = point.slip_followed === "yes";
   const loss = middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;
   const off = curve / contacts.mean[k] - 1, error = contacts.error[k] / contacts.mean[k], beyond = Math.max(0, Math.abs(off) - error);
   const verdict = !known(beyond) ? "unknown" : beyond > 0.2 ? "broken" : beyond > 0.05 ? "doubtful" : "holds";
@@ -224,11 +226,10 @@ function curveCondition(point, k, law) {
 
 /** What the program says of a motion at load ‹k› of the mean curve; numbers that it does not give are NaN, and `why` says so. */
 function explore(point, k, set) {
-  const law = lawOf(point), motion = motionOf({...set, hold: point.damping.hold}, point.damping.modulus_ratio);
+  const law = lawOf(point), middle = meanIndentation(point, law, k, set.normal_amplitude), motion = motionOf(law, middle, set);
   const nothing = (why) => ({work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", conditions: [], why});
   for (const name of ["normal_amplitude", "frequency", motion.drag ? "drag_velocity" : "tangential_amplitude"]) if (!(set[name] > 0)) return nothing(`\`${name}\` must be > 0.`);
   for (const name of ["friction_coefficient", "excursion"]) if (set[name] <= 0) return nothing(`\`${name}\` must be > 0.`);
-  const middle = meanIndentation(law, k, motion);
   if (!known(middle)) return nothing("The contact at this load did not converge.");
   if (!(middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high)) return nothing("`normal_amplitude` leaves the curve’s range; reduce the amplitude or extend the curve.");
   const loss = losses(law, middle, motion), slips = known(motion.friction_coefficient);
@@ -242,11 +243,9 @@ function explore(point, k, set) {
 
 /** The motion of the study, with what it knows of friction. */
 function studiedMotion(point) {
-  const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, modulus_ratio} = point.damping, frequency = angular_frequency / (2 * Math.PI);
-  const any = (name) => point.premises[name].value.find(known) ?? NaN;
-  const speed = drag_velocity === undefined ? tangential_amplitude : drag_velocity / angular_frequency;
-  return {normal_amplitude, frequency, ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion: any("slip_of_closed_levels")}),
-    friction_coefficient: Number((any("slip_of_opening_levels") * modulus_ratio * speed / normal_amplitude).toPrecision(6))};
+  const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, friction_coefficient} = point.damping, frequency = angular_frequency / (2 * Math.PI);
+  const excursion = point.premises.slip_of_closed_levels.value.find(known) ?? NaN;
+  return {normal_amplitude, frequency, ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion}), friction_coefficient: friction_coefficient ?? NaN};
 }
 
 const CONTROLS = {normal_amplitude: ["normal amplitude ‹u›_{z}", "m"], frequency: ["frequency", "Hz"], drag_velocity: ["velocity ‹v›", "m/s"], tangential_amplitude: ["tangential amplitude ‹u›_{x}", "m"], phase: ["phase", "rad"],
@@ -283,11 +282,11 @@ function explorer(body, point) {
 /** Regimes of the slow motion over velocity and excursion, with borders as regime_map() of the library, and the motion that is set. */
 function regimeMap(parent, point, set) {
   const borders = () => {
-    const law = lawOf(point), k = shownLoad(point), at = (velocity) => motionOf({...set, drag_velocity: velocity, hold: point.damping.hold}, point.damping.modulus_ratio);
+    const law = lawOf(point), middle = meanIndentation(point, law, shownLoad(point), set.normal_amplitude), at = (velocity) => motionOf(law, middle, {...set, drag_velocity: velocity});
     const slips = set.friction_coefficient > 0, critical = slips ? at(1).stretch * set.normal_amplitude * 2 * Math.PI * set.frequency : set.drag_velocity;
     const ends = [Math.min(critical, set.drag_velocity) / 100, Math.max(critical, set.drag_velocity) * 10];
     const velocity = Array.from({length: 31}, (_, i) => ends[0] * (ends[1] / ends[0]) ** (i / 30)), way = velocity.map((v) => at(v).way);
-    const middle = meanIndentation(law, k, at(1)), bottom = middle - set.normal_amplitude;
+    const bottom = middle - set.normal_amplitude;
     // Where a condition that holds at the lower end no longer does.
     const last = (low, high, holds) => { if (!holds(low)) return 0; for (let i = 0; i < 40; ++i) { const m = Math.sqrt(low * high); if (holds(m)) low = m; else high = m; } return low; };
     if (!slips || !(bottom >= law.low && middle + set.normal_amplitude <= law.high)) return {velocity, way, noSlip: way.map(() => null), sliding: null, critical: null};

@@ -21,7 +21,8 @@ FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double 
   const auto columns = static_cast<Index>(phases.size());
   FrictionMap map{friction_numbers, phases, Field(rows, columns), Field(rows, columns),
                   Field(rows, columns)};
-  const double friction_of_one = law.modulus_ratio() * tangential_amplitude / normal_amplitude;
+  const double friction_of_one =
+      law.stiffness_ratio(mean_indentation) * tangential_amplitude / normal_amplitude;
   for (Index j = 0; j < columns; ++j) {
     const double phase = phases[static_cast<std::size_t>(j)];
     const SampledMotion path = sample(EqualFrequency{.normal_amplitude = normal_amplitude,

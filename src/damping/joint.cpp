@@ -34,7 +34,7 @@ void check(const TangentialOscillation& motion, double friction_coefficient) {
 void check_below_sliding(double force, double limit, const char* where) {
   require(force < limit, "tangential_force", format_quantity(force, Dimension::force),
           "must be below " + format_quantity(limit, Dimension::force, 6) +
-              ", at which the contact slides" + where);
+              ", at which the contact slides" + where + "; beyond it sliding is steady");
 }
 
 [[noreturn]] void refuse_deep_slip() {
@@ -77,10 +77,10 @@ class SlippingLevels {
   bool converged_ = true;
 };
 
-// The depth of slip c at which T is reached: (μ/g) ∫_0^c K_t(δ − u) du = T.
+// The depth of slip c at which T is reached: (μ/g) ∫_0^c K_t(δ − u) du = T, g = K_t/K at δ.
 double depth_of_slip(const ContactLaw& law, double high, double force, double friction_coefficient,
                      double tolerance) {
-  const double target = law.modulus_ratio() * force / friction_coefficient;
+  const double target = law.stiffness_ratio(high) * force / friction_coefficient;
   const double stiffness = law.tangential_stiffness(high);
   require(stiffness > 0, "indentation", high, "is one at which nothing touches");
   // The integral is concave in c: Newton's method from 0 rises to the root and never passes it.
@@ -255,7 +255,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const DampingOptions& options) {
   check(motion, friction_coefficient);
   const double high = indentation_of(law, position);
-  const double limit = friction_coefficient / law.modulus_ratio();  // stretch over depth
+  const double limit = friction_coefficient / law.stiffness_ratio(high);  // stretch over depth
   const auto* by_force = std::get_if<TangentialForce>(&motion);
   const double depth = by_force ? depth_of_slip(law, high, by_force->amplitude,
                                                 friction_coefficient, options.tolerance)
@@ -297,7 +297,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
     losses.push_back(joint_loss(law, position, motion, friction_coefficient));
   if (losses.empty()) return losses;
   const Surface fine = refined(surface, 2);
-  const double area = surface.grid.area(), limit = friction_coefficient / law.modulus_ratio();
+  const double area = surface.grid.area();
   NormalContactOptions contact;
   contact.on_progress = on_progress;
   // c is the difference of two indentations, of which it may be a hundredth.
@@ -310,23 +310,23 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   };
   const double level = losses.front().indentation;
   const NormalContactState high = at_force(law.force(level));
-  // K_t/((G*/E*)K) hardly changes where a joint slips. The law interpolates both stiffnesses.
+  // K_t/K hardly changes where a joint slips. The law interpolates both stiffnesses.
   const ForceSample stuck =
       stuck_at(high.force / area, surface, material, on_progress).samples.front();
-  const double ratio = stuck.tangential_stiffness / (law.modulus_ratio() * stuck.normal_stiffness);
+  const double limit = friction_coefficient * stuck.normal_stiffness / stuck.tangential_stiffness;
   contact.initial_pressure = &high.contact_pressure;
   for (std::size_t k = 0; k < losses.size(); ++k) {
     JointLoss& loss = losses[k];
     double depth = loss.tangential_amplitude / limit, change = 0;
     if (std::holds_alternative<TangentialForce>(motions[k])) {
-      const double force = high.force - loss.tangential_force / (friction_coefficient * ratio);
-      check_below_sliding(loss.tangential_force, friction_coefficient * ratio * high.force, "");
+      const double force = high.force - loss.tangential_force / friction_coefficient;
+      check_below_sliding(loss.tangential_force, friction_coefficient * high.force, "");
       const double by_law = std::exchange(depth, high.indentation - at_force(force).indentation);
       change = (depth / by_law - 1) / 3;
       loss.tangential_amplitude = limit * depth;
     } else {
-      loss.tangential_force = friction_coefficient * ratio *
-                              (high.force - at_indentation(high.indentation - depth).force);
+      loss.tangential_force =
+          friction_coefficient * (high.force - at_indentation(high.indentation - depth).force);
     }
     const double pressure = at_indentation(high.indentation - depth / 2).force / area;
     const EqualFrequency as_normal{.normal_amplitude = depth / 2,

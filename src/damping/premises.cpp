@@ -63,6 +63,9 @@ class ContinuedLaw final : public ContactLaw {
     return end ? end->stiffness / end->length * end->growth(indentation)
                : law_.tangential_curvature(indentation);
   }
+  double stiffness_ratio(double indentation) const override {
+    return law_.stiffness_ratio(indentation);
+  }
   double highest_indentation() const override {
     return std::isfinite(low_.end) ? infinity : law_.highest_indentation();
   }
@@ -87,7 +90,7 @@ class ContinuedLaw final : public ContactLaw {
   End low_, high_;
 };
 
-// The levels above `bottom` alone. Only K_t, F and the ends are asked of it.
+// The levels above `bottom` alone. Only K_t, F, their limit of slip and the ends are asked of it.
 class OpeningLevels final : public ContactLaw {
  public:
   OpeningLevels(const ContactLaw& law, double bottom)
@@ -108,6 +111,9 @@ class OpeningLevels final : public ContactLaw {
   }
   double tangential_curvature(double indentation) const override {
     return law_.tangential_curvature(indentation);
+  }
+  double stiffness_ratio(double indentation) const override {
+    return law_.stiffness_ratio(indentation);
   }
   double lowest_indentation() const override { return bottom_; }
   double highest_indentation() const override { return law_.highest_indentation(); }
@@ -218,8 +224,8 @@ struct Loss {
   double total = 0, permanent = 0;
 };
 
-// Springs under a path, in units of μ/g: a spring may be stretched by δ − ζ, displacements count in
-// (μ/g) m, losses in (μ/g)² J.
+// Springs under a path, in units of μ/g, g the law's K_t/K: a spring may be stretched by δ − ζ,
+// displacements count in (μ/g) m, losses in (μ/g)² J.
 class Springs {
  public:
   // furthest: largest displacement from the path's beginning.
@@ -229,14 +235,16 @@ class Springs {
     const OpeningLevels opening(law, low);
     scale_ = law.tangential_stiffness(high);
     const double change = opening.tangential_stiffness(high);
+    // The coefficient with which a spring may be stretched by its depth.
+    const double friction = law.stiffness_ratio(0.5 * (low + high));
     if (closed_levels) {
       contact_.emplace(law, low, high,
-                       TangentialContactOptions{.friction_coefficient = law.modulus_ratio(),
+                       TangentialContactOptions{.friction_coefficient = friction,
                                                 .table_tolerance = tolerance,
                                                 .tangential_range = furthest});
     } else if (change > no_loss * scale_) {
       contact_.emplace(opening, low, high,
-                       TangentialContactOptions{.friction_coefficient = law.modulus_ratio(),
+                       TangentialContactOptions{.friction_coefficient = friction,
                                                 .table_tolerance = above_noise(change),
                                                 .tangential_range = furthest});
     }
@@ -617,13 +625,13 @@ void set_limits(Premise& premise, const Limits& limits, double unit) {
 // μ/g.
 template <class ClosedLimits>
 std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const ContactFacts& facts,
-                                           double modulus_ratio, double displacement,
+                                           double stiffness_ratio, double displacement,
                                            const ClosedLimits& closed_limits) {
   std::vector<double> coefficients{facts.friction_coefficient};
   if (std::isnan(facts.friction_coefficient)) coefficients = {0.1, 0.3, 1};
   std::vector<LargestMotion> motions;
   for (const double coefficient : coefficients) {
-    const double limit = coefficient / modulus_ratio;
+    const double limit = coefficient / stiffness_ratio;
     LargestMotion largest{.friction_coefficient = coefficient};
     if (motion.drag) {
       largest.drag_velocity = limit * displacement * motion.angular_frequency;
@@ -663,7 +671,8 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   premises.slow_motion = slow_motion_of(law, motion, facts);
   Premise& opening = premises.slip_of_opening_levels;
   Premise& closed = premises.slip_of_closed_levels;
-  const double stretch = facts.friction_coefficient / law.modulus_ratio();  // μ/g
+  const double ratio = law.stiffness_ratio(motion.mean);
+  const double stretch = facts.friction_coefficient / ratio;
   const double displacement = std::abs(motion.displacement);
   opening.value = stretch * amplitude / displacement;
   closed.value = std::isnan(facts.excursion) && !motion.drag ? displacement : facts.excursion;
@@ -693,8 +702,7 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
     return ClosedLevels(law, motion.mean - amplitude, amplitude, moved)
         .limits(stick * moved * moved, 100 * length);
   };
-  premises.largest =
-      largest_motions(motion, facts, law.modulus_ratio(), displacements.five, closed_limits);
+  premises.largest = largest_motions(motion, facts, ratio, displacements.five, closed_limits);
   if (!motion.drag) {
     set_limits(closed, displacements, stretch);
   } else if (closed.needs.empty()) {
@@ -771,7 +779,7 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
   const JudgedMotion one = case_of(law, mean_indentation, motion);
   require_positive(one.amplitude, "normal_amplitude");
   const double full_stick = one.loss(one.amplitude) * one.displacement * one.displacement;
-  const double limit = friction_coefficient / law.modulus_ratio(), unit = limit * limit;
+  const double limit = friction_coefficient / law.stiffness_ratio(one.mean), unit = limit * limit;
   const double displacement = std::abs(one.displacement) / limit;
   if (!one.drag) {
     const Loss loss = Springs(law, *one.path, true, 2 * displacement).at(displacement);
@@ -805,7 +813,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   // Displacements below stand for the velocity.
   const Drag drag{amplitude, amplitude * omega, omega};
   const JudgedMotion motion = case_of(law, mean_indentation, drag);
-  const double limit = friction_coefficient / law.modulus_ratio();
+  const double limit = friction_coefficient / law.stiffness_ratio(mean_indentation);
   const double bottom = mean_indentation - amplitude;
   const double length = length_of(law, mean_indentation, amplitude);
   const DampingResult without = relaxation_damping(given, AtIndentation{mean_indentation}, drag);

@@ -95,10 +95,6 @@ struct Case {
         law, position, Drag{contact.normal_amplitude, slider.velocity, contact.angular_frequency},
         friction_coefficient, averages);
     contact.indentation = sliding.indentation;
-    const double normal_stiffness = law.normal_stiffness(contact.indentation);
-    if (normal_stiffness > 0)
-      contact.friction_coefficient *=
-          law.modulus_ratio() * normal_stiffness / law.tangential_stiffness(contact.indentation);
     spring_offset = (slider.falling_slope * slider.velocity - sliding.mean_tangential_force) /
                     slider.spring_stiffness;
     check_velocity(slider.velocity, slider, "is reached by the drive");
@@ -483,12 +479,10 @@ void check_falling(const Slider& slider) {
           "N s/m must be above support_damping; sliding is stable without oscillation otherwise");
 }
 
-// v_c = (μE*/G*)u_z ω, over u_z ω.
+// v_c = (μK/K_t)u_z ω, over u_z ω.
 double limit_of_slope(const ContactLaw& law, const Position& position,
                       double friction_coefficient) {
-  const double indentation = indentation_of(law, position);
-  return friction_coefficient * law.normal_stiffness(indentation) /
-         law.tangential_stiffness(indentation);
+  return friction_coefficient / law.stiffness_ratio(indentation_of(law, position));
 }
 
 }  // namespace

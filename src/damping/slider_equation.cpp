@@ -49,7 +49,8 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
     : at_(contact),
       slider_(slider),
       contact_(contact_of(contact)),
-      slope_limit_(contact.friction_coefficient / contact.law.modulus_ratio()) {
+      slope_limit_(contact.friction_coefficient /
+                   contact.law.stiffness_ratio(contact.indentation)) {
   const double highest = contact.indentation + contact.normal_amplitude;
   const bool oscillates = contact.normal_amplitude > 0;
   span_ = std::max(contact.normal_amplitude,

@@ -82,7 +82,7 @@ class SliderEquation {
   const SliderContact at_;
   const Slider slider_;
   TangentialContact contact_;
-  double slope_limit_;  // μE*/G*
+  double slope_limit_;  // μK/K_t
   double span_ = 0;     // m, of the indentations that matter
   double period_ = 0;
   std::vector<Instant> nodes_;  // ends of steps within a period
@@ -90,7 +90,7 @@ class SliderEquation {
   long periods_ = 0;
   double offset_ = 0, relative_velocity_ = 0, force_ = 0, least_velocity_ = 0;
   double furthest_ =
-      0;  // greatest x − (μE*/G*)δ so far: where it is reached, levels that never open slip
+      0;  // greatest x − (μK/K_t)δ so far: where it is reached, levels that never open slip
   SliderTotals totals_;
 };
 

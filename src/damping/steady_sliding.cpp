@@ -258,11 +258,7 @@ std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position&
       relaxation_damping(law, position, Drag{amplitude, velocities.front(), omega}, exact);
 
   const double low = stuck.indentation - amplitude;
-  // A cycle may have its middle where nothing touches.
-  const double stiffness_ratio =
-      stuck.normal_stiffness > 0
-          ? law.tangential_stiffness(stuck.indentation) / stuck.normal_stiffness
-          : law.modulus_ratio();
+  const double stiffness_ratio = law.stiffness_ratio(stuck.indentation);
   SteadySliding common;
   common.indentation = stuck.indentation;
   common.mean_force = stuck.mean_force;

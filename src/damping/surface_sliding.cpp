@@ -65,6 +65,9 @@ class StiffnessLaw final : public ContactLaw {
   double tangential_curvature(double indentation) const override {
     return modulus_ratio() * ratio_.at(force(indentation)) * force_curvature(indentation);
   }
+  double stiffness_ratio(double indentation) const override {
+    return modulus_ratio() * ratio_.at(force(indentation));
+  }
   double indentation_of(double force) const override {
     double low = places_(places_.size() - 1), high = places_(0);
     for (int halving = 0; halving < 60; ++halving) {

@@ -45,17 +45,17 @@ struct TangentialContact::State {
   };
 
   State(const ContactLaw& law, double low, double high, double lowest_of_motion,
-        const TangentialContactOptions& given)
+        double stiffness_ratio, const TangentialContactOptions& given)
       : table(
             std::make_shared<const detail::StiffnessTable>(law, low, high, given.table_tolerance)),
         permanent_below(lowest_of_motion),
         permanent_stiffness(law.tangential_stiffness(lowest_of_motion)),
-        slope_limit(given.friction_coefficient / law.modulus_ratio()),
+        slope_limit(given.friction_coefficient / stiffness_ratio),
         merge_tolerance(given.merge_tolerance),
         slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {
     // One spring in place of those below the table: it carries their normal force.
     core_level = low;
-    if (table->core() > 0) core_level -= law.modulus_ratio() * law.force(low) / table->core();
+    if (table->core() > 0) core_level -= stiffness_ratio * law.force(low) / table->core();
   }
 
   double within_range(double level) const {
@@ -296,15 +296,15 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
                << law_low << ", " << law_high << "] m; reduce the motion or extend the curve";
     require(false, "indentation", lowest, constraint.str());
   }
+  const double ratio = law.stiffness_ratio(0.5 * (lowest + highest));
   double low = lowest;
   if (std::isfinite(options.friction_coefficient)) {
     require(options.tangential_range >= 0, "tangential_range", options.tangential_range,
             "must be >= 0");
     // A level deeper than this is never stretched to its limit.
-    const double reach =
-        options.friction_coefficient > 0
-            ? 1.001 * options.tangential_range * law.modulus_ratio() / options.friction_coefficient
-            : std::numeric_limits<double>::infinity();
+    const double reach = options.friction_coefficient > 0 ? 1.001 * options.tangential_range *
+                                                                ratio / options.friction_coefficient
+                                                          : std::numeric_limits<double>::infinity();
     low = std::max(lowest - reach, law_low);
     // Below first touch there is nothing; without friction, or with little, the reach has no other
     // bound.
@@ -324,7 +324,7 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
       low = std::min(open, lowest);
     }
   }
-  state_ = std::make_unique<State>(law, low, highest, lowest, options);
+  state_ = std::make_unique<State>(law, low, highest, lowest, ratio, options);
 }
 
 TangentialContact::TangentialContact(TangentialContact&&) noexcept = default;

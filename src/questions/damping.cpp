@@ -226,6 +226,36 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
   }
 }
 
+/// Of a damper: γ, its error, of it what slip dissipates, and γ without slip; NaN where not known.
+struct DamperConstant {
+  double value = not_known, error = not_known, slip_share = not_known, without_slip = not_known;
+};
+
+/// Why γ of a damper with friction is not known; empty: it is.
+std::string why_unknown(const DamperQuestion& question, double angular_frequency) {
+  if (std::isnan(question.drag_velocity))
+    return "with friction the damping constant depends on the `drag_velocity` and the `excursion` "
+           "of the slow motion; give both";
+  const Drag drag{0, question.drag_velocity, angular_frequency};
+  return why_unknown(Case{AtForce{}, drag, {}}, question.facts);
+}
+
+bool slips(const DamperQuestion& question) {
+  return !std::isnan(question.facts.friction_coefficient);
+}
+
+/// Of a law, about its mean indentation; `without` is γ without slip.
+DamperConstant constant_with_slip(const DamperQuestion& question, const ContactLaw& law,
+                                  double indentation, const Drag& drag, double without) {
+  DamperConstant found{.without_slip = without};
+  if (!why_unknown(question, drag.angular_frequency).empty()) return found;
+  const LossWithSlip loss = loss_with_slip(
+      law, indentation, drag, question.facts.friction_coefficient, question.facts.excursion);
+  found.value = closed_form::damping_constant(loss.work_per_cycle, drag);
+  found.slip_share = loss.slip_work / loss.work_per_cycle;
+  return found;
+}
+
 /// What a damper of a surface does: γ of each amplitude from contacts inside the oscillation, and
 /// what follows from it.
 class SurfaceDamper {
@@ -233,22 +263,23 @@ class SurfaceDamper {
   SurfaceDamper(const DamperQuestion& question, const Material& material, const Context& context,
                 DamperAnswer& answer)
       : question_(question), material_(material), answer_(answer), about_(*answer.contact.curve) {
-    options_ = {
-        .hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress};
+    options_ = {.hold = question.hold,
+                .amplitude = question.amplitude,
+                .friction_coefficient = question.facts.friction_coefficient,
+                .excursion = question.facts.excursion,
+                .on_progress = context.on_progress};
     const ForceSample load = about_.samples[answer.contact.load()];
     about_.samples = {load};
   }
 
-  void map() {
-    DamperMap& map = answer_.map;
-    answer_.damping_constant_error = map.damping_constant;
-    for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i) {
-      const auto [constant, error] = at(map.normal_amplitude[i]);
-      for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
-        map.damping_constant(Index(i), Index(j)) = constant / map.angular_frequency[j];
-        answer_.damping_constant_error(Index(i), Index(j)) = error / map.angular_frequency[j];
-      }
-    }
+  /// Without slip γω is a number of the amplitude alone, and is solved once.
+  DamperConstant at(double amplitude, double angular_frequency) {
+    if (slips(question_)) return solve({amplitude, question_.drag_velocity, angular_frequency});
+    if (!(solved_amplitude_ == amplitude)) solved_ = solve({amplitude, 1e-6, 1});
+    solved_amplitude_ = amplitude;
+    DamperConstant found = solved_;
+    found.value /= angular_frequency, found.error /= angular_frequency;
+    return found;
   }
 
   void decay(double contact_stiffness) {
@@ -259,7 +290,6 @@ class SurfaceDamper {
     const double constant = answer_.map.damping_constant(0, 0),
                  error = answer_.damping_constant_error(0, 0);
     const OscillatorDecay found = by(constant), more = by(constant + error);
-    answer_.decay = found;
     OscillatorDecay& off = answer_.decay_error.emplace();
     off.damping_constant = error;
     off.contact_stiffness = off.natural_frequency = off.frequency_ratio = not_known;
@@ -278,7 +308,8 @@ class SurfaceDamper {
       answer_.stabilising_amplitude_error.push_back(not_known);
     };
     if (!std::isfinite(by_law)) return lost();
-    const auto [constant, error] = at(by_law);
+    const DamperConstant there = at(by_law, 1);
+    const double constant = there.value, error = there.error;
     const Field about =
         damper_map(*answer_.contact.law, answer_.contact.positions.front(), {by_law, 1.05 * by_law},
                    {angular_frequency}, {.hold = question_.hold, .amplitude = question_.amplitude})
@@ -293,17 +324,36 @@ class SurfaceDamper {
   }
 
  private:
-  /// γω and its error; NaN where the error is larger.
-  std::pair<double, double> at(double amplitude) {
-    const SurfaceDamping found = surface_damping(*answer_.contact.surface, material_,
-                                                 Drag{amplitude, 1e-6, 1}, about_, options_)[0];
-    const double error = found.damping_constant_error();
-    if (error < std::abs(found.damping_constant)) return {found.damping_constant, error};
+  DamperConstant solve(const Drag& drag) {
+    const bool followed =
+        slips(question_) && why_unknown(question_, drag.angular_frequency).empty();
+    // Without slip W is in proportion to v², and any velocity serves.
+    const Drag solved{drag.normal_amplitude,
+                      std::isnan(drag.drag_velocity) ? 1e-6 : drag.drag_velocity,
+                      drag.angular_frequency};
+    SurfaceDampingOptions options = options_;
+    if (!followed) options.friction_coefficient = options.excursion = not_known;
+    const SurfaceDamping load =
+        surface_damping(*answer_.contact.surface, material_, solved, about_, options)[0];
+    const auto constant_of = [&](double work) {
+      return closed_form::damping_constant(work, solved);
+    };
+    DamperConstant found;
+    if (!slips(question_)) {
+      found = {.value = load.damping_constant, .error = load.damping_constant_error()};
+    } else {
+      if (followed)
+        found = {.value = constant_of(load.relaxation_work + load.slip_work),
+                 .error = constant_of(load.work_with_slip_error),
+                 .slip_share = load.slip_work / (load.relaxation_work + load.slip_work)};
+      found.without_slip = load.damping_constant;
+    }
+    if (found.error < std::abs(found.value) || std::isnan(found.value)) return found;
     answer_.doubts.push_back(fmt::format(
         "the error of the damping constant under {} exceeds it, and neither is given; a finer "
         "surface helps",
-        format_quantity(amplitude, Dimension::length)));
-    return {not_known, not_known};
+        format_quantity(drag.normal_amplitude, Dimension::length)));
+    return {.without_slip = found.without_slip};
   }
 
   const DamperQuestion& question_;
@@ -311,6 +361,8 @@ class SurfaceDamper {
   DamperAnswer& answer_;
   ForceCurve about_;  // the load
   SurfaceDampingOptions options_;
+  double solved_amplitude_ = not_known;
+  DamperConstant solved_;  // γω there, without slip
 };
 
 void require_motion_of_surface(const DampingQuestion& question) {
@@ -372,7 +424,11 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
       answer.slow_limit_power.push_back(slow_limit_power(law, one, options));
     }
     const auto* drag = std::get_if<Drag>(&one.motion);
-    if (drag == nullptr || !doubts.empty()) continue;
+    if (drag == nullptr) continue;
+    if (const double way = drag->way_per_cycle(); question.facts.excursion >= way)
+      answer.work_there_and_back.push_back(result.work_per_cycle * 2 * question.facts.excursion /
+                                           way);
+    if (!doubts.empty()) continue;
     const ForceCurve* curve = answer.contact.curve ? &*answer.contact.curve : nullptr;
     doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
                             spot_radius(question.facts, law, curve, result.indentation));
@@ -439,10 +495,46 @@ PathAnswer ask(const PathQuestion& question, const Context& context) {
   return answer;
 }
 
+namespace {
+
+/// Puts γ of the surface, with friction that with slip, in the place of the law's without.
+void fill_map(const DamperQuestion& question, const std::vector<double>& indentations,
+              std::optional<SurfaceDamper>& of_surface, DamperAnswer& answer) {
+  DamperMap& map = answer.map;
+  if (map.damping_constant.size() == 0 || !(of_surface || slips(question))) return;
+  if (of_surface) answer.damping_constant_error = map.damping_constant;
+  if (slips(question)) {
+    answer.damping_constant_without_slip = answer.slip_share = map.damping_constant;
+    const std::string unknown = why_unknown(question, std::ranges::min(map.angular_frequency));
+    if (!unknown.empty()) answer.doubts.push_back(unknown);
+  }
+  for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
+    for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
+      const auto row = Index(i), column = Index(j);
+      const Drag drag{map.normal_amplitude[i], question.drag_velocity, map.angular_frequency[j]};
+      double& constant = map.damping_constant(row, column);
+      const DamperConstant found =
+          of_surface
+              ? of_surface->at(drag.normal_amplitude, drag.angular_frequency)
+              : constant_with_slip(question, *answer.contact.law, indentations[i], drag, constant);
+      constant = found.value;
+      if (of_surface) answer.damping_constant_error(row, column) = found.error;
+      if (!slips(question)) continue;
+      answer.damping_constant_without_slip(row, column) = found.without_slip;
+      answer.slip_share(row, column) = found.slip_share;
+    }
+}
+
+}  // namespace
+
 DamperAnswer ask(DamperQuestion question, const Context& context) {
   const std::vector<double>&amplitudes = question.normal_amplitude,
         &omega = question.angular_frequency;
   require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
+  require(!question.falling_slope || !slips(question), "falling_slope",
+          question.falling_slope.value_or(0),
+          "N s/m is held against the damping without slip; leave out `friction_coefficient`, or "
+          "ask for steady sliding, where stability follows the slip");
   Material material;
   if (auto* surface = std::get_if<SurfaceContact>(&question.contact)) {
     surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
@@ -457,12 +549,14 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
   const DampingOptions options{
       .hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress};
   const bool one = amplitudes.size() == 1 && omega.size() == 1;
+  std::vector<double> indentations;
   for (const double amplitude : amplitudes) {
     Drag motion{amplitude, 0, std::ranges::max(omega)};
-    const double indentation = relaxation_damping(law, position, motion, options).indentation;
+    indentations.push_back(relaxation_damping(law, position, motion, options).indentation);
     motion.drag_velocity = question.drag_velocity;
-    answer.premises.push_back(premises_of(law, indentation, motion,
-                                          answer.contact.facts_at(question.facts, indentation)));
+    answer.premises.push_back(
+        premises_of(law, indentations.back(), motion,
+                    answer.contact.facts_at(question.facts, indentations.back())));
   }
   std::optional<SurfaceDamper> of_surface;
   if (answer.contact.surface) of_surface.emplace(question, material, context, answer);
@@ -471,12 +565,14 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
   else
     require_that(question.falling_slope.has_value(), "normal_amplitude",
                  "missing; give it, or `falling_slope` to have it computed");
-  if (of_surface && !amplitudes.empty()) of_surface->map();
+  fill_map(question, indentations, of_surface, answer);
   if (question.oscillator) {
     require(one, "mass", question.oscillator->mass,
             "kg needs one `normal_amplitude` and one `frequency`");
-    answer.decay = oscillator_decay(law, position, {amplitudes.front(), omega.front()},
-                                    *question.oscillator, options);
+    answer.decay =
+        oscillator_decay(answer.map.damping_constant(0, 0),
+                         law.tangential_stiffness(indentations.front() - amplitudes.front()),
+                         omega.front(), *question.oscillator);
     if (of_surface) of_surface->decay(answer.decay->contact_stiffness);
   }
   if (!question.falling_slope) return answer;

@@ -31,6 +31,9 @@ class StoppableLaw final : public ContactLaw {
   double tangential_curvature(double indentation) const override {
     return seen().tangential_curvature(indentation);
   }
+  double stiffness_ratio(double indentation) const override {
+    return seen().stiffness_ratio(indentation);
+  }
   double lowest_indentation() const override { return law_->lowest_indentation(); }
   double highest_indentation() const override { return law_->highest_indentation(); }
   double indentation_of(double force) const override { return seen().indentation_of(force); }

@@ -245,6 +245,8 @@ void write_damping(Table table, const StudyResult& result) {
   group.attribute("hold", std::string(word_of(configuration.damping.hold)));
   group.attribute("modulus_ratio", configuration.material.modulus_ratio());
   group.attribute("contact_modulus", configuration.material.contact_modulus);
+  if (const double friction = configuration.known.friction_coefficient; !std::isnan(friction))
+    group.attribute("friction_coefficient", friction);
 }
 
 void write_answer(Table table, const StudyResult& result, const StudyAnswer& answer) {

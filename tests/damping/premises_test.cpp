@@ -8,6 +8,7 @@
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
@@ -492,11 +493,47 @@ TEST_CASE("Sliding begins at Cattaneo's and Mindlin's excursion, and at that of 
         Approx(2 * stretch * least * (1 - std::sqrt(0.05))).epsilon(1e-12));
   const ExponentialLaw exponential(1, 1e-7, ratio);
   CHECK(border(exponential, 0) == Approx(2 * stretch * 1e-7 * std::log(20)).epsilon(1e-12));
-  // Its table ends four l below; an exponential continues it.
+  // Its table ends four l below; an exponential continues it. Its K_t is 1.1 times as large.
   CHECK(border(TabulatedLaw(exponential_curve(1e-7), ratio), 0) ==
-        Approx(border(exponential, 0)).epsilon(1e-3));
+        Approx(border(exponential, 0) / 1.1).epsilon(1e-3));
   CHECK(std::isnan(
       regime_map(paraboloid, 1e-6, {2e-6, 1e5}, {1e-9}, {1e-9}, friction).sliding_excursion));
+}
+
+TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding loses the friction",
+          "[premises]") {
+  const double length = 1e-7, friction = 0.3, omega = 1e5;
+  const TabulatedLaw own(exponential_curve(length), ratio);
+  const ExponentialLaw like(1, length, 1.1 * ratio);
+  CHECK(own.stiffness_ratio(-2e-8) == Approx(1.1 * ratio).epsilon(1e-12));
+  CHECK(own.stiffness_ratio(-1e-5) == Approx(1.1 * ratio).epsilon(1e-12));  // beyond its end
+  CHECK(like.stiffness_ratio(0) == 1.1 * ratio);
+  const double critical = friction / (1.1 * ratio) * 2e-9 * omega;
+  // The table ends four lengths below, and the exponential that continues it meets it to round-off;
+  // what is left are the tables of K_t that are followed, good to 1e-9.
+  const auto same = [&](const Oscillation& motion, double excursion) {
+    const LossWithSlip table = loss_with_slip(own, 0, motion, friction, excursion),
+                       formula = loss_with_slip(like, 0, motion, friction, excursion);
+    CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(1e-6));
+    CHECK(table.slip_work == Approx(formula.slip_work).epsilon(1e-6));
+    return table.work_per_cycle;
+  };
+  same(EqualFrequency{.normal_amplitude = 2e-8, .tangential_amplitude = 1e-8, .phase = 1}, NAN);
+  same(Drag{2e-8, 0.01 * critical, omega}, 2e-8);
+  // Ten times faster than levels stick for, over many depths: what a turning point stores is
+  // 1.3 x_c = 1.3 (μ/g)l of way at μF, twice in 2X.
+  const Drag fast{2e-9, 10 * critical, omega};
+  const double excursion = 1e-4, stored = 1.3 * friction / ratio * length / excursion;
+  CHECK(same(fast, excursion) / (friction * own.force(0) * fast.way_per_cycle()) ==
+        Approx(1).margin(2 * stored + 1e-3));
+  // A joint carries μF where all of it slips, (1 − e^{−20}) of it at twenty depths.
+  const JointLoss joint =
+      joint_loss(like, AtIndentation{0},
+                 TangentialAmplitude{20 * friction / (1.1 * ratio) * length}, friction);
+  CHECK(joint.tangential_force == Approx(friction * like.force(0)).epsilon(1e-8));
+  const double few = 3.5 * friction / (1.1 * ratio) * length;
+  CHECK(joint_loss(own, AtIndentation{0}, TangentialAmplitude{few}, friction).tangential_force ==
+        Approx(friction * own.force(0) * (1 - std::exp(-3.5))).epsilon(1e-6));
 }
 
 TEST_CASE("A map of regimes has the borders of the premises, and they are monotone", "[regimes]") {
@@ -515,7 +552,8 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
   for (const Case& one : cases) {
     CAPTURE(&one - cases);
     const NormalOscillation normal{one.amplitude, 1e5};
-    const double critical = stretch * one.amplitude * normal.angular_frequency;
+    const double critical =
+        stretch / (one.law == &table ? 1.1 : 1) * one.amplitude * normal.angular_frequency;
     const std::vector<double> velocities = decades(1e-5 * critical, 3 * critical, 9);
     const std::vector<double> excursions = decades(1e-4 * one.amplitude, 1e3 * one.amplitude, 15);
     const RegimeMap map = regime_map(*one.law, one.mean, normal, velocities, excursions, friction);

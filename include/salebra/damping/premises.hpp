@@ -155,8 +155,9 @@ constexpr void describe(auto&& visit, std::type_identity<LargestMotion>) {
   visit(&S::excursion, quantity::excursion);
 }
 
-/// The seven premises. With g = G*/E* of the law, levels ζ that open and close during the cycle (ζ
-/// > δ0 − u_z) and levels that stay closed, each a spring that may be stretched by (μ/g)(δ − ζ):
+/// The seven premises. With g = K_t/K of the law at the mean indentation, levels ζ that open and
+/// close during the cycle (ζ > δ0 − u_z) and levels that stay closed, each a spring that may be
+/// stretched by (μ/g)(δ − ζ):
 struct Premises {
   /// value  M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, the larger the better.
   /// limits computed from the springs of the law: (a) M at which the loss with slip differs by 5 %

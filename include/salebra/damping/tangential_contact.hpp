@@ -26,8 +26,8 @@ struct TangentialContactOptions {
 /// sections 7 and 8):
 ///     F_x = ∫_{−∞}^{δ} K_t'(ζ)[x − x0(ζ)]dζ,
 /// x0(ζ): where the springs of indentation level ζ are anchored. A level is anchored where it
-/// touches. With finite friction its stretch obeys |x − x0| <= (μE*/G*)(δ − ζ), and its anchor
-/// slips along otherwise; without, it is let go at once with all its stretch when δ falls through
+/// touches. With finite friction its stretch obeys |x − x0| <= (μK/K_t)(δ − ζ), and its anchor
+/// slips along otherwise, K/K_t the law's in the middle of the motion; without, it is let go at once with all its stretch when δ falls through
 /// ζ. Exact for motion in straight steps, up to the table of K_t: x0 is piecewise linear in ζ, and
 /// the pieces form a stack (a memory of turning points) on which every step pushes at most two and
 /// removes those that it wipes out, so that a step costs O(1) on average and the memory does not

@@ -51,6 +51,8 @@ struct DampingAnswer {
   std::vector<double> ratio = {};             ///< of the loss to its small-amplitude form
   std::vector<CommonPeriod> periods = {};     ///< of two frequencies
   std::vector<double> slow_limit_power = {};  ///< of two frequencies, without slip, W
+  /// Of a slow motion with a known excursion X: W·2X/w, w = 2πv/ω, J.
+  std::vector<double> work_there_and_back = {};
   /// With friction, parts of the loss, and the numbers without slip beside it, J and N s/m.
   std::vector<double> relaxation_share = {}, slip_share = {}, work_per_cycle_without_slip = {},
                       damping_constant_without_slip = {};
@@ -82,6 +84,9 @@ constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
                  "numerical error of the damping constant without slip"});
   visit(&S::storage_stiffness, quantity::storage_stiffness);
   visit(&S::loss_factor, quantity::loss_factor);
+  visit(&S::work_there_and_back,
+        Quantity{"work_there_and_back", energy,
+                 "energy dissipated on the way there and back over the excursion"});
   visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
   visit(&S::periods, Table{"periods", "common periods of two frequencies"});
   visit(&S::slow_limit_power, Quantity{"slow_limit_power", Dimension::power,
@@ -138,16 +143,20 @@ struct DamperQuestion {
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
   std::optional<TangentialOscillator> oscillator = {};  ///< on the contact, of one amplitude, one ω
-  std::optional<double> falling_slope = {};      ///< b of a friction force that falls by b, N s/m
-  double largest_amplitude = 0;                  ///< to look for stability in, m
-  double drag_velocity = ContactFacts::unknown;  ///< of the slow motion, to judge slip, m/s
+  std::optional<double> falling_slope = {};  ///< b of a friction force that falls by b, N s/m
+  double largest_amplitude = 0;              ///< to look for stability in, m
+  /// Of the slow motion, m/s; with friction γ depends on it and on facts.excursion.
+  double drag_velocity = ContactFacts::unknown;
   ContactFacts facts = {};
 };
 
 struct DamperAnswer {
   ContactAnswer contact;
-  DamperMap map = {};                 ///< empty without amplitudes
+  /// Empty without amplitudes. With friction γ is that with slip, NaN where the velocity or the
+  /// excursion of the slow motion is not known, or the motion is not slow.
+  DamperMap map = {};
   Field damping_constant_error = {};  ///< of the map of a surface, N s/m; empty: a law's
+  Field damping_constant_without_slip = {}, slip_share = {};  ///< of the map with friction
   std::optional<OscillatorDecay> decay = {};
   /// Of a surface, by what the damping constant is off; NaN for what follows from K_t of the law.
   std::optional<OscillatorDecay> decay_error = {};

@@ -20,6 +20,8 @@ double ContactLaw::tangential_stiffness(double indentation) const {
   return modulus_ratio_ * normal_stiffness(indentation);
 }
 
+double ContactLaw::stiffness_ratio(double) const { return modulus_ratio_; }
+
 double ContactLaw::tangential_curvature(double indentation) const {
   return modulus_ratio_ * force_curvature(indentation);
 }
@@ -196,6 +198,12 @@ double TabulatedLaw::tangential_curvature(double indentation) const {
   if (!splines_->log_tangential_stiffness) return ContactLaw::tangential_curvature(indentation);
   const auto log_stiffness = splines_->log_tangential_stiffness->at(splines_->clamp(indentation));
   return std::exp(log_stiffness.value) * log_stiffness.slope;
+}
+
+double TabulatedLaw::stiffness_ratio(double indentation) const {
+  if (!splines_->log_tangential_stiffness) return modulus_ratio();
+  const double within = std::clamp(indentation, lowest_indentation(), highest_indentation());
+  return tangential_stiffness(within) / normal_stiffness(within);
 }
 
 double TabulatedLaw::lowest_indentation() const { return splines_->log_force.front(); }

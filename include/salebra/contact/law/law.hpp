@@ -24,6 +24,10 @@ class ContactLaw {
   /// K_t(δ); (G*/E*)K unless the law was given a K_t of its own.
   virtual double tangential_stiffness(double indentation) const;
   virtual double tangential_curvature(double indentation) const;  ///< K_t'(δ)
+  /// K_t/K at δ: G*/E* unless the law was given a K_t of its own. A level that touches at ζ slips
+  /// where it is stretched by μK/K_t (δ − ζ): with this ratio a contact that slides as a whole
+  /// carries μF.
+  virtual double stiffness_ratio(double indentation) const;
   virtual double lowest_indentation() const;   ///< −∞ unless the law is a table
   virtual double highest_indentation() const;  ///< +∞ unless the law is a table
   /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput where the law does not reach
@@ -87,6 +91,8 @@ class TabulatedLaw final : public ContactLaw {
   double force_curvature(double indentation) const override;
   double tangential_stiffness(double indentation) const override;
   double tangential_curvature(double indentation) const override;
+  /// Beyond the table's ends that of the end.
+  double stiffness_ratio(double indentation) const override;
   double lowest_indentation() const override;
   double highest_indentation() const override;
   double indentation_of(double force) const override;
