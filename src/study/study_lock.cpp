@@ -26,7 +26,7 @@ namespace {
 std::string holder_in(const std::filesystem::path& file) {
   std::array<char, 400> text = {};
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  const ssize_t got = descriptor < 0 ? 0 : read(descriptor, text.data(), text.size());
+  const ssize_t got = descriptor < 0 ? 0 : ::read(descriptor, text.data(), text.size());
   if (descriptor >= 0) close(descriptor);
   return got > 0 ? std::string(text.data(), static_cast<std::size_t>(got)) : "another process";
 }
