@@ -243,7 +243,7 @@ SurfaceOutline SurfaceOptions::outline(Session& session) const {
   if (!recipe.empty()) {
     const StudyConfiguration study = recipe_of(*this, session.ranks());
     const auto& generated = std::get<GeneratedSurfaces>(study.surfaces);
-    return {generated.grid, SelfAffineSpectrum(generated.spectrum).moments().rms_slope(),
+    return {generated.grid, generated.spectrum_of_all()->moments().rms_slope(),
             fmt::format("{}, seed {}", title_of(generated.method), seed)};
   }
   session.require_one_process("--dry-run of a file");

@@ -8,10 +8,12 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/words.hpp>
+#include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/study/configuration.hpp>
 #include <unordered_set>
 
 #include "io/input_file.hpp"
+#include "io/number_table.hpp"
 #include "toml_reader.hpp"
 
 namespace salebra {
@@ -125,10 +127,8 @@ double required_unless(TomlTable& table, const char* key, Dimension dimension,
   return list.front();
 }
 
-GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists) {
-  GeneratedSurfaces surfaces;
-  surfaces.grid = read_grid(table);
-  SelfAffineParameters& spectrum = surfaces.spectrum;
+SelfAffineParameters read_self_affine(TomlTable& table, const ParameterLists& lists) {
+  SelfAffineParameters spectrum;
   spectrum.hurst = required_unless(table, "hurst", Dimension::dimensionless, lists.hurst);
   spectrum.long_cutoff = table.quantity("long_cutoff", Dimension::length);
   if (lists.rolloff.empty()) {
@@ -140,6 +140,28 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists) 
       required_unless(table, "short_cutoff", Dimension::length, lists.short_cutoff);
   spectrum.rms_height = table.quantity("rms_height", Dimension::length);
   spectrum.rms_slope = table.quantity("rms_slope", Dimension::dimensionless);
+  return spectrum;
+}
+
+/// Two columns of a file: q in rad/m and C in m⁴.
+PsdTable read_psd_table(TomlTable& table, const std::filesystem::path& folder) {
+  const auto columns = read_number_table(folder / *table.text("psd_table"), 2);
+  PsdTable psd{columns[0], columns[1]};
+  table.located([&] { TabulatedSpectrum(psd.wavenumber, psd.psd); });
+  return psd;
+}
+
+GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
+                                 const std::filesystem::path& folder) {
+  GeneratedSurfaces surfaces;
+  surfaces.grid = read_grid(table);
+  if (table.has("psd_table")) {
+    table.check(lists.hurst.empty() && lists.rolloff.empty() && lists.short_cutoff.empty(),
+                "psd_table", "has no hurst, rolloff or short_cutoff that [ensemble] could vary");
+    surfaces.tables.push_back(read_psd_table(table, folder));
+  } else {
+    surfaces.spectrum = read_self_affine(table, lists);
+  }
   if (const auto method = table.choice("method", {"filtered-noise", "random-phase"})) {
     surfaces.method =
         *method == 0 ? GenerationMethod::filtered_noise : GenerationMethod::random_phase;
@@ -147,8 +169,8 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists) 
   surfaces.seeds = read_seeds(table);
   // Sizes and points of the ensemble take the place of these: each combination is looked at later.
   table.located([&] {
-    const SelfAffineSpectrum checked(spectrum);
-    if (lists.size_x.empty() && lists.points.empty()) checked.require_carried_by(surfaces.grid);
+    const auto checked = surfaces.spectrum_of_all();
+    if (lists.size_x.empty() && lists.points.empty()) checked->require_carried_by(surfaces.grid);
   });
   return surfaces;
 }
@@ -301,6 +323,17 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
 
 }  // namespace
 
+std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of_all() const {
+  if (tables.empty()) return std::make_unique<SelfAffineSpectrum>(spectrum);
+  return std::make_unique<TabulatedSpectrum>(tables.front().wavenumber, tables.front().psd);
+}
+
+std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of(std::uint64_t seed) const {
+  if (tables.size() < 2) return spectrum_of_all();
+  const PsdTable& table = tables[1 + seed % (tables.size() - 1)];
+  return std::make_unique<TabulatedSpectrum>(table.wavenumber, table.psd);
+}
+
 bool StudyConfiguration::has(ContactModel model) const {
   return std::ranges::find(models, model) != models.end();
 }
@@ -322,7 +355,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
     if (surface->has("file")) {
       configuration.surfaces = read_measured(*surface, folder);
     } else {
-      configuration.surfaces = read_generated(*surface, configuration.ensemble);
+      configuration.surfaces = read_generated(*surface, configuration.ensemble, folder);
     }
     surface->require_no_other_keys();
   }

@@ -77,7 +77,7 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   if (const auto* generated = std::get_if<GeneratedSurfaces>(&point.surfaces)) {
     cost.grid = generated->grid;
     cost.surfaces = generated->seeds.size();
-    cost.warnings = forecast(cost.grid, SelfAffineSpectrum(generated->spectrum)).warnings;
+    cost.warnings = forecast(cost.grid, *generated->spectrum_of_all()).warnings;
   } else {
     cost.grid = study_surface(point, 0).grid;
   }

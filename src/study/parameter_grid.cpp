@@ -84,7 +84,7 @@ std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration&
   });
   for (const StudyConfiguration& point : points) {
     const auto& surfaces = std::get<GeneratedSurfaces>(point.surfaces);
-    SelfAffineSpectrum(surfaces.spectrum).require_carried_by(surfaces.grid);
+    surfaces.spectrum_of_all()->require_carried_by(surfaces.grid);
   }
   return points;
 }

@@ -28,10 +28,10 @@ namespace {
 
 Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
                  const Communicator& ranks) {
-  const SelfAffineSpectrum spectrum(recipe.spectrum);
+  const auto spectrum = recipe.spectrum_of(seed);
   return recipe.method == GenerationMethod::random_phase
-             ? random_phase(recipe.grid, spectrum, seed, progress, ranks)
-             : filtered_noise(recipe.grid, spectrum, seed, progress, ranks);
+             ? random_phase(recipe.grid, *spectrum, seed, progress, ranks)
+             : filtered_noise(recipe.grid, *spectrum, seed, progress, ranks);
 }
 
 Surface read(const MeasuredSurface& recipe, const Communicator& ranks,
@@ -350,7 +350,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
   std::optional<std::string> doubt;
   double slope = 0;
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
-    slope = SelfAffineSpectrum(recipe->spectrum).lattice_moments(recipe->grid).rms_slope();
+    slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
     doubt = doubt_of_slope(slope);
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);

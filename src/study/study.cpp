@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/units.hpp>
@@ -114,9 +115,12 @@ void flag(StudyResult& result) {
              format_quantity(result.configuration.known.hardness, Dimension::pressure), 100 * area,
              format_quantity(of_loading(&FirstLoading::max_plastic_depth), Dimension::length))});
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&result.configuration.surfaces)) {
-    const SelfAffineParameters& spectrum = recipe->spectrum;
+    const double shortest = 2 * std::numbers::pi / recipe->spectrum_of_all()->highest_wavenumber();
     const double size = std::min(result.grid.lx, result.grid.ly);
-    const double longest = spectrum.rolloff.value_or(spectrum.long_cutoff.value_or(size));
+    const SelfAffineParameters& spectrum = recipe->spectrum;
+    // A table does not say where its plateau ends.
+    const double longest =
+        recipe->tables.empty() ? spectrum.rolloff.value_or(spectrum.long_cutoff.value_or(size)) : 0;
     const double cell = std::max(result.grid.dx(), result.grid.dy());
     // Lengths are given in decimals: a wave of exactly 8 cells must not fall below by rounding.
     constexpr double slack = 1 + 1e-9;
@@ -126,12 +130,12 @@ void flag(StudyResult& result) {
            fmt::format("finite size: the roll-off is 1/{:.3g} of the surface, more than 1/16; few "
                        "independent hills carry the load, and surfaces scatter widely",
                        size / longest)});
-    if (spectrum.short_cutoff * slack < least_cells_in_wave * cell)
+    if (shortest * slack < least_cells_in_wave * cell)
       result.flags.push_back(
           {"discretisation",
            fmt::format("discretisation: the shortest wave has {:.3g} cells, fewer than 8; the "
                        "contact area is too large, the force hardly",
-                       spectrum.short_cutoff / cell)});
+                       shortest / cell)});
   }
   // Where the law is fitted, the least load has the fewest spots.
   double fewest = std::numeric_limits<double>::infinity();

@@ -40,9 +40,7 @@ std::vector<double> power_law(const RadialSpectrum& rings, const HurstEstimate& 
   return law;
 }
 
-std::vector<double> prescribed_law(const RadialSpectrum& rings,
-                                   const SelfAffineParameters& parameters) {
-  const SelfAffineSpectrum spectrum(parameters);
+std::vector<double> prescribed_law(const RadialSpectrum& rings, const IsotropicSpectrum& spectrum) {
   std::vector<double> law;
   for (const double q : rings.wavenumber) {
     const double density = spectrum.radial_density(q);
@@ -87,7 +85,7 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   picture.hurst_low = hurst.low;
   picture.hurst_high = hurst.high;
   if (const auto* generated = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
-    picture.law_psd = prescribed_law(rings, generated->spectrum);
+    picture.law_psd = prescribed_law(rings, *generated->spectrum_of(generated->seeds.front()));
     picture.law = "asked for";
   } else {
     picture.law_psd = power_law(rings, hurst);

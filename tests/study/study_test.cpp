@@ -9,11 +9,13 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/damping/closed_form.hpp>
+#include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_answer.hpp>
@@ -22,6 +24,7 @@
 #include "ranks_in_threads.hpp"
 #include "small_study.hpp"
 #include "study/estimate.hpp"
+#include "study_text.hpp"
 
 using namespace salebra;
 
@@ -257,4 +260,54 @@ TEST_CASE("The surface of a seed is made by several processes to the bits of one
                          static_cast<std::size_t>(mine.heights.size()) * sizeof(double)) == 0;
   });
   CHECK(right == 3);
+}
+
+TEST_CASE(
+    "A table of a power spectrum makes the surfaces of its law, and of several each seed has its "
+    "own",
+    "[study]") {
+  // Plateau, corner and end of H = 0.8 are straight in ln C over ln q: the table is that law.
+  const StudyConfiguration law = small_study();
+  const auto& recipe = std::get<GeneratedSurfaces>(law.surfaces);
+  const SelfAffineSpectrum spectrum(recipe.spectrum);
+  const double corner = 2 * std::numbers::pi / *recipe.spectrum.rolloff,
+               end = spectrum.highest_wavenumber() * (1 + 1e-12);
+  const PsdTable table{
+      {1e-3 * corner, corner, end},
+      {spectrum.plateau(), spectrum.plateau(), spectrum.plateau() * std::pow(end / corner, -3.6)}};
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string name = "salebra-psd-" + std::to_string(getpid()) + ".txt";
+  {
+    std::ofstream file(folder / name);
+    file.precision(17);
+    file << "# q, C\n";
+    for (std::size_t k = 0; k < 3; ++k) file << table.wavenumber[k] << ' ' << table.psd[k] << '\n';
+  }
+  const std::string surface =
+      "[surface]\npoints = 64\nsize_x = \"4um\"\npsd_table = \"" + name + "\"\nseeds = [1, 2]\n";
+  StudyConfiguration tabulated =
+      parse_study_configuration(surface + contact_text(), "x.toml", folder);
+  std::filesystem::remove(folder / name);
+  // Powers and logarithms round differently.
+  const auto heights = [](const StudyConfiguration& study, std::uint64_t seed) {
+    return study_surface(study, seed).heights;
+  };
+  const Field of_law = heights(law, 2), of_table = heights(tabulated, 2);
+  CHECK((of_law - of_table).abs().maxCoeff() < 1e-9 * of_law.abs().maxCoeff());
+  CHECK(study_loads(tabulated).contact_scale ==
+        Approx(study_loads(law).contact_scale).epsilon(1e-9));
+  // Heights go as the root of the density: of the best table and two others, seeds 2 and 3 have
+  // the second and the third.
+  auto& tables = std::get<GeneratedSurfaces>(tabulated.surfaces).tables;
+  for (const double factor : {4, 9}) {
+    tables.push_back(table);
+    for (double& density : tables.back().psd) density *= factor;
+  }
+  CHECK((heights(tabulated, 2) - 2 * of_law).abs().maxCoeff() < 1e-8 * of_law.abs().maxCoeff());
+  CHECK((heights(tabulated, 3) - 3 * heights(law, 3)).abs().maxCoeff() <
+        1e-8 * of_law.abs().maxCoeff());
+  CHECK(study_loads(tabulated).contact_scale ==
+        Approx(study_loads(law).contact_scale).epsilon(1e-9));
+  CHECK_THROWS_WITH(parse_study_configuration(surface + contact_text(), "x.toml", folder),
+                    Catch::Contains(name));  // it is gone
 }

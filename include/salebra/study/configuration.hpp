@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/material.hpp>
@@ -61,17 +62,34 @@ std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
 
-/// An ensemble of self-affine surfaces, one for each seed.
+/// C(q) of an isotropic surface as a table, q in rad/m, C in m⁴: TabulatedSpectrum.
+struct PsdTable {
+  std::vector<double> wavenumber, psd;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<PsdTable>) {
+  using S = PsdTable;
+  keep(visit, &S::wavenumber, &S::psd);
+}
+
+/// An ensemble of random surfaces, one for each seed.
 struct GeneratedSurfaces {
   Grid2D grid;
-  SelfAffineParameters spectrum;
+  SelfAffineParameters spectrum;  ///< not looked at where there are tables
   GenerationMethod method = GenerationMethod::filtered_noise;
   std::vector<std::uint64_t> seeds;  ///< at least one
+  /// In place of the self-affine spectrum. One is that of all surfaces. Of several, equally likely,
+  /// the first is the best, by which loads are counted, and a surface has the one of its seed.
+  std::vector<PsdTable> tables = {};
+
+  /// That of the best table, or the self-affine one.
+  std::unique_ptr<const IsotropicSpectrum> spectrum_of_all() const;
+  std::unique_ptr<const IsotropicSpectrum> spectrum_of(std::uint64_t seed) const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<GeneratedSurfaces>) {
   using S = GeneratedSurfaces;
-  keep(visit, &S::grid, &S::spectrum, &S::method, &S::seeds);
+  keep(visit, &S::grid, &S::spectrum, &S::method, &S::seeds, &S::tables);
 }
 
 /// One surface from a file.
