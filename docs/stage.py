@@ -190,7 +190,7 @@ def main(program, doxygen, folder):
     suit_breathe(pathlib.Path(doxygen))
     kept = set()
     for pattern in ("docs/**/*.md", "docs/*.bib", "docs/**/*.png", "docs/**/*.svg", "docs/static/*", "data/*.md", "examples/*.cpp", "examples/*.py",
-                    "examples/cluster/*", "tests/fuzz/README.md", "tests/docs/*.py", "CHANGELOG.md", "CONTRIBUTING.md"):
+                    "examples/cluster/*", "tests/fuzz/README.md", "src/contact/README.md", "tests/docs/*.py", "CHANGELOG.md", "CONTRIBUTING.md"):
         for source in root.glob(pattern):
             kept.add(copy(source, folder / source.relative_to(root)))
     if importlib.util.find_spec("salebra"):

@@ -16,7 +16,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = ("*.md", "docs/*.md", "docs/howto/*.md", "data/*.md", "paper/*.md")
+PAGES = ("*.md", "docs/*.md", "docs/howto/*.md", "data/*.md", "paper/*.md", "src/contact/*.md")
 COMMENTS = ("include/**/*.hpp", "generators/include/**/*.hpp", "python/src/*.cpp", "python/salebra/*.py")
 CITATIONS = ROOT / "python/salebra/_citations.py"
 NAME = r"[^\W\d_a-z][\w’'-]+"

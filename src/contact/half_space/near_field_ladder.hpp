@@ -21,7 +21,7 @@ namespace salebra::detail {
 // stencils T on the tiles in use, level below level, cubic B-splines P between them, and a
 // transform C on a grid 2^depth times coarser each way. (1 − eps) G <= G~ <= (1 + eps) G as
 // quadratic forms, eps <= error(): a solve with G~ about an exact gap contracts the error by eps/(1
-// − eps), whatever the grid, the load or the contact set (docs/theory.md).
+// − eps), whatever the grid, the load or the contact set (src/contact/README.md).
 //
 // In float. G~ is symmetric up to rounding, and its result has the same bits for every number of
 // threads and processes. One object may run in one thread at a time. Memory: 8/3 bytes for each

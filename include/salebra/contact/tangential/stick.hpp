@@ -41,7 +41,7 @@ struct StickReport {
 ///     û_x = Σ_i [1/(G_i q)] [(1 − ν_i q_x²/q²) τ̂_x − (ν_i q_x q_y/q²) τ̂_y],  û_y by exchange, û(0) = 0      (periodic)
 ///     u_x = Σ_i 1/(2πG_i) ∬{[(1−ν_i)/r + ν_i x²/r³] τ_x + ν_i xy/r³ τ_y},  summed over the cells' corners    (free)
 /// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field
-/// ladder (docs/theory.md, "Fewer transforms"). Grids without a ladder have a 7 × 7 stencil of |q|.
+/// ladder (src/contact/README.md, "The ladder"). Grids without a ladder have a 7 × 7 stencil of |q|.
 /// Displacements of a periodic half-space count from its mean plane. The coupling to the normal
 /// direction (∝ 1 − 2ν) is neglected. Kernels and transforms are kept between calls: sets that fit
 /// into the window of an earlier one cost no set-up. One object may be used by one thread at a
