@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""check_glossary.py --program FILE: compares the tables of terms with the program. Every name of docs/glossary.md and of the symbols of docs/theory.md
-is in the table of names (docs/names.py) and has its unit; every option of the glossary is one of a command; both pages have one symbol for a name."""
+"""check_glossary.py --program FILE: compares the terms of docs/glossary.md with the program. Every name is in the table of names (docs/names.py) and has
+its unit, and every option is one of a command."""
 
 import argparse
 import pathlib
@@ -13,8 +13,6 @@ sys.path.insert(0, str(DOCS))
 sys.dont_write_bytecode = True
 from names import names as names_of_results  # noqa: E402
 
-# Units as a page may write them.
-WRITTEN = {"–": "1", "m²": "m^2", "m⁻²": "1/m^2", "N/m²": "N/m^2"}
 
 
 def tables_of(page):
@@ -35,13 +33,9 @@ def in_code(cell):
     return re.findall(r"`([^`]*)`", cell)
 
 
-def symbols_of(row):
-    return [symbol.strip() for symbol in re.split(r",(?![^(]*\))", row["symbol"].replace("$", "")) if symbol.strip()]
-
-
-def faults_of(rows, column, known):
+def faults_of(rows, known):
     for row in rows:
-        names, units = in_code(row[column]), [WRITTEN.get(unit.strip(), unit.strip()) for unit in row["unit"].split(",")]
+        names, units = in_code(row["name"]), [unit.strip() for unit in row["unit"].split(",")]
         if len(units) == 1:
             units *= len(names)
         if len(names) > len(units):
@@ -66,22 +60,16 @@ def main():
     options = set(re.findall(r"(?<![\w-])--[a-z][a-z0-9-]*", "".join(answer("help", command) for command in [*commands, "options"])))
 
     glossary = list(tables_of(DOCS / "glossary.md"))
-    symbols = [row for row in tables_of(DOCS / "theory.md") if "name in code and files" in row]
-    faults = list(faults_of(glossary, "name", known)) + list(faults_of(symbols, "name in code and files", known))
+    faults = list(faults_of(glossary, known))
     for row in glossary:
         for option in in_code(row["option"]):
             if option.split()[0] not in options:
                 faults.append(f"{option}: no command has it")
-    if len(glossary) < 40 or len(symbols) < 10:
-        faults.append(f"{len(glossary)} terms and {len(symbols)} symbols: has the form of the tables changed?")
-    of_name = {name: symbol for row in glossary for name, symbol in zip(in_code(row["name"]), symbols_of(row))}
-    for row in symbols:
-        for name, symbol in zip(in_code(row["name in code and files"]), symbols_of(row)):
-            if of_name.get(name, symbol) != symbol:
-                faults.append(f"{name}: {of_name[name]} in glossary.md, {symbol} in theory.md")
+    if len(glossary) < 40:
+        faults.append(f"{len(glossary)} terms: has the form of the tables changed?")
     if faults:
         sys.exit("\n".join(faults))
-    print(f"{len(glossary)} terms, {len(symbols)} symbols")
+    print(f"{len(glossary)} terms")
 
 
 main()
