@@ -72,7 +72,7 @@ const MARKS = /‹([^›]+)›|_\{([^}]*)\}|\^\{([^}]*)\}/g;
 
 // Symbols of the page: what each means, its unit, and the page of the documentation that defines it.
 const SYMBOLS = {
-  p: ["nominal pressure, force over nominal area", "Pa", "docs/theory.md"], F: ["normal force", "N", "docs/theory.md"],
+  p: ["nominal pressure, force over nominal area", "Pa", "docs/glossary.md"], F: ["normal force", "N", "docs/theory.md"],
   "ū": ["mean gap of the deformed surfaces", "m", "docs/conventions.md"], l: ["decay length of the force with the mean gap", "m", "docs/theory.md"],
   h: ["height; ‹h›_{rms} root mean square height, ‹h›′ root mean square slope", "m, 1", "docs/statistics.md"], A: ["contact area; ‹A›_{0} nominal area", "m²", "docs/statistics.md"],
   K: ["normal stiffness d‹F›/dδ; ‹K›_{t} tangential stiffness", "N/m", "docs/theory.md"], E: ["‹E›*, contact modulus", "Pa", "docs/theory.md"], G: ["‹G›*, tangential modulus", "Pa", "docs/theory.md"],
