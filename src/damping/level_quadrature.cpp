@@ -187,7 +187,7 @@ class LevelSolver {
 };
 
 // Levels from the greatest indentation to the least, the nodes between the two ends.
-struct Levels {
+struct SolvedLevels {
   std::vector<Node> nodes;
   std::vector<double> theta;
   std::vector<LevelValues> values;
@@ -196,7 +196,7 @@ struct Levels {
 // What the levels say of W. In a drag the stiffness at the least of them counts too.
 class LossOfLevels {
  public:
-  LossOfLevels(const Levels& levels, const Oscillation& motion, double modulus_ratio)
+  LossOfLevels(const SolvedLevels& levels, const Oscillation& motion, double modulus_ratio)
       : levels_(levels),
         motion_(motion),
         drag_(std::holds_alternative<Drag>(motion)),
@@ -283,7 +283,7 @@ class LossOfLevels {
                      std::abs(by_force(fit(normal_, degree + 1)) - work_by_force), 2 * cells});
   }
 
-  const Levels& levels_;
+  const SolvedLevels& levels_;
   const Oscillation& motion_;
   const bool drag_;
   const double amplitude_, modulus_ratio_;
@@ -305,7 +305,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   LevelQuadratureResult result;
   result.termination = Termination::converged;
   LevelSolver solver(levels, grid, material, options, result);
-  Levels solved{gauss_nodes(count), {}, {}};
+  SolvedLevels solved{gauss_nodes(count), {}, {}};
   const auto solve = [&](double theta, bool with_stiffness) {
     solved.theta.push_back(theta);
     solved.values.push_back(
