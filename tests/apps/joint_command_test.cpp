@@ -76,12 +76,13 @@ TEST_CASE("joint simulates a surface cell by cell beside the springs of its curv
     CHECK(number(direct, "tangential_force") ==
           Approx(number(answer, "tangential_force")).epsilon(1e-9));
     // The simulation has the cells as they are, the answer cells of half the size. At 0.73 of
-    // sliding these change x by 4 % and W, which grows with the power 4.5 of the force, by 11 %; at
-    // 0.4 both by 1.3 and 0.5 %. The steps are 0.7 % of the loss.
+    // sliding these change x by 4 % and W, which grows with the power 4.5 of the force, by 11 %. At
+    // 0.4 few cells slip, and single ones decide: of three surfaces W is 0.91, 0.94 and 1.03 of it, x
+    // within 1 %.
     CHECK(number(direct, "tangential_amplitude") ==
           Approx(number(answer, "tangential_amplitude")).epsilon(i == 0 ? 0.02 : 0.06));
     CHECK(number(direct, "work_per_cycle") ==
-          Approx(number(answer, "work_per_cycle")).epsilon(i == 0 ? 0.03 : 0.15));
+          Approx(number(answer, "work_per_cycle")).epsilon(i == 0 ? 0.1 : 0.15));
     CHECK(number(answer, "work_error") > 0);
     CHECK(number(answer, "work_error") < 0.1 * number(answer, "work_per_cycle"));
     CHECK(number(direct, "relaxation_work") == 0);
