@@ -1,0 +1,552 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surface twin: form of the spectrum, what is seen of it, bad scans, checks, and the result.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
+#include <salebra/surface/twin.hpp>
+#include <set>
+
+#include "base/random.hpp"
+#include "surface/dense_systems.hpp"
+#include "surface/twin_fit.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::TwinData;
+using detail::TwinFit;
+using detail::TwinLaw;
+using detail::TwinModel;
+using detail::TwinProfile;
+using std::numbers::pi;
+
+constexpr double seen_above = 6;       ///< 2 ln of a likelihood ratio
+constexpr double one_sided = 1.353;    ///< half the 90 % quantile of χ² with one degree
+constexpr double refused_above = 1.8;  ///< misfit
+constexpr double bad_scan_above = 3;   ///< misfit of a scan, and over the median of its group
+constexpr double knots_per_decade = 3;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+struct Candidate {
+  TwinModel model;
+  TwinFit fit;
+
+  double misfit() const {
+    TwinModel::Misfit sum;
+    for (std::size_t group = 0; group < model.data().size(); ++group) {
+      const TwinModel::Misfit one = model.misfit(fit.parameters, group);
+      sum.deviance += one.deviance;
+      sum.expected += one.expected;
+    }
+    return sum.ratio();
+  }
+};
+
+std::pair<double, double> range_of(const std::vector<TwinData>& data) {
+  double lowest = std::numeric_limits<double>::infinity(), highest = 0;
+  for (const TwinData& group : data) {
+    lowest = std::min(lowest, group.wavenumber.front());
+    highest = std::max(highest, group.wavenumber.back());
+  }
+  return {lowest, highest};
+}
+
+Candidate candidate_of(const std::vector<TwinData>& data, SpectrumForm form) {
+  const auto [lowest, highest] = range_of(data);
+  TwinLaw law{form, std::sqrt(lowest * highest), {}};
+  if (law.table()) {
+    const double decades = std::log10(highest / lowest);
+    const int knots = std::max(5, static_cast<int>(std::ceil(decades * knots_per_decade)) + 1);
+    for (int k = 0; k < knots; ++k)
+      law.knots.push_back(std::log(lowest / law.reference) +
+                          std::log(highest / lowest) * k / (knots - 1));
+  }
+  TwinModel model(data, law);
+  TwinFit fit = detail::fitted(model);
+  return {std::move(model), std::move(fit)};
+}
+
+/// The form of the greater likelihood, then the other one.
+struct Forms {
+  Candidate best;
+  std::optional<Candidate> other;
+  double ratio = 0;
+};
+
+Forms forms_of(const std::vector<TwinData>& data, const std::optional<SpectrumForm>& form) {
+  if (form) return {candidate_of(data, *form), {}, 0};
+  Candidate corner = candidate_of(data, SpectrumForm::corner),
+            smooth = candidate_of(data, SpectrumForm::smooth);
+  // The tolerance about the cut-off must be one for both to be compared.
+  Candidate& guide = smooth.fit.cost < corner.fit.cost ? smooth : corner;
+  Candidate& follower = &guide == &smooth ? corner : smooth;
+  const double cutoff = 2 * pi * std::exp(-guide.fit.parameters[guide.model.law().cutoff()]);
+  follower.model.set_tolerance(0.03, 0.5, cutoff);
+  follower.fit = detail::minimised(follower.model, follower.fit.parameters);
+  const double ratio = 2 * (corner.fit.cost - smooth.fit.cost);
+  if (ratio > 0) return {std::move(smooth), std::move(corner), ratio};
+  return {std::move(corner), std::move(smooth), -ratio};
+}
+
+std::vector<TwinScan> judged_scans(const std::vector<ScanSpectrum>& scans, const Candidate& one,
+                                   std::vector<bool>& left_out) {
+  std::vector<TwinScan> judged;
+  for (std::size_t scan = 0; scan < scans.size(); ++scan)
+    judged.push_back({scans[scan].name, unknown, left_out[scan]});
+  for (std::size_t group = 0; group < one.model.data().size(); ++group) {
+    const TwinData& data = one.model.data()[group];
+    double weight = 0;
+    for (const std::size_t scan : data.scans) weight += scans[scan].weight;
+    std::vector<double> misfits;
+    for (const std::size_t scan : data.scans) {
+      std::vector<double> psd;
+      for (const std::size_t bin : data.bins) psd.push_back(scans[scan].psd[bin]);
+      const double share = std::min(1 - 1e-9, scans[scan].weight / weight);
+      judged[scan].misfit = one.model.misfit_of(one.fit.parameters, group, psd, share).ratio();
+      misfits.push_back(judged[scan].misfit);
+    }
+    std::ranges::sort(misfits);
+    const double middle = misfits[(misfits.size() - 1) / 2];
+    for (const std::size_t scan : data.scans)
+      if (data.scans.size() >= 3 && judged[scan].misfit > bad_scan_above &&
+          judged[scan].misfit > bad_scan_above * middle)
+        left_out[scan] = true;
+  }
+  return judged;
+}
+
+/// What the likelihood says of the longest and the shortest waves.
+struct Ends {
+  double rolloff_ratio = 0, cutoff_ratio = 0;
+  TwinFit without_rolloff, without_cutoff;
+  std::optional<TwinProfile> rolloffs, cutoffs;  ///< where they are not seen
+
+  bool sees_rolloff() const { return rolloff_ratio > seen_above; }
+  bool sees_cutoff() const { return cutoff_ratio > seen_above; }
+};
+
+Ends ends_of(const Candidate& one) {
+  const TwinModel& model = one.model;
+  const TwinLaw& law = model.law();
+  Ends ends;
+  const auto held = [&](Index parameter, double value) {
+    Eigen::VectorXd start = one.fit.parameters;
+    start[parameter] = value;
+    TwinFit best = detail::minimised(model, start, {parameter});
+    // Without a plateau a lower exponent may serve better.
+    if (!law.table()) {
+      start[TwinLaw::hurst] -= 0.1;
+      const TwinFit second = detail::minimised(model, start, {parameter});
+      if (second.cost < best.cost) best = second;
+    }
+    return best;
+  };
+  ends.without_cutoff = held(law.cutoff(), model.lowest()[law.cutoff()] + 1e-3);
+  ends.cutoff_ratio = 2 * (ends.without_cutoff.cost - one.fit.cost);
+  constexpr int steps = 26;
+  if (!ends.sees_cutoff()) {
+    const double bottom = model.lowest()[law.cutoff()] + 1e-3,
+                 top = std::log(2 * pi / model.finest_wavenumber()) + 1.5;
+    std::vector<double> values;
+    for (int k = 0; k < steps; ++k) values.push_back(top + (bottom - top) * k / (steps - 1));
+    ends.cutoffs = detail::profiled(model, law.cutoff(), values, ends.without_cutoff.parameters);
+  }
+  if (law.table()) return ends;
+  const double top = model.highest()[TwinLaw::rolloff] - 1e-3;
+  ends.without_rolloff = held(TwinLaw::rolloff, top);
+  ends.rolloff_ratio = 2 * (ends.without_rolloff.cost - one.fit.cost);
+  if (!ends.sees_rolloff()) {
+    const double bottom =
+        std::max(model.lowest()[TwinLaw::rolloff] + 1e-3, std::log(0.1 * model.largest_scan()));
+    std::vector<double> values;
+    for (int k = 0; k < steps; ++k) values.push_back(bottom + (top - bottom) * k / (steps - 1));
+    ends.rolloffs =
+        detail::profiled(model, TwinLaw::rolloff, values, ends.without_rolloff.parameters);
+  }
+  return ends;
+}
+
+TwinDraw spectrum_of(const TwinModel& model, const Eigen::VectorXd& parameters) {
+  return detail::draw_of(model.law(),
+                         {parameters.data(), static_cast<std::size_t>(model.law().size())},
+                         2 * pi / model.largest_scan());
+}
+
+/// Value and standard deviation of a function of the spectrum, by the curvature at a fit.
+struct Spread {
+  double value = 0, deviation = 0;
+};
+
+template <class Function>
+Spread spread_of(const TwinModel& model, const Eigen::VectorXd& parameters,
+                 const Eigen::MatrixXd& covariance, const Function& function) {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(model.size());
+  for (Index p = 0; p < model.law().size(); ++p) {
+    Eigen::VectorXd up = parameters, down = parameters;
+    up[p] += 1e-4;
+    down[p] -= 1e-4;
+    slope[p] = (function(spectrum_of(model, up)) - function(spectrum_of(model, down))) / 2e-4;
+  }
+  return {function(spectrum_of(model, parameters)),
+          std::sqrt(std::max(0.0, slope.dot(covariance.lazyProduct(slope))))};
+}
+
+double log_height(const TwinDraw& draw) { return std::log(draw.rms_height); }
+
+/// The least rms height that the profile of the roll-off allows: along it, and below each of its
+/// fits by what remains of the drop.
+double least_height(const Candidate& one, const TwinProfile& profile) {
+  double least = one.fit.cost, lowest = std::numeric_limits<double>::infinity();
+  for (const TwinFit& fit : profile.fits) least = std::min(least, fit.cost);
+  for (const TwinFit& fit : profile.fits) {
+    const double rest = least + one_sided - fit.cost;
+    if (rest < 0) continue;
+    const Spread height = spread_of(
+        one.model, fit.parameters,
+        detail::laplace_covariance(one.model, fit.parameters, {TwinLaw::rolloff}), log_height);
+    lowest = std::min(lowest, height.value - std::sqrt(2 * rest) * height.deviation);
+  }
+  return std::exp(lowest);
+}
+
+/// Walkers about the fit, and along what is not seen.
+Eigen::MatrixXd ensemble(const Candidate& one, const Ends& ends, std::uint64_t seed) {
+  const TwinModel& model = one.model;
+  const Index size = model.size(), walkers = std::max<Index>(128, 8 * size);
+  const auto factor_of = [&](const Eigen::VectorXd& at, const std::vector<Index>& fixed) {
+    const detail::Modes modes =
+        detail::symmetric_modes(detail::laplace_covariance(model, at, fixed));
+    Eigen::MatrixXd factor = modes.vectors;
+    for (Index k = 0; k < size; ++k)
+      factor.col(k) *= 0.8 * std::sqrt(std::max(0.0, modes.values[k]));
+    return factor;
+  };
+  const Eigen::MatrixXd about_fit = factor_of(one.fit.parameters, {});
+  const auto allowed = [&](const std::optional<TwinProfile>& profile) {
+    std::vector<const TwinFit*> fits;
+    if (profile)
+      for (const TwinFit& fit : profile->fits)
+        if (fit.cost < one.fit.cost + 2) fits.push_back(&fit);
+    return fits;
+  };
+  const std::vector<const TwinFit*> long_ends = allowed(ends.rolloffs),
+                                    short_ends = allowed(ends.cutoffs);
+  constexpr double margin = 1e-4;
+  const Eigen::ArrayXd low = model.lowest().array() + margin,
+                       high = model.highest().array() - margin;
+  Eigen::MatrixXd start(size, walkers);
+  for (Index walker = 0; walker < walkers; ++walker) {
+    const auto number = static_cast<std::int32_t>(walker);
+    Eigen::VectorXd z(size);
+    for (Index p = 0; p < size; ++p)
+      z[p] = gaussian_pair(seed, number, static_cast<std::int32_t>(p), 111).first;
+    const RandomPair place = uniform_pair(seed, number, 0, 112),
+                     shift = uniform_pair(seed, number, 1, 112);
+    const auto chosen = [](const std::vector<const TwinFit*>& fits, double at) {
+      return fits[std::min(fits.size() - 1,
+                           static_cast<std::size_t>(at * static_cast<double>(fits.size())))];
+    };
+    Eigen::VectorXd at = one.fit.parameters;
+    if (!long_ends.empty()) at = chosen(long_ends, place.first)->parameters;
+    Eigen::VectorXd moved = about_fit.lazyProduct(z);
+    if (!long_ends.empty()) moved[TwinLaw::rolloff] = 0.2 * (shift.first - 0.5);
+    if (!short_ends.empty()) {
+      at[model.law().cutoff()] = chosen(short_ends, place.second)->parameters[model.law().cutoff()];
+      moved[model.law().cutoff()] = 0.2 * (shift.second - 0.5);
+    }
+    at += moved;
+    if (!model.law().table())
+      at[TwinLaw::rolloff] = std::max(at[TwinLaw::rolloff], at[model.law().cutoff()] + margin);
+    start.col(walker) = at.array().max(low).min(high);
+  }
+  return start;
+}
+
+template <class Function>
+std::vector<double> of_draws(const std::vector<TwinDraw>& draws, const Function& function) {
+  std::vector<double> values;
+  for (const TwinDraw& draw : draws) values.push_back(function(draw));
+  std::ranges::sort(values);
+  return values;
+}
+
+double quantile(const std::vector<double>& sorted, double part) {
+  if (sorted.empty()) return unknown;
+  const double place = part * static_cast<double>(sorted.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(place), sorted.size() - 1);
+  const auto above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+TwinParameter interval(const std::vector<double>& sorted, bool seen) {
+  TwinParameter parameter;
+  parameter.value = quantile(sorted, 0.5);
+  parameter.low = quantile(sorted, 0.025);
+  parameter.high = quantile(sorted, 0.975);
+  parameter.seen = seen;
+  return parameter;
+}
+
+std::vector<TwinDraw> draws_of(const Candidate& one, const Ends& ends, Index count,
+                               std::uint64_t seed) {
+  std::vector<TwinDraw> draws;
+  if (count == 0) return draws;
+  const Eigen::MatrixXd points =
+      detail::sampled_posterior(one.model, ensemble(one, ends, seed), count, seed);
+  for (Index draw = 0; draw < count; ++draw)
+    draws.push_back(spectrum_of(one.model, points.col(draw)));
+  return draws;
+}
+
+TwinSpectrum band_of(const std::vector<TwinDraw>& draws, const TwinLaw& law, double lowest,
+                     double highest) {
+  constexpr int points = 80;
+  TwinSpectrum band;
+  for (int k = 0; k < points; ++k)
+    band.wavenumber.push_back(lowest * std::pow(highest / lowest, k / (points - 1.0)));
+  const detail::LawPoints places(law, band.wavenumber);
+  std::vector<std::vector<double>> values(points);
+  for (const TwinDraw& draw : draws) {
+    for (std::size_t k = 0; k < points; ++k) {
+      const double q = band.wavenumber[k];
+      double density = 0;
+      if (!law.table()) {
+        density = draw.density(q);
+      } else if (q <= 2 * pi / draw.short_cutoff) {
+        const Eigen::Map<const Eigen::VectorXd> heights(draw.log_psd.data(),
+                                                        static_cast<Index>(draw.log_psd.size()));
+        density = std::exp(places.basis.row(static_cast<Index>(k)).dot(heights));
+      }
+      values[k].push_back(density);
+    }
+  }
+  for (std::vector<double>& at : values) {
+    std::ranges::sort(at);
+    band.psd.push_back(quantile(at, 0.5));
+    band.low.push_back(quantile(at, 0.025));
+    band.high.push_back(quantile(at, 0.975));
+  }
+  return band;
+}
+
+/// Parameters of a fit by its curvature: hurst, ln of the others.
+struct Curved {
+  bool sees_rolloff = true, sees_cutoff = true;
+  Spread hurst, rolloff, cutoff, height, slope;
+};
+
+Curved curved(const Candidate& one, bool sees_rolloff, bool sees_cutoff) {
+  const Eigen::MatrixXd covariance = detail::laplace_covariance(one.model, one.fit.parameters, {});
+  const auto spread = [&](const auto& function) {
+    return spread_of(one.model, one.fit.parameters, covariance, function);
+  };
+  return {sees_rolloff,
+          sees_cutoff,
+          spread([](const TwinDraw& draw) { return draw.hurst; }),
+          spread([](const TwinDraw& draw) { return std::log(draw.rolloff); }),
+          spread([](const TwinDraw& draw) { return std::log(draw.short_cutoff); }),
+          spread(log_height),
+          spread([](const TwinDraw& draw) { return std::log(draw.rms_slope); })};
+}
+
+std::vector<TwinWithout> fits_without(const Candidate& all, const Ends& ends) {
+  std::set<std::string> instruments;
+  for (const TwinData& group : all.model.data()) instruments.insert(group.instrument);
+  std::vector<TwinWithout> results;
+  if (instruments.size() < 2 || all.model.law().table()) return results;
+  const Curved whole = curved(all, ends.sees_rolloff(), ends.sees_cutoff());
+  for (const std::string& instrument : instruments) {
+    std::vector<TwinData> rest;
+    Index bins = 0;
+    for (const TwinData& group : all.model.data())
+      if (group.instrument != instrument) {
+        rest.push_back(group);
+        bins += static_cast<Index>(group.bins.size());
+      }
+    if (bins < 8) continue;
+    TwinModel model(rest, all.model.law());
+    Eigen::VectorXd start = Eigen::VectorXd::Zero(model.size());
+    start.head(model.law().size()) = all.fit.parameters.head(model.law().size());
+    TwinFit fit = detail::refitted(model, start);
+    const Candidate one{std::move(model), std::move(fit)};
+    const auto ratio = [&](Index parameter, double value) {
+      Eigen::VectorXd held = one.fit.parameters;
+      held[parameter] = value;
+      return 2 * (detail::minimised(one.model, held, {parameter}).cost - one.fit.cost);
+    };
+    const Index cutoff = one.model.law().cutoff();
+    const Curved part = curved(
+        one, ratio(TwinLaw::rolloff, one.model.highest()[TwinLaw::rolloff] - 1e-3) > seen_above,
+        ratio(cutoff, one.model.lowest()[cutoff] + 1e-3) > seen_above);
+    TwinWithout without;
+    without.instrument = instrument;
+    const auto compare = [&](TwinParameter& to, const Spread& now, const Spread& before, bool seen,
+                             bool logarithm) {
+      const auto back = [&](double value) { return logarithm ? std::exp(value) : value; };
+      to.seen = seen;
+      to.value = back(now.value);
+      to.low = back(now.value - 1.96 * now.deviation);
+      to.high = back(now.value + 1.96 * now.deviation);
+      // The whole holds the part: its variance is in that of the part.
+      const double variance =
+          std::max(now.deviation * now.deviation - before.deviation * before.deviation,
+                   now.deviation * now.deviation / 4);
+      const double moved = now.value - before.value;
+      if (seen && moved * moved > 6.63 * variance) without.agrees = false;
+    };
+    const bool both_rolloff = part.sees_rolloff && whole.sees_rolloff,
+               both_cutoff = part.sees_cutoff && whole.sees_cutoff;
+    compare(without.hurst, part.hurst, whole.hurst, true, false);
+    compare(without.rolloff, part.rolloff, whole.rolloff, both_rolloff, true);
+    compare(without.short_cutoff, part.cutoff, whole.cutoff, both_cutoff, true);
+    compare(without.rms_height, part.height, whole.height, both_rolloff, true);
+    compare(without.rms_slope, part.slope, whole.slope, both_cutoff, true);
+    results.push_back(without);
+  }
+  return results;
+}
+
+std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
+
+}  // namespace
+
+const TwinDraw& SurfaceTwin::draw(std::uint64_t seed) const {
+  require_that(!draws.empty(), "draws", "are none");
+  const double part = uniform_pair(seed, 0, 0, 113).first;
+  return draws[std::min(draws.size() - 1,
+                        static_cast<std::size_t>(part * static_cast<double>(draws.size())))];
+}
+
+SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
+  require_that(!scans.empty(), "scans", "are none; give one or more");
+  require(options.draws >= 100, "draws", options.draws, "must be >= 100");
+  std::vector<bool> left_out(scans.size(), false);
+  detail::Responses responses;
+  const auto data_of_all = [&] {
+    std::vector<TwinData> data = detail::grouped(scans, left_out, responses);
+    std::size_t bins = 0;
+    for (const TwinData& group : data) bins += group.bins.size();
+    require(bins >= 8, "scans", bins,
+            "bins of wavelengths are usable, which are too few; give larger scans or finer tips");
+    return data;
+  };
+  Forms forms = forms_of(data_of_all(), options.form);
+  SurfaceTwin twin;
+  twin.scans = judged_scans(scans, forms.best, left_out);
+  if (options.drop_bad_scans && std::ranges::find(left_out, true) != left_out.end()) {
+    forms = forms_of(data_of_all(), options.form);
+    // Those that are left are judged by the better fit.
+    std::vector<bool> final = left_out;
+    std::vector<TwinScan> judged = judged_scans(scans, forms.best, final);
+    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+      if (!left_out[scan]) {
+        twin.scans[scan] = judged[scan];
+        continue;
+      }
+      twin.scans[scan].left_out = true;
+      twin.notes.push_back(
+          "scan " + (scans[scan].name.empty() ? std::to_string(scan + 1) : scans[scan].name) +
+          " is left out: its spectrum is far from that of the others");
+    }
+  }
+  if (!options.form && forms.best.misfit() > refused_above) {
+    Candidate table = candidate_of(forms.best.model.data(), SpectrumForm::table);
+    twin.notes.push_back(
+        "the spectrum is no self-affine one, with a corner or a smooth roll-off: a table is "
+        "fitted");
+    forms = {std::move(table), {}, 0};
+  }
+  const Candidate& best = forms.best;
+  const TwinModel& model = best.model;
+  twin.form = model.law().form;
+  twin.form_ratio = forms.ratio;
+  twin.bins = model.bins();
+  twin.misfit = best.misfit();
+  const Ends ends = ends_of(best);
+  twin.rolloff_ratio = ends.rolloff_ratio;
+  twin.cutoff_ratio = ends.cutoff_ratio;
+  for (std::size_t group = 0; group < model.data().size(); ++group) {
+    const TwinData& data = model.data()[group];
+    const TwinModel::Misfit misfit = model.misfit(best.fit.parameters, group);
+    twin.chi_square += misfit.deviance;
+    twin.groups.push_back({data.instrument, static_cast<Index>(data.scans.size()),
+                           2 * pi / data.wavenumber.back(), 2 * pi / data.wavenumber.front(),
+                           static_cast<Index>(data.bins.size()),
+                           model.gain(best.fit.parameters, group), misfit.ratio()});
+    if (data.tip_limit > 0)
+      twin.notes.push_back(data.instrument + ": waves below " +
+                           length_text(2 * pi / data.tip_limit) +
+                           " are left out, which the tip does not follow");
+  }
+
+  // Where the forms are nearly as likely, draws are of both.
+  const double odds = std::exp(-forms.ratio / 2);
+  const bool undecided = forms.other && ends.sees_rolloff() && forms.ratio < seen_above;
+  const Index of_other =
+      undecided
+          ? static_cast<Index>(std::lround(static_cast<double>(options.draws) * odds / (1 + odds)))
+          : 0;
+  twin.draws = draws_of(best, ends, options.draws - of_other, options.seed);
+  const std::vector<double> rolloffs =
+      of_draws(twin.draws, [](const TwinDraw& draw) { return draw.rolloff; });
+  if (of_other > 0) {
+    twin.notes.push_back(
+        "a corner and a smooth roll-off are nearly as likely: draws are of both, the roll-off's "
+        "interval of the likelier one");
+    std::vector<TwinDraw> others = draws_of(*forms.other, ends_of(*forms.other),
+                                            std::max<Index>(of_other, 1), options.seed + 1);
+    std::ranges::move(others, std::back_inserter(twin.draws));
+  }
+
+  const auto sorted = [&](const auto& function) { return of_draws(twin.draws, function); };
+  const std::vector<double> cutoffs =
+      sorted([](const TwinDraw& draw) { return draw.short_cutoff; });
+  twin.rms_height = interval(sorted([](const TwinDraw& draw) { return draw.rms_height; }), true);
+  twin.rms_slope =
+      interval(sorted([](const TwinDraw& draw) { return draw.rms_slope; }), ends.sees_cutoff());
+  if (ends.sees_cutoff()) {
+    twin.short_cutoff = interval(cutoffs, true);
+  } else {
+    twin.short_cutoff.high = std::exp(
+        ends.cutoffs->limit(best.fit.cost, one_sided).value_or(ends.cutoffs->values.front()));
+    twin.notes.push_back("the short cut-off is not seen: it lies below " +
+                         length_text(twin.short_cutoff.high) +
+                         "; the upper limit of the rms slope follows from its prior, from " +
+                         length_text(std::exp(model.lowest()[model.law().cutoff()])) + " on");
+  }
+  if (model.law().table()) {
+    twin.notes.push_back("rms height and slope are those of waves below " +
+                         length_text(model.largest_scan()));
+  } else {
+    twin.hurst = interval(sorted([](const TwinDraw& draw) { return draw.hurst; }), true);
+    if (ends.sees_rolloff()) {
+      twin.rolloff = interval(rolloffs, true);
+    } else {
+      twin.rolloff.low = std::exp(
+          ends.rolloffs->limit(best.fit.cost, one_sided).value_or(ends.rolloffs->values.front()));
+      twin.rms_height = {};
+      twin.rms_height.low = least_height(best, *ends.rolloffs);
+      twin.notes.push_back("the roll-off is not seen: it lies beyond " +
+                           length_text(twin.rolloff.low) +
+                           "; of the rms height only a lower limit is known");
+    }
+  }
+  const double end = quantile(cutoffs, 0.5);
+  twin.spectrum = band_of(twin.draws, model.law(), 2 * pi / model.largest_scan(),
+                          std::max(model.finest_wavenumber(),
+                                   ends.sees_cutoff() ? 2 * pi / end : model.finest_wavenumber()));
+  if (options.leave_one_out) {
+    twin.without = fits_without(best, ends);
+    for (const TwinWithout& without : twin.without)
+      if (!without.agrees)
+        twin.notes.push_back("without " + without.instrument +
+                             " the parameters move by more than chance explains: one of the "
+                             "instruments is not what it is said to be");
+  }
+  return twin;
+}
+
+}  // namespace salebra

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Groups of scans with the bins that a surface twin uses of them.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "surface/twin_model.hpp"
+
+namespace salebra::detail {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double tip_limit = 0.08;  ///< R·κ_rms up to which a tip follows to some per cent
+constexpr double known_noise = 0.5, found_noise = 1.5;  ///< standard deviations of ν
+
+/// Independent modes for each mode, correlation of neighbouring bins in them, as simulated: the
+/// tapers' 0.55 and Hann's 0.25 of a plane; of a line the square roots.
+double independent(bool tapered, bool profile) {
+  const double share = tapered ? 0.55 : 0.25;
+  return profile ? std::sqrt(share) : share;
+}
+
+std::string instrument_name(const ScanInstrument& instrument) {
+  if (!instrument.name.empty()) return instrument.name;
+  std::string name(word_of(instrument.kind));
+  if (instrument.kind == Instrument::optical)
+    name += " " + format_quantity(instrument.resolution, Dimension::length);
+  if (instrument.has_tip()) name += " " + format_quantity(instrument.tip_radius, Dimension::length);
+  return name;
+}
+
+bool alike(const ScanSpectrum& a, const ScanSpectrum& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  const ScanInstrument &s = a.instrument, &t = b.instrument;
+  return a.grid == b.grid && s.kind == t.kind && s.resolution == t.resolution &&
+         s.tip_radius == t.tip_radius && same(s.noise, t.noise) && s.drifts() == t.drifts() &&
+         s.height_calibration == t.height_calibration && s.scan_calibration == t.scan_calibration &&
+         s.name == t.name;
+}
+
+TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_t> members,
+                  Responses& responses) {
+  const ScanSpectrum& first = scans[members.front()];
+  const ScanInstrument& instrument = first.instrument;
+  const bool line = first.profile();
+  const ScanModes modes(first.grid);
+  const std::vector<double> limits = bin_limits(modes.nyquist);
+  const std::size_t bins = limits.size() - 1, tapered = tapered_bins(limits);
+
+  TwinData data;
+  data.instrument = instrument_name(instrument);
+  data.height_calibration = instrument.height_calibration;
+  data.scan_calibration = instrument.scan_calibration;
+  data.blur = instrument.kind == Instrument::optical
+                  ? instrument.resolution / std::sqrt(8 * std::numbers::ln2)
+                  : 0;
+  data.tip = instrument.has_tip();
+  data.tail_reference = modes.wavenumber(modes.nyquist / 4);
+
+  double weight = 0, squares = 0;
+  std::vector<double> psd(bins);
+  for (const std::size_t member : members) {
+    const ScanSpectrum& scan = scans[member];
+    weight += scan.weight;
+    squares += scan.weight * scan.weight;
+    for (std::size_t bin = 0; bin < bins; ++bin) psd[bin] += scan.weight * scan.psd[bin];
+  }
+  for (double& power : psd) power /= weight;
+  data.mean_scans = weight * weight / squares;
+  data.scans = std::move(members);
+
+  const auto enough = [&](std::size_t bin) { return first.modes[bin] >= (line ? 2 : 4); };
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (std::size_t bin = 0; bin < bins; ++bin)
+    if (enough(bin)) {
+      greatest = std::max(greatest, psd[bin]);
+      if (bin >= bins * 2 / 3) least = std::min(least, psd[bin]);
+    }
+  if (std::isnan(instrument.noise)) {
+    data.noise = least / 2;
+    data.noise_freedom = found_noise;
+  } else {
+    data.noise = instrument.noise * instrument.noise *
+                 (line ? first.grid.dx() / (2 * pi) : first.grid.cell_area() / (4 * pi * pi));
+    data.noise_freedom = known_noise;
+  }
+  // Without any noise a bin beyond the cut-off would be impossible.
+  data.noise = std::max(data.noise, 1e-12 * greatest);
+
+  double curvature = 0;  // κ_rms²
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const double a = modes.wavenumber(limits[bin]), b = modes.wavenumber(limits[bin + 1]);
+    const double q = first.wavenumber[bin], excess = std::max(psd[bin] - data.noise, 0.0);
+    curvature += (line ? 2 * (b - a) : 3.0 / 8 * pi * (b * b - a * a)) * q * q * q * q * excess;
+    if (data.tip && instrument.tip_radius * std::sqrt(curvature) > tip_limit) {
+      data.tip_limit = a;
+      break;
+    }
+    if (!enough(bin)) continue;
+    data.bins.push_back(bin);
+    data.wavenumber.push_back(q);
+    data.psd.push_back(psd[bin]);
+    const bool by_tapers = bin < tapered;
+    const double lowest_bins = bin < 2 ? 0.7 : 1;
+    data.modes.push_back(std::max(0.1, lowest_bins * independent(by_tapers, line) *
+                                           static_cast<double>(first.modes[bin]) / 2 * weight));
+    // Correlation is in m_c: the scatter of a narrow bin alone is less.
+    data.scatter.push_back(by_tapers ? 0.35 : 0.75);
+  }
+
+  const Response& response = responses.of(first.grid, instrument.drifts() && !line);
+  for (std::size_t cell = 0; cell < response.middle.size(); ++cell) {
+    const double high = std::log(modes.wavenumber(response.limits[cell + 1]));
+    data.cell_low.push_back(cell == 0 ? high - std::log(1.15) / 3
+                                      : std::log(modes.wavenumber(response.limits[cell])));
+    data.cell_high.push_back(high);
+    data.cell_wavenumber.push_back(modes.wavenumber(response.middle[cell]));
+    for (const std::size_t bin : data.bins) data.weights.push_back(response.weight(cell, bin));
+  }
+  return data;
+}
+
+}  // namespace
+
+const Response& Responses::of(const Grid2D& grid, bool drifts) {
+  const std::tuple key(grid.nx, grid.ny, grid.ny == 1 ? 0 : grid.lx / grid.ly, drifts);
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  return known_.emplace(key, response_of(grid, drifts)).first->second;
+}
+
+std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
+                              const std::vector<bool>& left_out, Responses& responses) {
+  std::vector<std::vector<std::size_t>> members;
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    if (left_out[scan]) continue;
+    const auto group = std::ranges::find_if(members, [&](const std::vector<std::size_t>& some) {
+      return alike(scans[some.front()], scans[scan]);
+    });
+    if (group == members.end())
+      members.push_back({scan});
+    else
+      group->push_back(scan);
+  }
+  std::vector<TwinData> data;
+  for (std::vector<std::size_t>& group : members) {
+    TwinData one = group_of(scans, std::move(group), responses);
+    if (!one.bins.empty()) data.push_back(std::move(one));
+  }
+  return data;
+}
+
+}  // namespace salebra::detail

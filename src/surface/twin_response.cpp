@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Expected periodogram of tapered scans without their plane, as a matrix over the spectrum.
+#include "surface/twin_response.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/parallel.hpp>
+
+#include "surface/twin_kernels.hpp"
+
+namespace salebra::detail {
+namespace {
+
+using std::numbers::pi;
+
+constexpr double tilt = 3.4;             ///< C ∝ κ^−tilt within a cell
+constexpr double longest = 0.01;         ///< κ of the longest waves
+constexpr double farthest_tapered = 30;  ///< κ of sources for the bins of the sine tapers
+constexpr double farthest_hann = 60;
+constexpr double reach = 10;  ///< modes beyond which a Hann window passes less than 1e-7 of a wave
+constexpr double flat_above =
+    3;  ///< κ of waves whose plane is nothing for the modes of the Hann bins
+
+double sinc(double x) { return std::abs(x) < 1e-8 ? 1 : std::sin(pi * x) / (pi * x); }
+
+double sinc_slope(double x) {
+  if (std::abs(x) < 1e-3) return -pi * pi * x / 3 * (1 - pi * pi * x * x / 10);
+  return (std::cos(pi * x) - sinc(x)) / x;
+}
+
+/// ∫w(ξ) e^{2πiδξ}dξ over −½ … ½ without its factor of i for an odd taper, and its slope.
+enum class Taper { first_sine, second_sine, hann };
+
+template <class Kernel>
+double combined(Taper taper, double delta, const Kernel& kernel) {
+  switch (taper) {
+    case Taper::first_sine:
+      return std::numbers::sqrt2 / 2 * (kernel(delta - 0.5) + kernel(delta + 0.5));
+    case Taper::second_sine:
+      return std::numbers::sqrt2 / 2 * (kernel(delta + 1) - kernel(delta - 1));
+    case Taper::hann:
+      break;
+  }
+  return std::sqrt(8.0 / 3) * (kernel(delta) / 2 + (kernel(delta - 1) + kernel(delta + 1)) / 4);
+}
+
+/// One taper along one side: transforms of a wave, of its mean and of its slope at the modes 0 …
+/// count.
+struct SideModes {
+  Taper taper;
+  double step;  ///< κ of a mode
+  std::vector<double> of_one, of_position;
+  // Of the wave at hand:
+  std::vector<double> wave, mean_part, slope_part;
+
+  SideModes(Taper kind, double mode_step, Index count) : taper(kind), step(mode_step) {
+    for (Index k = 0; k <= count; ++k) {
+      const double delta = -static_cast<double>(k);
+      of_one.push_back(combined(taper, delta, sinc));
+      of_position.push_back(combined(taper, delta, sinc_slope) / (2 * pi));
+    }
+    wave.resize(of_one.size());
+    mean_part.resize(of_one.size());
+    slope_part.resize(of_one.size());
+  }
+
+  void take(double kappa) {
+    const double cycles = kappa / step, z = pi * cycles;
+    const double mean = sinc(cycles);
+    const double slope =
+        std::abs(z) < 1e-2 ? 2 * z * (1 - z * z / 10) : 6 * (std::sin(z) / z - std::cos(z)) / z;
+    for (std::size_t k = 0; k < wave.size(); ++k) {
+      wave[k] = combined(taper, cycles - static_cast<double>(k), sinc);
+      mean_part[k] = mean * of_one[k];
+      slope_part[k] = slope * of_position[k];
+    }
+  }
+};
+
+/// ∫κ^{1−tilt} dκ·2π c^tilt from a to b: the area of a ring, weighted.
+double ring(double a, double b, double centre) {
+  a = std::max(a, 1e-3 * b);
+  return 2 * pi * std::pow(centre, tilt) * (std::pow(a, 2 - tilt) - std::pow(b, 2 - tilt)) /
+         (tilt - 2);
+}
+
+Response empty_response(double highest, std::size_t bins) {
+  Response response;
+  const double ratio = std::pow(1.15, 1.0 / 3);
+  const auto down = static_cast<int>(std::ceil(std::log(8.5 / longest) / std::log(ratio)));
+  response.limits.push_back(0);
+  for (int j = -down;; ++j) {
+    const double limit = 8.5 * std::pow(1.15, j / 3.0);
+    response.middle.push_back(response.limits.size() == 1
+                                  ? limit / std::sqrt(ratio)
+                                  : std::sqrt(limit * response.limits.back()));
+    response.limits.push_back(limit);
+    if (limit > highest) break;
+  }
+  response.bins = bins;
+  response.weights.assign(response.middle.size() * bins, 0.0);
+  return response;
+}
+
+std::size_t cell_of(const Response& response, double kappa) {
+  const auto after = std::ranges::upper_bound(response.limits, kappa) - response.limits.begin();
+  return std::min(static_cast<std::size_t>(after) - 1, response.middle.size() - 1);
+}
+
+struct Quadrant {
+  Index count_x, count_y;
+  std::vector<double> power;  // [k_x][k_y]
+};
+
+/// Mean power of the waves of one cell at the modes of the bins first … last−1, times its area.
+void add_waves(const ScanModes& modes, double kappa, double weight, std::vector<SideModes>& along_x,
+               std::vector<SideModes>& along_y, double inner, double outer, bool narrow,
+               Quadrant& quadrant) {
+  const double finest = std::min(modes.step_x, modes.step_y);
+  const int angles = std::max(8, static_cast<int>(std::ceil(1.3 * kappa / finest)));
+  for (int a = 0; a < angles; ++a) {
+    const double angle = (a + 0.5) / angles * pi / 2;
+    for (const int sign_x : {1, -1}) {
+      const double kappa_x = sign_x * kappa * std::cos(angle);
+      if (narrow && kappa_x < -reach * modes.step_x) continue;
+      for (SideModes& side : along_x) side.take(kappa_x);
+      for (const int sign_y : {1, -1}) {
+        const double kappa_y = sign_y * kappa * std::sin(angle);
+        if (narrow && kappa_y < -reach * modes.step_y) continue;
+        for (SideModes& side : along_y) side.take(kappa_y);
+        const double share =
+            weight / (4.0 * angles * static_cast<double>(along_x.size() * along_y.size()));
+        for (Index k = 0; k <= quadrant.count_x; ++k) {
+          const double x = static_cast<double>(k) * modes.step_x;
+          if (narrow && std::abs(x - kappa_x) > reach * modes.step_x) continue;
+          double low = std::sqrt(std::max(0.0, inner * inner - x * x)),
+                 high = std::sqrt(std::max(0.0, outer * outer - x * x));
+          if (narrow) {
+            low = std::max(low, kappa_y - reach * modes.step_y);
+            high = std::min(high, kappa_y + reach * modes.step_y);
+          }
+          const auto first = static_cast<Index>(low / modes.step_y);
+          const auto last =
+              std::min(quadrant.count_y, static_cast<Index>(std::ceil(high / modes.step_y)));
+          if (last < first) continue;
+          const auto from = static_cast<std::size_t>(first), at = static_cast<std::size_t>(k);
+          const std::span powers(quadrant.power.data() + k * (quadrant.count_y + 1) + first,
+                                 static_cast<std::size_t>(last - first + 1));
+          for (const SideModes& sx : along_x)
+            for (const SideModes& sy : along_y)
+              add_squares(sx.wave[at], sx.mean_part[at] + sx.slope_part[at], sx.mean_part[at],
+                          sy.wave.data() + from, sy.mean_part.data() + from,
+                          sy.slope_part.data() + from, share, powers);
+        }
+      }
+    }
+  }
+}
+
+/// Weights of the cells in the bins first … last−1 with these tapers.
+void add_full_response(const ScanModes& modes, const std::vector<double>& limits, bool drifts,
+                       std::size_t first, std::size_t last, const std::vector<Taper>& tapers,
+                       Response& response) {
+  if (first >= last) return;
+  const bool hann = tapers.front() == Taper::hann;
+  const double inner = limits[first], outer = limits[last];
+  const double farthest = hann ? farthest_hann : farthest_tapered;
+  const std::size_t cells = std::min(response.middle.size(), cell_of(response, farthest) + 1);
+  parallel::for_slabs(static_cast<Index>(cells), [&](Index begin, Index end) {
+    Quadrant quadrant{
+        static_cast<Index>(outer / modes.step_x), static_cast<Index>(outer / modes.step_y), {}};
+    std::vector<SideModes> along_x, along_y;
+    for (const Taper taper : tapers) {
+      along_x.emplace_back(taper, modes.step_x, quadrant.count_x);
+      along_y.emplace_back(taper, modes.step_y, quadrant.count_y);
+    }
+    for (Index cell = begin; cell < end; ++cell) {
+      const auto at = static_cast<std::size_t>(cell);
+      const double low = response.limits[at], high = response.limits[at + 1];
+      quadrant.power.assign(
+          static_cast<std::size_t>((quadrant.count_x + 1) * (quadrant.count_y + 1)), 0.0);
+      // Waves at most 0.35 modes apart.
+      const int parts = std::max(1, static_cast<int>(std::ceil((high - low) / 0.35)));
+      for (int part = 0; part < parts; ++part) {
+        const double a = low + (high - low) * part / parts,
+                     b = low + (high - low) * (part + 1) / parts;
+        const double kappa = parts == 1 ? response.middle[at] : (a + b) / 2;
+        add_waves(modes, kappa, ring(a, b, response.middle[at]), along_x, along_y, inner, outer,
+                  hann && kappa > flat_above, quadrant);
+      }
+      std::vector<double> sums(last - first), counts(last - first);
+      for (Index k = drifts ? drift_modes + 1 : 0; k <= quadrant.count_x; ++k)
+        for (Index j = 0; j <= quadrant.count_y; ++j) {
+          const double kappa = std::hypot(static_cast<double>(k) * modes.step_x,
+                                          static_cast<double>(j) * modes.step_y);
+          if (kappa < inner || kappa >= outer) continue;
+          const auto bin =
+              static_cast<std::size_t>(std::ranges::upper_bound(limits, kappa) - limits.begin()) -
+              1 - first;
+          const double count = (k > 0 ? 2 : 1) * (j > 0 ? 2 : 1);
+          sums[bin] +=
+              count * quadrant.power[static_cast<std::size_t>(k * (quadrant.count_y + 1) + j)];
+          counts[bin] += count;
+        }
+      for (std::size_t bin = first; bin < last; ++bin)
+        if (counts[bin - first] > 0)
+          response.weights[at * response.bins + bin] = sums[bin - first] / counts[bin - first];
+    }
+  });
+}
+
+/// Mean of C over the bin, and over the waves that the points of the scan fold into it.
+void add_mean(const ScanModes& modes, const Grid2D& grid, const std::vector<double>& limits,
+              std::size_t bin, Response& response) {
+  const double low = limits[bin], high = limits[bin + 1];
+  const double area = pi * (high * high - low * low);
+  for (std::size_t cell = 0; cell < response.middle.size(); ++cell) {
+    const double a = std::max(low, response.limits[cell]),
+                 b = std::min(high, response.limits[cell + 1]);
+    if (b > a)
+      response.weights[cell * response.bins + bin] += ring(a, b, response.middle[cell]) / area;
+  }
+  if (high < modes.nyquist / 2) return;
+  constexpr int radii = 6, angles = 12;
+  const double period_x = static_cast<double>(grid.nx) * modes.step_x,
+               period_y = static_cast<double>(grid.ny) * modes.step_y;
+  for (int r = 0; r < radii; ++r)
+    for (int a = 0; a < angles; ++a) {
+      const double kappa = std::sqrt(low * low + (high * high - low * low) * (r + 0.5) / radii),
+                   angle = (a + 0.5) / angles * pi / 2;
+      for (const int i : {-1, 0, 1})
+        for (const int j : {-1, 0, 1}) {
+          if (i == 0 && j == 0) continue;
+          const double image = std::hypot(kappa * std::cos(angle) + i * period_x,
+                                          kappa * std::sin(angle) + j * period_y);
+          const std::size_t cell = cell_of(response, image);
+          response.weights[cell * response.bins + bin] +=
+              std::pow(image / response.middle[cell], -tilt) / (radii * angles);
+        }
+    }
+}
+
+/// ∫dκ_y over a cell at κ_x.
+double chord(const Response& response, std::size_t cell, double kappa_x) {
+  const auto half = [&](double limit) {
+    return std::sqrt(std::max(0.0, limit * limit - kappa_x * kappa_x));
+  };
+  return 2 * (half(response.limits[cell + 1]) - half(response.limits[cell]));
+}
+
+void add_profile(const ScanModes& modes, const std::vector<double>& limits, Response& response) {
+  const double unit = 2 * pi / modes.side;
+  const std::size_t tapered = tapered_bins(limits), full = std::max(tapered, response_bins(limits));
+  // share[b](κ_x): mean power that a wave of κ_x along the line leaves in bin b.
+  const auto add = [&](std::size_t bin, double kappa_x, double share) {
+    const std::size_t from = cell_of(response, std::abs(kappa_x));
+    for (std::size_t cell = from; cell < response.middle.size(); ++cell)
+      response.weights[cell * response.bins + bin] += unit * share * chord(response, cell, kappa_x);
+  };
+  constexpr double spacing = 0.04;
+  for (std::size_t bin = 0; bin < full; ++bin) {
+    const std::vector<Taper> tapers = bin < tapered
+                                          ? std::vector{Taper::first_sine, Taper::second_sine}
+                                          : std::vector{Taper::hann};
+    const auto first = static_cast<Index>(std::ceil(limits[bin])),
+               last = static_cast<Index>(std::ceil(limits[bin + 1])) - 1;
+    std::vector<SideModes> sides;
+    for (const Taper taper : tapers) sides.emplace_back(taper, 1, last);
+    const auto steps =
+        static_cast<int>((bin < tapered ? farthest_tapered : farthest_hann) / spacing);
+    for (int step = -steps; step < steps; ++step) {
+      const double kappa_x = (step + 0.5) * spacing;
+      double power = 0;
+      for (SideModes& side : sides) {
+        side.take(kappa_x);
+        for (Index k = first; k <= last; ++k) {
+          const auto at = static_cast<std::size_t>(k);
+          const double amplitude = side.wave[at] - side.mean_part[at] - side.slope_part[at];
+          power += amplitude * amplitude;
+        }
+      }
+      add(bin, kappa_x,
+          spacing * power /
+              static_cast<double>(sides.size() * static_cast<std::size_t>(last - first + 1)));
+    }
+  }
+  constexpr int parts = 12;
+  for (std::size_t bin = full; bin < response.bins; ++bin)
+    for (int part = 0; part < parts; ++part) {
+      const double kappa = limits[bin] + (limits[bin + 1] - limits[bin]) * (part + 0.5) / parts;
+      add(bin, kappa, 1.0 / parts);
+      for (const double image : {2 * modes.nyquist - kappa, 2 * modes.nyquist + kappa,
+                                 4 * modes.nyquist - kappa, 4 * modes.nyquist + kappa})
+        add(bin, image, 1.0 / parts);
+    }
+}
+
+}  // namespace
+
+Response response_of(const Grid2D& grid, bool drifts) {
+  const ScanModes modes(grid);
+  const std::vector<double> limits = bin_limits(modes.nyquist);
+  const std::size_t bins = limits.size() - 1;
+  if (grid.ny == 1) {
+    // Waves across the line are in it, however short.
+    Response response = empty_response(40 * modes.nyquist, bins);
+    add_profile(modes, limits, response);
+    return response;
+  }
+  Response response = empty_response(std::max(farthest_hann, 4.5 * modes.nyquist), bins);
+  const std::size_t tapered = tapered_bins(limits), full = std::max(tapered, response_bins(limits));
+  add_full_response(modes, limits, drifts, 0, tapered, {Taper::first_sine, Taper::second_sine},
+                    response);
+  add_full_response(modes, limits, drifts, tapered, full, {Taper::hann}, response);
+  for (std::size_t bin = full; bin < bins; ++bin) add_mean(modes, grid, limits, bin, response);
+  return response;
+}
+
+}  // namespace salebra::detail
