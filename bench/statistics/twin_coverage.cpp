@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <salebra/base/parallel.hpp>
 #include <salebra/surface/twin.hpp>
 #include <string>
 
@@ -134,6 +135,7 @@ struct Tally {
 }  // namespace
 
 int main(int argc, char** argv) {
+  parallel::set_threads(1);
   const int truths = argc > 1 ? std::atoi(argv[1]) : 50;
   const Index n = argc > 2 ? std::atoi(argv[2]) : 512;
   const std::string where = argc > 3 ? argv[3] : "both";

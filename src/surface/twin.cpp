@@ -23,10 +23,10 @@ using detail::TwinModel;
 using detail::TwinProfile;
 using std::numbers::pi;
 
-constexpr double seen_above = 6;       ///< 2 ln of a likelihood ratio
-constexpr double one_sided = 1.353;    ///< half the 90 % quantile of χ² with one degree
-constexpr double refused_above = 1.8;  ///< misfit
-constexpr double bad_scan_above = 3;   ///< misfit of a scan, and over the median of its group
+constexpr double seen_above = 6;        ///< 2 ln of a likelihood ratio
+constexpr double one_sided = 1.353;     ///< half the 90 % quantile of χ² with one degree
+constexpr double refused_above = 1.8;   ///< misfit
+constexpr double bad_scan_above = 3.5;  ///< misfit of a scan, and over the median of its group
 constexpr double knots_per_decade = 3;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -95,25 +95,30 @@ std::vector<TwinScan> judged_scans(const std::vector<ScanSpectrum>& scans, const
                                    std::vector<bool>& left_out) {
   std::vector<TwinScan> judged;
   for (std::size_t scan = 0; scan < scans.size(); ++scan)
-    judged.push_back({scans[scan].name, unknown, left_out[scan]});
+    judged.push_back({scans[scan].name, unknown, unknown, left_out[scan]});
   for (std::size_t group = 0; group < one.model.data().size(); ++group) {
     const TwinData& data = one.model.data()[group];
     double weight = 0;
     for (const std::size_t scan : data.scans) weight += scans[scan].weight;
     std::vector<double> misfits;
+    std::vector<bool> far;
     for (const std::size_t scan : data.scans) {
       std::vector<double> psd;
       for (const std::size_t bin : data.bins) psd.push_back(scans[scan].psd[bin]);
       const double share = std::min(1 - 1e-9, scans[scan].weight / weight);
-      judged[scan].misfit = one.model.misfit_of(one.fit.parameters, group, psd, share).ratio();
-      misfits.push_back(judged[scan].misfit);
+      const TwinModel::Misfit misfit = one.model.misfit_of(one.fit.parameters, group, psd, share);
+      judged[scan].misfit = misfit.ratio();
+      judged[scan].gain = misfit.gain;
+      misfits.push_back(misfit.ratio());
+      far.push_back(std::abs(std::log(misfit.gain)) > std::numbers::ln2);
     }
-    std::ranges::sort(misfits);
-    const double middle = misfits[(misfits.size() - 1) / 2];
-    for (const std::size_t scan : data.scans)
-      if (data.scans.size() >= 3 && judged[scan].misfit > bad_scan_above &&
-          judged[scan].misfit > bad_scan_above * middle)
-        left_out[scan] = true;
+    std::vector<double> sorted = misfits;
+    std::ranges::sort(sorted);
+    const double middle = sorted[(sorted.size() - 1) / 2];
+    for (std::size_t k = 0; k < data.scans.size(); ++k)
+      if (data.scans.size() >= 3 &&
+          (far[k] || (misfits[k] > bad_scan_above && misfits[k] > bad_scan_above * middle)))
+        left_out[data.scans[k]] = true;
   }
   return judged;
 }
@@ -490,12 +495,9 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
           ? static_cast<Index>(std::lround(static_cast<double>(options.draws) * odds / (1 + odds)))
           : 0;
   twin.draws = draws_of(best, ends, options.draws - of_other, options.seed);
-  const std::vector<double> rolloffs =
-      of_draws(twin.draws, [](const TwinDraw& draw) { return draw.rolloff; });
   if (of_other > 0) {
     twin.notes.push_back(
-        "a corner and a smooth roll-off are nearly as likely: draws are of both, the roll-off's "
-        "interval of the likelier one");
+        "a corner and a smooth roll-off are nearly as likely: draws and intervals are of both");
     std::vector<TwinDraw> others = draws_of(*forms.other, ends_of(*forms.other),
                                             std::max<Index>(of_other, 1), options.seed + 1);
     std::ranges::move(others, std::back_inserter(twin.draws));
@@ -523,7 +525,7 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
   } else {
     twin.hurst = interval(sorted([](const TwinDraw& draw) { return draw.hurst; }), true);
     if (ends.sees_rolloff()) {
-      twin.rolloff = interval(rolloffs, true);
+      twin.rolloff = interval(sorted([](const TwinDraw& draw) { return draw.rolloff; }), true);
     } else {
       twin.rolloff.low = std::exp(
           ends.rolloffs->limit(best.fit.cost, one_sided).value_or(ends.rolloffs->values.front()));

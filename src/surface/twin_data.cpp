@@ -39,6 +39,44 @@ bool alike(const ScanSpectrum& a, const ScanSpectrum& b) {
          s.name == t.name;
 }
 
+/// Adds up how the scans' heights scatter about their mean, by the logarithms of their powers above
+/// noise.
+struct ScanScatter {
+  double squares = 0, freedom = 0;
+
+  void add(const std::vector<ScanSpectrum>& scans, const TwinData& group) {
+    constexpr double above_noise = 3;
+    if (group.scans.size() < 2) return;
+    double modes = 0, sum = 0, square = 0;
+    const auto used = [&](std::size_t k) {
+      return group.bins[k] >= 2 && group.psd[k] > above_noise * group.noise;
+    };
+    for (std::size_t k = 0; k < group.bins.size(); ++k)
+      if (used(k)) modes += group.modes[k];
+    if (modes == 0) return;
+    const auto count = static_cast<double>(group.scans.size());
+    for (const std::size_t scan : group.scans) {
+      double logarithm = 0;
+      for (std::size_t k = 0; k < group.bins.size(); ++k)
+        if (used(k) && scans[scan].psd[group.bins[k]] > 0)
+          logarithm +=
+              group.modes[k] / modes * std::log(scans[scan].psd[group.bins[k]] / group.psd[k]) / 2;
+      sum += logarithm;
+      square += logarithm * logarithm;
+    }
+    // Less what chance does to the powers themselves: modes are those of all scans.
+    squares += square - sum * sum / count - (count - 1) * count / (4 * modes);
+    freedom += count - 1;
+  }
+
+  /// Standard error of a scan's gain that they show, on the large side where they are few.
+  double error() const {
+    return freedom < 2
+               ? 0
+               : std::sqrt(std::max(0.0, squares / freedom * (freedom + 1) / (freedom - 1)));
+  }
+};
+
 TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_t> members,
                   Responses& responses) {
   const ScanSpectrum& first = scans[members.front()];
@@ -147,6 +185,11 @@ std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
     TwinData one = group_of(scans, std::move(group), responses);
     if (!one.bins.empty()) data.push_back(std::move(one));
   }
+  // More than calibration where places of a surface differ, as where heights are not Gaussian.
+  ScanScatter scatter;
+  for (const TwinData& group : data) scatter.add(scans, group);
+  for (TwinData& group : data)
+    group.scan_calibration = std::max(group.scan_calibration, scatter.error());
   return data;
 }
 

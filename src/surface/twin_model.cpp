@@ -281,17 +281,19 @@ TwinModel::Misfit TwinModel::misfit_of(const Eigen::VectorXd& parameters, std::s
     precisions.push_back(1 / (1 / (share * data.modes[bin]) + tolerance));
   }
   // A scan's own gain, at its most likely value.
-  double shift = 0;
-  if (share < 1) {
-    double up = 0, down = 1 / (4 * std::pow(std::max(data.scan_calibration, least_gain_error), 2));
+  double shift = 0;  // twice its logarithm
+  Misfit sum;
+  for (int iteration = 0; share < 1 && iteration < 20; ++iteration) {
+    double up = 0, down = 1e-300;
     for (std::size_t bin = 0; bin < data.bins.size(); ++bin) {
-      const double part = work.signal[bin] / work.expected[bin];
-      up += precisions[bin] * part * (psd[bin] / work.expected[bin] - 1);
+      const double signal = work.signal[bin] * std::exp(shift),
+                   mean = work.expected[bin] - work.signal[bin] + signal, part = signal / mean;
+      up += precisions[bin] * part * (psd[bin] / mean - 1);
       down += precisions[bin] * part * part;
     }
-    shift = std::clamp(up / down, -0.5, 0.5);
+    shift += std::clamp(up / down, -1.0, 1.0);
   }
-  Misfit sum;
+  sum.gain = std::exp(shift / 2);
   for (std::size_t bin = 0; bin < data.bins.size(); ++bin) {
     const double mean = work.expected[bin] + work.signal[bin] * std::expm1(shift);
     sum.deviance += 2 * precisions[bin] * deviation(psd[bin] / mean);

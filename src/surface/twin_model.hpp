@@ -80,12 +80,12 @@ class TwinModel {
   std::vector<double> expected(const Eigen::VectorXd& parameters, std::size_t group) const;
   /// Deviance of a group's bins and what is expected of it.
   struct Misfit {
-    double deviance = 0, expected = 0;
+    double deviance = 0, expected = 0, gain = 1;
     double ratio() const { return deviance / expected; }
   };
   Misfit misfit(const Eigen::VectorXd& parameters, std::size_t group) const;
-  /// The same of other powers in the bins of a group, from fewer modes by the factor `share` and
-  /// with a gain of their own.
+  /// The same of other powers in the bins of a group, from fewer modes by the factor `share` < 1
+  /// and with a gain of their own, relative to the group's, which is found.
   Misfit misfit_of(const Eigen::VectorXd& parameters, std::size_t group,
                    const std::vector<double>& psd, double share) const;
 

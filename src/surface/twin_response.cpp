@@ -211,16 +211,41 @@ void add_full_response(const ScanModes& modes, const std::vector<double>& limits
   });
 }
 
-/// Mean of C over the bin, and over the waves that the points of the scan fold into it.
+/// Share of a wave's power that a Hann window leaves below its wave number plus `modes`.
+double hann_below(double modes) {
+  constexpr double reach_of_table = 8, spacing = 0.02;
+  static const std::vector<double> table = [] {
+    std::vector<double> sums{0};
+    for (double at = -reach_of_table + spacing / 2; at < reach_of_table; at += spacing)
+      sums.push_back(sums.back() + spacing * std::pow(combined(Taper::hann, at, sinc), 2));
+    for (double& sum : sums) sum /= sums.back();
+    return sums;
+  }();
+  const double place = (modes + reach_of_table) / spacing;
+  if (place <= 0) return 0;
+  if (place >= static_cast<double>(table.size() - 1)) return 1;
+  const auto before = static_cast<std::size_t>(place);
+  return table[before] +
+         (place - static_cast<double>(before)) * (table[before + 1] - table[before]);
+}
+
+/// Mean of C over the bin, with limits as sharp as the window has them, and over the waves that the
+/// points of the scan fold into it.
 void add_mean(const ScanModes& modes, const Grid2D& grid, const std::vector<double>& limits,
               std::size_t bin, Response& response) {
   const double low = limits[bin], high = limits[bin + 1];
-  const double area = pi * (high * high - low * low);
+  const double area = pi * (high * high - low * low), step = std::sqrt(modes.step_x * modes.step_y);
   for (std::size_t cell = 0; cell < response.middle.size(); ++cell) {
-    const double a = std::max(low, response.limits[cell]),
-                 b = std::min(high, response.limits[cell + 1]);
-    if (b > a)
-      response.weights[cell * response.bins + bin] += ring(a, b, response.middle[cell]) / area;
+    const double from = response.limits[cell], to = response.limits[cell + 1];
+    if (to < low - 6 * step || from > high + 6 * step) continue;
+    const int parts = static_cast<int>(std::ceil((to - from) / 0.35));
+    for (int part = 0; part < parts; ++part) {
+      const double a = from + (to - from) * part / parts,
+                   b = from + (to - from) * (part + 1) / parts, kappa = (a + b) / 2;
+      response.weights[cell * response.bins + bin] +=
+          ring(a, b, response.middle[cell]) / area *
+          (hann_below((high - kappa) / step) - hann_below((low - kappa) / step));
+    }
   }
   if (high < modes.nyquist / 2) return;
   constexpr int radii = 6, angles = 12;
@@ -242,59 +267,70 @@ void add_mean(const ScanModes& modes, const Grid2D& grid, const std::vector<doub
     }
 }
 
-/// ∫dκ_y over a cell at κ_x.
-double chord(const Response& response, std::size_t cell, double kappa_x) {
-  const auto half = [&](double limit) {
-    return std::sqrt(std::max(0.0, limit * limit - kappa_x * kappa_x));
-  };
-  return 2 * (half(response.limits[cell + 1]) - half(response.limits[cell]));
+/// ∫dκ_x dκ_y over each cell between two κ_x >= 0, both signs of κ_y.
+std::vector<double> strips(const Response& response, double from, double to) {
+  std::vector<double> areas;
+  double before = 0;
+  for (std::size_t cell = 0; cell < response.middle.size(); ++cell) {
+    const double limit = response.limits[cell + 1];
+    const auto primitive = [&](double x) {
+      return x < limit ? x * std::sqrt(limit * limit - x * x) + limit * limit * std::asin(x / limit)
+                       : limit * limit * pi / 2;
+    };
+    const double below = from < limit ? primitive(to) - primitive(from) : 0;
+    areas.push_back(below - before);
+    before = below;
+  }
+  return areas;
 }
 
+/// A profile's C₁ at its modes: of the waves of κ_x, both signs, how much the tapers leave in each
+/// bin, times C₁ of κ_x from the cells.
 void add_profile(const ScanModes& modes, const std::vector<double>& limits, Response& response) {
   const double unit = 2 * pi / modes.side;
   const std::size_t tapered = tapered_bins(limits), full = std::max(tapered, response_bins(limits));
-  // share[b](κ_x): mean power that a wave of κ_x along the line leaves in bin b.
-  const auto add = [&](std::size_t bin, double kappa_x, double share) {
-    const std::size_t from = cell_of(response, std::abs(kappa_x));
-    for (std::size_t cell = from; cell < response.middle.size(); ++cell)
-      response.weights[cell * response.bins + bin] += unit * share * chord(response, cell, kappa_x);
+  const auto add = [&](std::size_t bin, const std::vector<double>& areas, double share) {
+    for (std::size_t cell = 0; cell < areas.size(); ++cell)
+      response.weights[cell * response.bins + bin] += unit * share * areas[cell];
   };
-  constexpr double spacing = 0.04;
-  for (std::size_t bin = 0; bin < full; ++bin) {
-    const std::vector<Taper> tapers = bin < tapered
-                                          ? std::vector{Taper::first_sine, Taper::second_sine}
-                                          : std::vector{Taper::hann};
-    const auto first = static_cast<Index>(std::ceil(limits[bin])),
-               last = static_cast<Index>(std::ceil(limits[bin + 1])) - 1;
-    std::vector<SideModes> sides;
-    for (const Taper taper : tapers) sides.emplace_back(taper, 1, last);
-    const auto steps =
-        static_cast<int>((bin < tapered ? farthest_tapered : farthest_hann) / spacing);
-    for (int step = -steps; step < steps; ++step) {
-      const double kappa_x = (step + 0.5) * spacing;
-      double power = 0;
+  const auto last = static_cast<Index>(std::ceil(limits[full])) - 1;
+  std::vector<SideModes> sides;
+  for (const Taper taper : {Taper::first_sine, Taper::second_sine, Taper::hann})
+    sides.emplace_back(taper, 1, last);
+  // Fine where the plane takes most of a wave, and its share is as κ_x⁴.
+  std::vector<double> places{0};
+  while (places.back() < farthest_hann)
+    places.push_back(places.back() + std::clamp(places.back() / 20, 0.002, 0.04));
+  for (std::size_t step = 0; step + 1 < places.size(); ++step) {
+    const double middle = (places[step] + places[step + 1]) / 2;
+    const std::vector<double> areas = strips(response, places[step], places[step + 1]);
+    std::vector<double> shares(full);
+    for (const double kappa_x : {middle, -middle})
       for (SideModes& side : sides) {
         side.take(kappa_x);
-        for (Index k = first; k <= last; ++k) {
-          const auto at = static_cast<std::size_t>(k);
-          const double amplitude = side.wave[at] - side.mean_part[at] - side.slope_part[at];
-          power += amplitude * amplitude;
+        const bool hann = side.taper == Taper::hann;
+        for (std::size_t bin = hann ? tapered : 0; bin < (hann ? full : tapered); ++bin) {
+          const auto first = static_cast<std::size_t>(std::ceil(limits[bin])),
+                     after = static_cast<std::size_t>(std::ceil(limits[bin + 1]));
+          for (std::size_t k = first; k < after; ++k) {
+            const double amplitude = side.wave[k] - side.mean_part[k] - side.slope_part[k];
+            shares[bin] +=
+                amplitude * amplitude / static_cast<double>((after - first) * (hann ? 1 : 2));
+          }
         }
       }
-      add(bin, kappa_x,
-          spacing * power /
-              static_cast<double>(sides.size() * static_cast<std::size_t>(last - first + 1)));
+    for (std::size_t bin = 0; bin < full; ++bin) add(bin, areas, shares[bin]);
+  }
+  // Means over the bin, and over the waves that the points fold into it.
+  const double period = 2 * modes.nyquist;
+  for (std::size_t bin = full; bin < response.bins; ++bin) {
+    const double low = limits[bin], high = limits[bin + 1], share = 1 / (high - low);
+    add(bin, strips(response, low, high), share);
+    for (const double fold : {period, 2 * period}) {
+      add(bin, strips(response, fold - high, fold - low), share);
+      add(bin, strips(response, fold + low, fold + high), share);
     }
   }
-  constexpr int parts = 12;
-  for (std::size_t bin = full; bin < response.bins; ++bin)
-    for (int part = 0; part < parts; ++part) {
-      const double kappa = limits[bin] + (limits[bin + 1] - limits[bin]) * (part + 0.5) / parts;
-      add(bin, kappa, 1.0 / parts);
-      for (const double image : {2 * modes.nyquist - kappa, 2 * modes.nyquist + kappa,
-                                 4 * modes.nyquist - kappa, 4 * modes.nyquist + kappa})
-        add(bin, image, 1.0 / parts);
-    }
 }
 
 }  // namespace

@@ -126,6 +126,7 @@ constexpr void describe(auto&& visit, std::type_identity<TwinGroup>) {
 struct TwinScan {
   std::string name;
   double misfit = 0;  ///< χ² of this scan against the fit over what is expected, 1 for a good one
+  double gain = 1;    ///< factor of its heights over those of its group
   bool left_out = false;
 };
 
@@ -133,6 +134,7 @@ constexpr void describe(auto&& visit, std::type_identity<TwinScan>) {
   using S = TwinScan;
   visit(&S::name, Kept{"name", "name of the scan"});
   visit(&S::misfit, Kept{"misfit", "deviance of the scan over what is expected"});
+  visit(&S::gain, Kept{"gain", "factor of heights over those of the group"});
   visit(&S::left_out, Kept{"left_out", "whether it was left out"});
 }
 
