@@ -134,7 +134,8 @@ struct BinSums {
 void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size_t first,
               double scale, BinSums& sums) {
   const Index nx = level.rows(), ny = level.cols(), columns = ny / 2 + 1;
-  const std::vector<double> wx = detail::hann_taper(nx), wy = detail::hann_taper(ny);
+  const std::vector<double> wx = detail::hann_taper(nx),
+                            wy = ny == 1 ? std::vector{1.0} : detail::hann_taper(ny);
   const Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>> along_y(wy.data(), ny);
   Field tapered(nx, ny);
   for (Index i = 0; i < nx; ++i)

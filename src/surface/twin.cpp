@@ -27,7 +27,7 @@ constexpr double seen_above = 6;        ///< 2 ln of a likelihood ratio
 constexpr double one_sided = 1.353;     ///< half the 90 % quantile of χ² with one degree
 constexpr double refused_above = 1.8;   ///< misfit
 constexpr double bad_scan_above = 3.5;  ///< misfit of a scan, and over the median of its group
-constexpr double knots_per_decade = 3;
+constexpr double knots_per_decade = 5;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Candidate {
@@ -337,19 +337,28 @@ TwinSpectrum band_of(const std::vector<TwinDraw>& draws, const TwinLaw& law, dou
   return band;
 }
 
-/// Parameters of a fit by its curvature: hurst, ln of the others.
 struct Curved {
   bool sees_rolloff = true, sees_cutoff = true;
   Spread hurst, rolloff, cutoff, height, slope;
 };
 
-Curved curved(const Candidate& one, bool sees_rolloff, bool sees_cutoff) {
-  const Eigen::MatrixXd covariance = detail::laplace_covariance(one.model, one.fit.parameters, {});
+/// Whether the likelihood with a parameter held is less by what counts as seen.
+bool sees(const Candidate& one, Index parameter, double held_at) {
+  Eigen::VectorXd held = one.fit.parameters;
+  held[parameter] = held_at;
+  return 2 * (detail::minimised(one.model, held, {parameter}).cost - one.fit.cost) > seen_above;
+}
+
+/// Parameters of a fit of a self-affine law by its curvature: hurst, ln of the others.
+Curved curved(const Candidate& one) {
+  const TwinModel& model = one.model;
+  const Index cutoff = model.law().cutoff();
+  const Eigen::MatrixXd covariance = detail::laplace_covariance(model, one.fit.parameters, {});
   const auto spread = [&](const auto& function) {
-    return spread_of(one.model, one.fit.parameters, covariance, function);
+    return spread_of(model, one.fit.parameters, covariance, function);
   };
-  return {sees_rolloff,
-          sees_cutoff,
+  return {sees(one, TwinLaw::rolloff, model.highest()[TwinLaw::rolloff] - 1e-3),
+          sees(one, cutoff, model.lowest()[cutoff] + 1e-3),
           spread([](const TwinDraw& draw) { return draw.hurst; }),
           spread([](const TwinDraw& draw) { return std::log(draw.rolloff); }),
           spread([](const TwinDraw& draw) { return std::log(draw.short_cutoff); }),
@@ -357,12 +366,12 @@ Curved curved(const Candidate& one, bool sees_rolloff, bool sees_cutoff) {
           spread([](const TwinDraw& draw) { return std::log(draw.rms_slope); })};
 }
 
-std::vector<TwinWithout> fits_without(const Candidate& all, const Ends& ends) {
+std::vector<TwinWithout> fits_without(const Candidate& all) {
   std::set<std::string> instruments;
   for (const TwinData& group : all.model.data()) instruments.insert(group.instrument);
   std::vector<TwinWithout> results;
-  if (instruments.size() < 2 || all.model.law().table()) return results;
-  const Curved whole = curved(all, ends.sees_rolloff(), ends.sees_cutoff());
+  if (instruments.size() < 2) return results;
+  const Curved whole = curved(all);
   for (const std::string& instrument : instruments) {
     std::vector<TwinData> rest;
     Index bins = 0;
@@ -377,17 +386,10 @@ std::vector<TwinWithout> fits_without(const Candidate& all, const Ends& ends) {
     start.head(model.law().size()) = all.fit.parameters.head(model.law().size());
     TwinFit fit = detail::refitted(model, start);
     const Candidate one{std::move(model), std::move(fit)};
-    const auto ratio = [&](Index parameter, double value) {
-      Eigen::VectorXd held = one.fit.parameters;
-      held[parameter] = value;
-      return 2 * (detail::minimised(one.model, held, {parameter}).cost - one.fit.cost);
-    };
-    const Index cutoff = one.model.law().cutoff();
-    const Curved part = curved(
-        one, ratio(TwinLaw::rolloff, one.model.highest()[TwinLaw::rolloff] - 1e-3) > seen_above,
-        ratio(cutoff, one.model.lowest()[cutoff] + 1e-3) > seen_above);
+    const Curved part = curved(one);
     TwinWithout without;
     without.instrument = instrument;
+    without.misfit = one.misfit();
     const auto compare = [&](TwinParameter& to, const Spread& now, const Spread& before, bool seen,
                              bool logarithm) {
       const auto back = [&](double value) { return logarithm ? std::exp(value) : value; };
@@ -456,6 +458,14 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
           "scan " + (scans[scan].name.empty() ? std::to_string(scan + 1) : scans[scan].name) +
           " is left out: its spectrum is far from that of the others");
     }
+  }
+  if (options.leave_one_out && !forms.best.model.law().table()) {
+    twin.without = fits_without(forms.best);
+    for (const TwinWithout& without : twin.without)
+      if (!without.agrees)
+        twin.notes.push_back("without " + without.instrument +
+                             " the parameters move by more than chance explains: one of the "
+                             "instruments is not what it is said to be");
   }
   if (!options.form && forms.best.misfit() > refused_above) {
     Candidate table = candidate_of(forms.best.model.data(), SpectrumForm::table);
@@ -540,14 +550,6 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
   twin.spectrum = band_of(twin.draws, model.law(), 2 * pi / model.largest_scan(),
                           std::max(model.finest_wavenumber(),
                                    ends.sees_cutoff() ? 2 * pi / end : model.finest_wavenumber()));
-  if (options.leave_one_out) {
-    twin.without = fits_without(best, ends);
-    for (const TwinWithout& without : twin.without)
-      if (!without.agrees)
-        twin.notes.push_back("without " + without.instrument +
-                             " the parameters move by more than chance explains: one of the "
-                             "instruments is not what it is said to be");
-  }
   return twin;
 }
 

@@ -101,7 +101,12 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].precisions.clear();
     for (std::size_t bin = 0; bin < data_[g].bins.size(); ++bin) {
-      const double s = data_[g].wavenumber[bin] > 0.8 * cutoff ? beyond_cutoff : everywhere;
+      // Of a bin whose lower limit is about the cut-off, little but a sharp edge's leakage is left.
+      constexpr double half_bin = 1.0724;  // √1.15
+      const double q = data_[g].wavenumber[bin], edge = q / half_bin / cutoff;
+      const double s = edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
+                       : q > 0.8 * cutoff         ? beyond_cutoff
+                                                  : everywhere;
       groups_[g].precisions.push_back(1 / (1 / data_[g].modes[bin] + s * s));
     }
   }

@@ -68,7 +68,8 @@ class TwinModel {
   double largest_scan() const { return largest_; }             ///< m
   double finest_wavenumber() const { return finest_; }         ///< rad/m, used
 
-  /// s of 1/m = 1/m_c + s² in all bins, and in those beyond 0.8 of the wave number `cutoff`.
+  /// s of 1/m = 1/m_c + s² in all bins, and in those beyond 0.8 of the wave number `cutoff`;
+  /// three times that where a bin begins there.
   void set_tolerance(double everywhere, double beyond, double cutoff);
 
   /// −½|F|², or −∞ out of bounds; F of residuals().

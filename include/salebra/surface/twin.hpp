@@ -138,10 +138,11 @@ constexpr void describe(auto&& visit, std::type_identity<TwinScan>) {
   visit(&S::left_out, Kept{"left_out", "whether it was left out"});
 }
 
-/// The fit without one instrument; intervals are those of the curvature of the likelihood.
+/// The fit of the likelier self-affine law without one instrument; intervals are those of the curvature of the likelihood.
 struct TwinWithout {
   std::string instrument;
   TwinParameter hurst, rolloff, short_cutoff, rms_height, rms_slope;
+  double misfit = 0;   ///< χ² of the fit over what is expected
   bool agrees = true;  ///< no parameter that both see moved by more than chance explains (1 %)
 };
 
@@ -153,6 +154,7 @@ constexpr void describe(auto&& visit, std::type_identity<TwinWithout>) {
   visit(&S::short_cutoff, Kept{"short_cutoff", "shortest wavelength", Dimension::length});
   visit(&S::rms_height, Kept{"rms_height", "root mean square height", Dimension::length});
   visit(&S::rms_slope, Kept{"rms_slope", "root mean square of the gradient"});
+  visit(&S::misfit, Kept{"misfit", "deviance over what is expected"});
   visit(&S::agrees, Kept{"agrees", "whether nothing moved by more than chance explains"});
 }
 
