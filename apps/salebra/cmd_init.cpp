@@ -36,6 +36,7 @@ rolloff = "1.25um"           # wavelength where the plateau ends; at most an eig
 short_cutoff = "156.25nm"    # shortest wavelength: eight cells, fewer make the contact area too large
 rms_height = "30nm"
 # rms_slope = 0.2            # instead of rms_height
+# twin = "surface.h5"        # instead of hurst to rms_height: what `salebra twin` made of several scans of a part
 # psd_table = "psd.txt"      # instead of hurst to rms_height: two columns, q in rad/m and C(q) in m^4
 method = "filtered-noise"    # Gaussian surfaces; "random-phase" has the same rms height for every seed
 seed_count = 4               # 20 and more for intervals that one may publish

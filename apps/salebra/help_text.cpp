@@ -65,6 +65,19 @@ constexpr std::array descriptions{
         "by scale, bearing curve and distribution of heights. Nothing but the trend (--detrend) "
         "is removed, and holes are filled on request only (--fill).\n\n"
         "Next: salebra contact presses the surface, salebra study computes its damping."},
+    CommandHelp{
+        "twin", surfaces, "--form",
+        "Finds the one self-affine surface that several scans are pieces of: optical maps, stylus "
+        "and AFM scans of any size. Blur, tip, noise, calibration, drift and levelling of each "
+        "instrument are part of the fit. Reports Hurst exponent, roll-off, cut-off, rms height and "
+        "slope with joint 95 % limits, says what no scan sees, and what changes without each "
+        "instrument.\n\n"
+        "FILE has a table for each scan:\n"
+        "  [[measurement]]\n"
+        "  file = \"wli.sur\"\n"
+        "  instrument = \"optical\"    # or stylus, afm, ideal\n"
+        "  resolution = \"1.5um\"      # of stylus and afm: tip_radius\n\n"
+        "Next: salebra study STUDY --twin OUT draws surfaces of the part."},
     CommandHelp{"convert", surfaces, "--fill",
                 "Reads a surface and writes it in the format that the extension of OUT names. "
                 "docs/formats.md lists what each format keeps."},
@@ -141,6 +154,7 @@ constexpr std::string_view chart =
     "  a measured surface       roughness and spectrum           statistics\n"
     "                           contact, force-gap curve         contact, fit\n"
     "                           damping                          study --surface\n"
+    "  scans of one part        its surface, its damping         twin, study --twin\n"
     "  a spectrum, no file      such surfaces, their damping     generate, study\n"
     "  a law, a curve           damping for any motion           damping\n"
     "  a sphere, cone, profile  losses, slip; simulation in 3-D  damping, oscillate\n"

@@ -20,6 +20,7 @@
 #include <salebra/io/read_surface.hpp>
 #include <salebra/report/report.hpp>
 #include <salebra/study/study_file.hpp>
+#include <salebra/study/twin_file.hpp>
 #include <set>
 
 #include "compare_figure.hpp"
@@ -60,6 +61,11 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
                   "study file (TOML); options take the place of what it says")
       ->file(FileUse::input);
   surface.add_to(command, false, "--surface");
+  command
+      .add_option("--twin", twin,
+                  "file of `twin`: surfaces of the study file's grid and seeds with spectra that "
+                  "the scans allow")
+      ->file(FileUse::input);
   material.add_to(command);
   motion.add_to(command);
   premises.add_to(command);
@@ -215,6 +221,14 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
     require_options(missing, "a study without a file");
     study.pressures = parse_values("5e-4:0.2:16", Dimension::dimensionless, "pressures");
     study.relative_pressures = true;
+  }
+  if (!arguments.twin.empty()) {
+    auto* generated = std::get_if<GeneratedSurfaces>(&study.surfaces);
+    require(generated != nullptr && !surface.given(), "--twin", arguments.twin,
+            "needs a study file whose [surface] has points, size_x and seeds");
+    require(study.ensemble.empty(), "--twin", arguments.twin,
+            "is what it is; the [ensemble] of the study file has nothing to vary");
+    generated->tables = tables_of(read_twin_draws(arguments.twin), generated->grid);
   }
   if (!surface.given()) return study;
   return with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,

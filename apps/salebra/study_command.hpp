@@ -19,7 +19,7 @@
 namespace salebra::cli {
 
 struct StudyArguments {
-  std::string configuration;
+  std::string twin, configuration;
   SurfaceOptions surface;
   MaterialOptions material;
   MotionOptions motion;

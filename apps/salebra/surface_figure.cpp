@@ -114,4 +114,18 @@ Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of) {
   return figure;
 }
 
+Figure twin_figure(const SurfaceTwin& twin) {
+  PlotPanel panel;
+  panel.title = "power spectral density of the surface";
+  panel.x = {.label = "wave number q", .unit = "rad/m", .logarithmic = true};
+  panel.y = {.label = "C(q)", .unit = "m^4", .logarithmic = true};
+  panel.legend = PlotLegend::bottom_left;
+  panel.curves.push_back({.name = "by all scans, 95 %",
+                          .x = twin.spectrum.wavenumber,
+                          .y = twin.spectrum.psd,
+                          .low = twin.spectrum.low,
+                          .high = twin.spectrum.high});
+  return {.panels = {panel}};
+}
+
 }  // namespace salebra::cli

@@ -4,6 +4,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/surface/spectrum.hpp>
+#include <salebra/surface/twin.hpp>
 #include <string>
 
 #include "io/plot.hpp"
@@ -26,5 +27,8 @@ PlotPanel map_panel(const Grid2D& grid, const Field& values, const std::string& 
 /// fitted law, and the distribution of its heights beside the Gaussian one of the same mean and rms
 /// height. The second panel is left out where there is no spectrum, or no power in it.
 Figure surface_figure(const Surface& surface, const SurfaceSpectrum& of);
+
+/// The spectrum that several scans have in common, with its 95 % band.
+Figure twin_figure(const SurfaceTwin& twin);
 
 }  // namespace salebra::cli

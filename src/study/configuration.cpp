@@ -10,10 +10,12 @@
 #include <salebra/base/words.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/study/configuration.hpp>
+#include <salebra/study/twin_file.hpp>
 #include <unordered_set>
 
 #include "io/input_file.hpp"
 #include "io/number_table.hpp"
+#include "surface_table.hpp"
 #include "toml_reader.hpp"
 
 namespace salebra {
@@ -144,9 +146,9 @@ SelfAffineParameters read_self_affine(TomlTable& table, const ParameterLists& li
 }
 
 /// Two columns of a file: q in rad/m and C in m⁴.
-PsdTable read_psd_table(TomlTable& table, const std::filesystem::path& folder) {
+SpectrumTable read_psd_table(TomlTable& table, const std::filesystem::path& folder) {
   const auto columns = read_number_table(folder / *table.text("psd_table"), 2);
-  PsdTable psd{columns[0], columns[1]};
+  SpectrumTable psd{columns[0], columns[1]};
   table.located([&] { TabulatedSpectrum(psd.wavenumber, psd.psd); });
   return psd;
 }
@@ -159,6 +161,9 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
     table.check(lists.hurst.empty() && lists.rolloff.empty() && lists.short_cutoff.empty(),
                 "psd_table", "has no hurst, rolloff or short_cutoff that [ensemble] could vary");
     surfaces.tables.push_back(read_psd_table(table, folder));
+  } else if (table.has("twin")) {
+    table.check(lists.empty(), "twin", "is what it is; [ensemble] has nothing to vary");
+    surfaces.tables = tables_of(read_twin_draws(folder / *table.text("twin")), surfaces.grid);
   } else {
     surfaces.spectrum = read_self_affine(table, lists);
   }
@@ -175,7 +180,9 @@ GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
   return surfaces;
 }
 
-MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& folder) {
+}  // namespace
+
+MeasuredSurface detail::read_measured(TomlTable& table, const std::filesystem::path& folder) {
   MeasuredSurface surface;
   surface.file = folder / *table.text("file");
   for (const auto& [key, size] :
@@ -187,6 +194,8 @@ MeasuredSurface read_measured(TomlTable& table, const std::filesystem::path& fol
   surface.detrend = enumerated<Detrend>(table, "detrend");
   return surface;
 }
+
+namespace {
 
 // What is known of the bodies and of the motion, for the premises of the damping.
 double read_fact(TomlTable& table, const char* key, Dimension dimension) {
@@ -330,12 +339,17 @@ std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of_all() co
 
 std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of(std::uint64_t seed) const {
   if (tables.size() < 2) return spectrum_of_all();
-  const PsdTable& table = tables[1 + seed % (tables.size() - 1)];
+  const SpectrumTable& table = tables[1 + seed / 2 % (tables.size() - 1)];
   return std::make_unique<TabulatedSpectrum>(table.wavenumber, table.psd);
 }
 
 bool StudyConfiguration::has(ContactModel model) const {
   return std::ranges::find(models, model) != models.end();
+}
+
+bool StudyConfiguration::of_twin() const {
+  const auto* generated = std::get_if<GeneratedSurfaces>(&surfaces);
+  return generated && generated->tables.size() > 1;
 }
 
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
@@ -353,7 +367,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   if (ensemble) read_ensemble(*ensemble, configuration);
   if (auto surface = root.table("surface")) {
     if (surface->has("file")) {
-      configuration.surfaces = read_measured(*surface, folder);
+      configuration.surfaces = detail::read_measured(*surface, folder);
     } else {
       configuration.surfaces = read_generated(*surface, configuration.ensemble, folder);
     }

@@ -69,6 +69,26 @@ EnsembleMean student_mean(const std::vector<double>& values) {
   return estimate;
 }
 
+EnsembleMean prediction(const std::vector<double>& values) {
+  std::vector<double> kept = known(values);
+  EnsembleMean estimate;
+  if (kept.empty()) return estimate;
+  estimate.mean = moments_of(kept).mean;
+  if (kept.size() < 2) return estimate;
+  const bool positive = std::ranges::all_of(kept, [](double value) { return value > 0; });
+  if (positive)
+    for (double& value : kept) value = std::log(value);
+  const Moments moments = moments_of(kept);
+  const double count = double(kept.size());
+  const double half =
+      gsl_cdf_tdist_Pinv(0.975, count - 1) * moments.deviation * std::sqrt(1 + 1 / count);
+  estimate.low = moments.mean - half;
+  estimate.high = moments.mean + half;
+  if (positive)
+    for (double* limit : {&estimate.low, &estimate.high}) *limit = std::exp(*limit);
+  return estimate;
+}
+
 Bootstrap::Bootstrap(int resamples, std::uint64_t seed) : resamples_(resamples), seed_(seed) {
   require(resamples >= 200, "resamples", resamples,
           "is too few for a quantile of 2.5 %; use at least 200");

@@ -11,6 +11,12 @@ namespace salebra {
 /// fewer than two.
 EnsembleMean student_mean(const std::vector<double>& values);
 
+/// Mean, and the Student-t interval that holds one more value of the same kind in 95 %,
+///     m exp(±t_{0.975, n−1} s √(1 + 1/n)),   m, s: of ln values
+/// of values > 0, otherwise of the values themselves. Of surfaces of a twin, whose spectra are draws
+/// of what the scans leave open, one more is the part that was scanned.
+EnsembleMean prediction(const std::vector<double>& values);
+
 /// Bootstrap-t 95 % intervals of means [Efron and Tibshirani (1993), ch. 12.5]: n values are drawn
 /// with replacement from n values, `resamples` times; the 2.5 % and 97.5 % quantiles of t* = (mean*
 /// − mean)/s* give

@@ -34,21 +34,6 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
              : filtered_noise(recipe.grid, *spectrum, seed, progress, ranks);
 }
 
-Surface read(const MeasuredSurface& recipe, const Communicator& ranks,
-             std::vector<std::string>* remarks = nullptr) {
-  require_that(!recipe.file.empty(), "surface",
-               "none is given; name a file, or describe surfaces to generate");
-  ReadOptions options;
-  options.size_x = recipe.size_x;
-  options.size_y = recipe.size_y;
-  options.height_unit = recipe.height_unit;
-  options.remarks = remarks;
-  Surface surface = read_surface(recipe.file, options, ranks);
-  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
-  const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
-  return detrended(std::move(surface), trend);
-}
-
 /// Root mean square of the steps between opposite edges, which a periodic continuation turns into
 /// cliffs.
 double seam_step(const Surface& surface) {
@@ -338,11 +323,26 @@ ModelResult& Realisation::of(ContactModel model) {
   return const_cast<ModelResult&>(std::as_const(*this).of(model));
 }
 
+Surface measured_surface(const MeasuredSurface& recipe, const Communicator& ranks,
+                         std::vector<std::string>* remarks) {
+  require_that(!recipe.file.empty(), "surface",
+               "none is given; name a file, or describe surfaces to generate");
+  ReadOptions options;
+  options.size_x = recipe.size_x;
+  options.size_y = recipe.size_y;
+  options.height_unit = recipe.height_unit;
+  options.remarks = remarks;
+  Surface surface = read_surface(recipe.file, options, ranks);
+  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
+  const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
+  return detrended(std::move(surface), trend);
+}
+
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress, const Communicator& ranks) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
     return generate(*recipe, seed, progress, ranks);
-  return read(std::get<MeasuredSurface>(configuration.surfaces), ranks);
+  return measured_surface(std::get<MeasuredSurface>(configuration.surfaces), ranks);
 }
 
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
@@ -354,7 +354,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     doubt = doubt_of_slope(slope);
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
-    slope = surface_moments(read(measured, ranks, &loads.doubts)).rms_slope();
+    slope = surface_moments(measured_surface(measured, ranks, &loads.doubts)).rms_slope();
   }
   const double modulus = configuration.material.contact_modulus;
   loads.contact_scale = modulus * slope;

@@ -137,6 +137,13 @@ void flag(StudyResult& result) {
                        "contact area is too large, the force hardly",
                        shortest / cell)});
   }
+  if (const double share = result.scan_share(); !std::isnan(share))
+    result.flags.push_back(
+        {"twin",
+         fmt::format("surface twin: intervals are of a surface of the part; {:.0f} % of the "
+                     "variance of the loss is what the scans leave open, the rest differs from "
+                     "place to place",
+                     100 * share)});
   // Where the law is fitted, the least load has the fewest spots.
   double fewest = std::numeric_limits<double>::infinity();
   for (const Realisation& realisation : result.realisations)

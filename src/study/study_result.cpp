@@ -2,9 +2,11 @@
 // Ensemble means of a study: decay length, area slope, curves, damping, ratios to BEM.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <salebra/contact/theories.hpp>
@@ -15,10 +17,18 @@
 
 namespace salebra {
 
+namespace {
+
+EnsembleMean estimate(const StudyConfiguration& configuration, const std::vector<double>& values) {
+  return configuration.of_twin() ? prediction(values) : Bootstrap().mean(values);
+}
+
+}  // namespace
+
 EnsembleMean StudyResult::mean(const NumberOf<Realisation>& number) const {
   std::vector<double> values;
   for (const Realisation& realisation : realisations) values.push_back(number(realisation));
-  return Bootstrap().mean(values);
+  return estimate(configuration, values);
 }
 
 EnsembleMean StudyResult::mean(const NumberOf<ModelResult>& number, ContactModel model) const {
@@ -233,14 +243,42 @@ std::vector<EnsembleMean> StudyResult::convergence() const {
                      realisation.heights.rms_height);
   std::vector<EnsembleMean> estimates;
   for (const std::size_t count : convergence_counts())
-    estimates.push_back(
-        Bootstrap().mean({ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)}));
+    estimates.push_back(estimate(
+        configuration, {ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(count)}));
   return estimates;
+}
+
+double StudyResult::scan_share() const {
+  if (!configuration.of_twin()) return ForceSample::unknown;
+  double sum = 0, loads = 0;
+  for (std::size_t k = 0; k < pressures.size(); ++k) {
+    std::map<std::uint64_t, std::vector<double>> of_draw;  // ln W of the surfaces of one spectrum
+    double first = 0, second = 0, count = 0, within = 0, pairs = 0;
+    for (const Realisation& realisation : realisations) {
+      const double work = realisation.of(ContactModel::bem).damping[k].work_per_cycle;
+      if (!(work > 0)) continue;
+      of_draw[realisation.seed / 2].push_back(std::log(work));
+      first += std::log(work), second += std::pow(std::log(work), 2), ++count;
+    }
+    for (const auto& [draw, logarithms] : of_draw) {
+      if (logarithms.size() < 2) continue;
+      within += std::pow(logarithms[0] - logarithms[1], 2) / 2;
+      ++pairs;
+    }
+    constexpr double fewest_pairs = 3;
+    if (pairs < fewest_pairs) continue;
+    const double all = (second - first * first / count) / (count - 1);
+    sum += std::clamp(1 - within / pairs / all, 0.0, 1.0);
+    ++loads;
+  }
+  return loads > 0 ? sum / loads : ForceSample::unknown;
 }
 
 std::string StudyResult::interval_method() const {
   const std::size_t count = realisations.size();
   if (count == 1) return "one surface: no interval, which needs a sample of surfaces";
+  if (configuration.of_twin())
+    return fmt::format("95 % interval of a surface of the part, by {} surfaces of its twin", count);
   return fmt::format("95 % {} interval of the mean over {} surfaces",
                      count < Bootstrap::least_bootstrap_count ? "Student-t" : "bootstrap-t", count);
 }

@@ -127,11 +127,29 @@ TomlTable TomlTable::required_table(std::string_view key) {
   return *found;
 }
 
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  const toml::node* node = Access::find(*this, key);
+  std::vector<TomlTable> all;
+  if (!node) return all;
+  check(node->is_array_of_tables(), key, "must be tables; write [[" + path_of(key) + "]]");
+  for (const toml::node& one : *node->as_array())
+    all.push_back(TomlTable(file_, path_of(key), {content_->document, one.as_table()},
+                            one.source().begin.line));
+  return all;
+}
+
 std::optional<std::string> TomlTable::text(std::string_view key) {
   const toml::node* node = Access::find(*this, key);
   if (!node) return {};
   check(node->is_string(), key, written(*node) + " must be a string; put it in quotes");
   return node->value<std::string>();
+}
+
+std::optional<bool> TomlTable::flag(std::string_view key) {
+  const toml::node* node = Access::find(*this, key);
+  if (!node) return {};
+  check(node->is_boolean(), key, written(*node) + " must be true or false");
+  return node->value<bool>();
 }
 
 std::vector<std::string> TomlTable::texts(std::string_view key) {

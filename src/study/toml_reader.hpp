@@ -23,10 +23,13 @@ class TomlTable {
   bool has(std::string_view key) const;
   std::optional<TomlTable> table(std::string_view key);
   TomlTable required_table(std::string_view key);
+  /// The tables [[key]] in their order.
+  std::vector<TomlTable> tables(std::string_view key);
 
   std::optional<std::string> text(std::string_view key);
   /// Strings of an array, or one.
   std::vector<std::string> texts(std::string_view key);
+  std::optional<bool> flag(std::string_view key);
   /// One of the names, given back as its place in them.
   std::optional<std::size_t> choice(std::string_view key, const std::vector<std::string>& names);
   /// A number, or a string with a unit.

@@ -14,6 +14,7 @@
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/surface/detrend.hpp>
+#include <salebra/surface/twin.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -62,25 +63,17 @@ std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
 
-/// C(q) of an isotropic surface as a table, q in rad/m, C in m⁴: TabulatedSpectrum.
-struct PsdTable {
-  std::vector<double> wavenumber, psd;
-};
-
-constexpr void describe(auto&& visit, std::type_identity<PsdTable>) {
-  using S = PsdTable;
-  keep(visit, &S::wavenumber, &S::psd);
-}
-
 /// An ensemble of random surfaces, one for each seed.
 struct GeneratedSurfaces {
   Grid2D grid;
   SelfAffineParameters spectrum;  ///< not looked at where there are tables
   GenerationMethod method = GenerationMethod::filtered_noise;
   std::vector<std::uint64_t> seeds;  ///< at least one
-  /// In place of the self-affine spectrum. One is that of all surfaces. Of several, equally likely,
-  /// the first is the best, by which loads are counted, and a surface has the one of its seed.
-  std::vector<PsdTable> tables = {};
+  /// In place of the self-affine spectrum. One is that of all surfaces. Of several the first is the
+  /// one by which loads are counted, and the others, of a surface twin, are equally likely: surfaces
+  /// have them by their seeds, two in turn the same, which tells what the scans leave open from what
+  /// differs from place to place.
+  std::vector<SpectrumTable> tables = {};
 
   /// That of the best table, or the self-affine one.
   std::unique_ptr<const IsotropicSpectrum> spectrum_of_all() const;
@@ -147,6 +140,8 @@ struct StudyConfiguration {
   std::vector<ContactModel> compared_models = all_contact_models();
 
   bool has(ContactModel model) const;
+  /// Whether surfaces are drawn from a surface twin.
+  bool of_twin() const;
   Oscillation motion;
   DampingOptions damping;
   /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness

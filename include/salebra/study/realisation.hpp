@@ -353,6 +353,11 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
 /// The models of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
+/// A scan as a study takes it: read and detrended. remarks: receives lines on what is most likely a
+/// slip. Throws as read_surface(), and for undefined points.
+Surface measured_surface(const MeasuredSurface& surface, const Communicator& ranks = {},
+                         std::vector<std::string>* remarks = nullptr);
+
 /// The surface of a seed, or the measured one (its plane removed, as the configuration says).
 /// Throws as generators and readers do. progress: of the generator. ranks: the processes over which
 /// the surface is spread, as in filtered_noise and read_surface; collective.

@@ -181,6 +181,11 @@ struct StudyResult {
   /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations:
   /// how the mean converges.
   std::vector<EnsembleMean> convergence() const;
+  /// Of a surface twin, the part of the variance of ln W over the surfaces that the scans leave open:
+  /// one less the variance within pairs of surfaces that share a spectrum over that of all, the mean
+  /// over the pressures. What remains is chance from place to place, which larger surfaces reduce.
+  /// NaN of another ensemble and below three pairs.
+  double scan_share() const;
   /// How the intervals came about: one line.
   std::string interval_method() const;
 };

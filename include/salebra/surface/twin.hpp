@@ -201,15 +201,17 @@ struct SurfaceTwin {
 constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
   using enum Dimension;
   using S = SurfaceTwin;
-  visit(&S::form, Kept{"form", "how the spectrum falls from its plateau"});
-  visit(&S::hurst, Kept{"hurst", "Hurst exponent"});
-  visit(&S::rolloff, Kept{"rolloff", "roll-off wavelength", length});
-  visit(&S::short_cutoff, Kept{"short_cutoff", "shortest wavelength", length});
-  visit(&S::rms_height, Kept{"rms_height", "root mean square height", length});
-  visit(&S::rms_slope, Kept{"rms_slope", "root mean square of the gradient"});
+  visit(&S::form, Quantity{"form", dimensionless,
+                           "how the spectrum falls from its plateau: corner, smooth or table"});
+  visit(&S::hurst, Quantity{"hurst", dimensionless, "Hurst exponent"});
+  visit(&S::rolloff, Quantity{"rolloff", length, "roll-off wavelength"});
+  visit(&S::short_cutoff, Quantity{"short_cutoff", length, "shortest wavelength"});
+  visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
+  visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
   visit(&S::bins, Kept{"bins", "bins that were used"});
   visit(&S::chi_square, Kept{"chi_square", "deviance of the fit"});
-  visit(&S::misfit, Kept{"misfit", "deviance over what is expected"});
+  visit(&S::misfit,
+        Quantity{"misfit", dimensionless, "deviance of the spectra over what is expected"});
   visit(&S::form_ratio, Kept{"form_ratio", "twice the log likelihood over the other form"});
   visit(&S::rolloff_ratio,
         Kept{"rolloff_ratio", "twice the log likelihood over that without a roll-off"});

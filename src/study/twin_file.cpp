@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scans of a surface twin from TOML, and the twin as a file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/words.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/study/realisation.hpp>
+#include <salebra/study/twin_file.hpp>
+
+#include "io/input_file.hpp"
+#include "results/quantity_group.hpp"
+#include "surface_table.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::TomlTable;
+
+double positive(TomlTable& table, const char* key, Dimension dimension, double otherwise) {
+  const auto value = table.quantity(key, dimension);
+  if (value) table.check(*value > 0, key, fmt::format("{} must be > 0", *value));
+  return value.value_or(otherwise);
+}
+
+TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& folder) {
+  TwinMeasurement measurement;
+  if (!table.has("file")) table.fail("file", "is missing; name the file of the scan");
+  measurement.surface = detail::read_measured(table, folder);
+  ScanInstrument& instrument = measurement.instrument;
+  const auto kind = table.choice("instrument", words_of<Instrument>());
+  if (!kind)
+    table.fail("instrument",
+               "is missing; give optical, stylus or afm, or ideal for heights as "
+               "they are");
+  instrument.kind = Words<Instrument>::values[*kind].first;
+  instrument.resolution = positive(table, "resolution", Dimension::length, 0);
+  instrument.tip_radius = positive(table, "tip_radius", Dimension::length, 0);
+  table.check((instrument.kind == Instrument::optical) == (instrument.resolution > 0), "resolution",
+              "is of an optical instrument, which needs it: the full width at half "
+              "maximum of its blur");
+  table.check(instrument.has_tip() == (instrument.tip_radius > 0), "tip_radius",
+              "is of a stylus or afm, which needs it");
+  instrument.noise = positive(table, "noise", Dimension::length, instrument.noise);
+  instrument.height_calibration = positive(table, "height_calibration", Dimension::dimensionless,
+                                           instrument.height_calibration);
+  instrument.scan_calibration =
+      positive(table, "scan_calibration", Dimension::dimensionless, instrument.scan_calibration);
+  instrument.line_drift = table.flag("line_drift");
+  instrument.name = table.text("name").value_or("");
+  measurement.weight = positive(table, "weight", Dimension::dimensionless, 1);
+  table.require_no_other_keys();
+  return measurement;
+}
+
+/// The parameters of a twin with their names.
+constexpr std::pair<const char*, TwinParameter SurfaceTwin::*> parameters[] = {
+    {"hurst", &SurfaceTwin::hurst},
+    {"rolloff", &SurfaceTwin::rolloff},
+    {"short_cutoff", &SurfaceTwin::short_cutoff},
+    {"rms_height", &SurfaceTwin::rms_height},
+    {"rms_slope", &SurfaceTwin::rms_slope}};
+
+constexpr std::pair<const char*, double TwinDraw::*> numbers_of_draw[] = {
+    {"hurst", &TwinDraw::hurst},
+    {"rolloff", &TwinDraw::rolloff},
+    {"short_cutoff", &TwinDraw::short_cutoff},
+    {"rms_height", &TwinDraw::rms_height},
+    {"rms_slope", &TwinDraw::rms_slope}};
+
+/// ln C and the knots in one place: a law has its amplitude at one reference.
+std::vector<double> knots_of(const TwinDraw& draw) {
+  return draw.form == SpectrumForm::table ? draw.knots : std::vector{draw.reference};
+}
+std::vector<double> log_psd_of(const TwinDraw& draw) {
+  return draw.form == SpectrumForm::table ? draw.log_psd : std::vector{draw.amplitude};
+}
+
+void write_draws(ResultGroup plain, const std::vector<TwinDraw>& draws) {
+  plain.index("draw", draws.size(), "draw of the posterior");
+  const std::vector<double> knots = knots_of(draws.front());
+  plain.coordinate("knot", knots, "rad/m", "wave number of the amplitude");
+  std::vector<double> log_psd;
+  for (const TwinDraw& draw : draws)
+    for (const double value : log_psd_of(draw)) log_psd.push_back(value);
+  plain.dataset("log_psd", log_psd, {"draw", "knot"}, "1",
+                "natural logarithm of the spectral density in m^4, or of its power law");
+  QuantityGroup group(std::move(plain));
+  for (const auto& [name, member] : numbers_of_draw) {
+    std::vector<double> values;
+    for (const TwinDraw& draw : draws) values.push_back(draw.*member);
+    group.dataset(name, values, {"draw"});
+  }
+}
+
+}  // namespace
+
+std::vector<TwinMeasurement> read_twin_measurements(const std::filesystem::path& file) {
+  constexpr std::uint64_t most = 4 << 20;
+  TomlTable root = TomlTable::parse(detail::InputFile(file).content(most), file.string());
+  std::vector<TwinMeasurement> measurements;
+  for (TomlTable& table : root.tables("measurement"))
+    measurements.push_back(read_measurement(table, file.parent_path()));
+  root.require_no_other_keys();
+  if (measurements.empty())
+    root.fail("measurement", "is missing; add a table [[measurement]] for each scan");
+  return measurements;
+}
+
+SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const TwinOptions& options,
+                    const Progress& progress, std::vector<std::string>* remarks) {
+  std::vector<ScanSpectrum> scans;
+  for (const TwinMeasurement& one : measurements) {
+    const Surface surface = measured_surface(one.surface, {}, remarks);
+    scans.push_back(scan_spectrum(surface.heights, surface.grid, one.instrument, one.weight,
+                                  one.surface.file.filename().string()));
+    const auto done = static_cast<double>(scans.size());
+    if (progress && !progress({"scans", done / static_cast<double>(measurements.size()),
+                               static_cast<int>(scans.size()), 0}))
+      throw Interrupted("twin: stopped before all scans were read");
+  }
+  return fit_twin(scans, options);
+}
+
+void write_twin(const std::filesystem::path& path, const SurfaceTwin& twin,
+                const Provenance& provenance, const WriteOptions& options) {
+  ResultFile file(path, provenance, options);
+  ResultGroup plain = file.group("twin");
+  plain.attribute("form", word_of(twin.form));
+  for (const auto& [name, member] : parameters) {
+    const TwinParameter& one = twin.*member;
+    const Quantity quantity = find_quantity(name);
+    const std::string unit(si_unit(quantity.dimension)), meaning(quantity.long_name);
+    plain.scalar(name, one.value, unit, meaning);
+    plain.scalar(std::string(name) + "_low", one.low, unit, meaning + ", lower 95 % limit");
+    plain.scalar(std::string(name) + "_high", one.high, unit, meaning + ", upper 95 % limit");
+  }
+  plain.scalar("misfit", twin.misfit, "1", "deviance of the spectra over what is expected");
+  ResultGroup spectrum = file.group("twin/spectrum");
+  spectrum.coordinate("wavenumber", twin.spectrum.wavenumber, "rad/m", "wave number");
+  for (const auto& [name, values] : {std::pair{"psd", &twin.spectrum.psd},
+                                     {"psd_low", &twin.spectrum.low},
+                                     {"psd_high", &twin.spectrum.high}})
+    spectrum.dataset(name, *values, {"wavenumber"}, "m^4", "spectral density");
+  write_draws(file.group("twin/draws"), twin.draws);
+  file.commit();
+}
+
+std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
+  const ResultReader file(path);
+  const std::optional<std::string> word =
+      file.has("twin") ? file.text_attribute("twin", "form") : std::nullopt;
+  const std::optional<SpectrumForm> form = word ? value_of<SpectrumForm>(*word) : std::nullopt;
+  if (!form) throw InvalidInput(path.string(), "is no surface twin, which `salebra twin` writes");
+  const std::string place = "twin/draws/";
+  const std::vector<double> knots = file.numbers(place + "knot"),
+                            log_psd = file.numbers(place + "log_psd");
+  std::vector<TwinDraw> draws(log_psd.size() / knots.size());
+  for (const auto& [name, member] : numbers_of_draw) {
+    const std::vector<double> values = file.numbers(place + name);
+    require(values.size() == draws.size(), path.string(), values.size(),
+            fmt::format("values of {} belong to {} draws", name, draws.size()));
+    for (std::size_t i = 0; i < draws.size(); ++i) draws[i].*member = values[i];
+  }
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    TwinDraw& draw = draws[i];
+    draw.form = *form;
+    const auto first = log_psd.begin() + static_cast<std::ptrdiff_t>(i * knots.size());
+    if (*form == SpectrumForm::table) {
+      draw.knots = knots;
+      draw.log_psd.assign(first, first + static_cast<std::ptrdiff_t>(knots.size()));
+    } else {
+      draw.reference = knots.front();
+      draw.amplitude = *first;
+    }
+  }
+  require(!draws.empty(), path.string(), 0, "draws make no surface");
+  return draws;
+}
+
+std::vector<SpectrumTable> tables_of(const std::vector<TwinDraw>& draws, const Grid2D& grid) {
+  const double lowest = std::numbers::pi / std::max(grid.lx, grid.ly);
+  const double nyquist = std::numbers::pi / std::max(grid.dx(), grid.dy());
+  const auto carried = [&](TwinDraw draw) {
+    // What is shorter than two cells is not on this grid.
+    draw.short_cutoff = std::max(draw.short_cutoff, 2 * std::numbers::pi / nyquist);
+    return tabulated(draw, lowest);
+  };
+  std::vector<TwinDraw> by_slope = draws;
+  const auto middle = by_slope.begin() + static_cast<std::ptrdiff_t>(by_slope.size() / 2);
+  std::ranges::nth_element(by_slope, middle, {}, &TwinDraw::rms_slope);
+  std::vector<SpectrumTable> tables{carried(*middle)};
+  for (const TwinDraw& draw : draws) tables.push_back(carried(draw));
+  return tables;
+}
+
+}  // namespace salebra
