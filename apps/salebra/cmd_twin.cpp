@@ -81,7 +81,7 @@ void run(const TwinArguments& arguments, Session& session) {
   Json answer = answer_json(twin);
   answer["groups"] = to_json(twin.groups);
   answer["scans"] = to_json(twin.scans);
-  answer["without"] = to_json(twin.without);
+  for (const TwinWithout& other : twin.without) answer["without"].push_back(answer_json(other));
   answer["notes"] = twin.notes;
   session.answer(answer, twin_text(twin));
 }

@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 
 #include "base/memory.hpp"

@@ -21,7 +21,7 @@ struct Shard;
 /// What a reader has to know of a result: that it is of the residual surface, or why it may be off
 /// for other reasons than chance.
 struct StudyFlag {
-  std::string name;  ///< "first_loading", "finite_size", "discretisation" or "few_spots"
+  std::string name;  ///< "first_loading", "finite_size", "discretisation", "twin" or "few_spots"
   std::string text;  ///< a sentence for the user
 };
 

@@ -147,15 +147,18 @@ struct TwinWithout {
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinWithout>) {
+  using enum Dimension;
   using S = TwinWithout;
-  visit(&S::instrument, Kept{"instrument", "what was left out"});
-  visit(&S::hurst, Kept{"hurst", "Hurst exponent"});
-  visit(&S::rolloff, Kept{"rolloff", "roll-off wavelength", Dimension::length});
-  visit(&S::short_cutoff, Kept{"short_cutoff", "shortest wavelength", Dimension::length});
-  visit(&S::rms_height, Kept{"rms_height", "root mean square height", Dimension::length});
-  visit(&S::rms_slope, Kept{"rms_slope", "root mean square of the gradient"});
-  visit(&S::misfit, Kept{"misfit", "deviance over what is expected"});
-  visit(&S::agrees, Kept{"agrees", "whether nothing moved by more than chance explains"});
+  visit(&S::instrument, Quantity{"instrument", dimensionless, "name of the instrument"});
+  visit(&S::hurst, Quantity{"hurst", dimensionless, "Hurst exponent"});
+  visit(&S::rolloff, Quantity{"rolloff", length, "roll-off wavelength"});
+  visit(&S::short_cutoff, Quantity{"short_cutoff", length, "shortest wavelength"});
+  visit(&S::rms_height, Quantity{"rms_height", length, "root mean square height"});
+  visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});
+  visit(&S::misfit,
+        Quantity{"misfit", dimensionless, "deviance of the spectra over what is expected"});
+  visit(&S::agrees,
+        Quantity{"agrees", dimensionless, "whether nothing moved by more than chance explains"});
 }
 
 struct TwinOptions {
