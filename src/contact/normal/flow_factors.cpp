@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Percolation of a gap and its pressure flow factors.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/contact/normal/flow_factors.hpp>
+#include <vector>
+
+#include "base/memory.hpp"
+#include "flow_multigrid.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::FaceConductances;
+using detail::FlowMultigrid;
+
+// Narrower cells, in units of the mean gap, are closed: solvers of contacts do not know such gaps,
+// and their cubes leave the range of single precision.
+constexpr double least_open = 1e-9;
+
+// Where so little is left of what the pressure field dissipated at the last look, its difference to
+// what the iteration gained has lost too many digits.
+constexpr double worth_a_refresh = 0.05;
+
+struct Directions {
+  bool x = false, y = false;
+  bool any() const { return x || y; }
+};
+
+/// Connected parts of the open cells, and round which periods they lead. A part that meets itself
+/// across the border, shifted by a period, leads round it.
+class OpenParts {
+ public:
+  explicit OpenParts(const Field& opening)
+      : columns_(opening.cols()), part_of_(static_cast<std::size_t>(opening.size()), none) {
+    for (Index row = 0; row < opening.rows(); ++row)
+      for (Index column = 0; column < columns_; ++column) {
+        if (!(opening(row, column) > 0)) continue;
+        const std::int32_t left = column > 0 ? at(row, column - 1) : none;
+        const std::int32_t above = row > 0 ? at(row - 1, column) : none;
+        if (left != none && above != none) join(left, above, {});
+        at(row, column) = left != none ? left : above != none ? above : new_part();
+      }
+    const auto meet = [&](std::int32_t last, std::int32_t first, const Shift& shift) {
+      if (last != none && first != none) join(last, first, shift);
+    };
+    for (Index column = 0; column < columns_; ++column)
+      meet(at(opening.rows() - 1, column), at(0, column), {1, 0});
+    for (Index row = 0; row < opening.rows(); ++row)
+      meet(at(row, columns_ - 1), at(row, 0), {0, 1});
+    for (std::int32_t part = 0; part < static_cast<std::int32_t>(parts_.size()); ++part)
+      parts_[place(part)].leads_round = parts_[place(root_of(part).part)].leads_round;
+  }
+
+  Directions leads_round(Index cell) const {
+    const std::int32_t part = part_of_[static_cast<std::size_t>(cell)];
+    return part == none ? Directions{} : parts_[place(part)].leads_round;
+  }
+
+ private:
+  static constexpr std::int32_t none = -1;
+  struct Shift {
+    std::int32_t x = 0, y = 0;  // periods
+  };
+  struct Part {
+    std::int32_t parent = 0;
+    Shift shift;  // of the parent's copy that this part is joined to
+    Directions leads_round;
+  };
+  struct Root {
+    std::int32_t part = 0;
+    Shift shift;
+  };
+
+  static std::size_t place(std::int32_t part) { return static_cast<std::size_t>(part); }
+  std::int32_t& at(Index row, Index column) {
+    return part_of_[static_cast<std::size_t>(row * columns_ + column)];
+  }
+  std::int32_t new_part() {
+    parts_.push_back({static_cast<std::int32_t>(parts_.size()), {}, {}});
+    return parts_.back().parent;
+  }
+  Root root_of(std::int32_t part) {
+    Root root{part, {}};
+    for (;;) {
+      Part& here = parts_[place(root.part)];
+      if (here.parent == root.part) return root;
+      const Part& above = parts_[place(here.parent)];
+      // The way to the grandparent becomes the way up, which halves the path. A root has no shift.
+      here.shift = {here.shift.x + above.shift.x, here.shift.y + above.shift.y};
+      here.parent = above.parent;
+      root = {here.parent, {root.shift.x + here.shift.x, root.shift.y + here.shift.y}};
+    }
+  }
+  // The copy of `second` that is shifted so touches `first`.
+  void join(std::int32_t first, std::int32_t second, const Shift& shift) {
+    const Root a = root_of(first), b = root_of(second);
+    const Shift between{a.shift.x - b.shift.x - shift.x, a.shift.y - b.shift.y - shift.y};
+    const std::int32_t root = std::min(a.part, b.part), child = std::max(a.part, b.part);
+    if (root == child) {
+      Directions& round = parts_[place(root)].leads_round;
+      round = {round.x || between.x != 0, round.y || between.y != 0};
+      return;
+    }
+    const std::int32_t sign = child == b.part ? 1 : -1;
+    parts_[place(child)].parent = root;
+    parts_[place(child)].shift = {sign * between.x, sign * between.y};
+    const Directions of_child = parts_[place(child)].leads_round;
+    Directions& round = parts_[place(root)].leads_round;
+    round = {round.x || of_child.x, round.y || of_child.y};
+  }
+
+  Index columns_;
+  std::vector<std::int32_t> part_of_;  // of each cell; none: closed
+  std::vector<Part> parts_;
+};
+
+template <class Body>
+double sum_cells(const Field& field, const Body& body) {
+  return parallel::sum_blocks(
+      field.rows(),
+      [&](Index begin, Index end) {
+        double sum = 0;
+        for (Index k = begin * field.cols(); k < end * field.cols(); ++k)
+          sum += body(field.data()[k]);
+        return sum;
+      },
+      field.size());
+}
+
+/// b with ⟨(s − b)/(s + b)⟩ = 0, for s >= 0: 1 − 2⟨b/(s + b)⟩ falls with b. By bisection of its
+/// logarithm and Newton's method in it.
+double effective_medium(const Field& conductance, double mean) {
+  const double cells = static_cast<double>(conductance.size());
+  const double closed = sum_cells(conductance, [](double s) { return s > 0 ? 0.0 : 1.0; });
+  if (2 * closed >= cells) return FlowFactors::unknown;
+  double low = -800, high = std::log(mean), point = high;
+  for (int step = 0; step < 200 && high - low > 1e-14; ++step) {
+    const double b = std::exp(point);
+    // ⟨b/(s + b)⟩ and its derivative by ln b
+    const double part = sum_cells(conductance, [&](double s) { return b / (s + b); }) / cells;
+    const double slope =
+        sum_cells(conductance, [&](double s) { return b * s / ((s + b) * (s + b)); }) / cells;
+    (part > 0.5 ? high : low) = point;
+    const double next = point - (part - 0.5) / slope;
+    if (std::abs(next - point) < 1e-13) break;
+    point = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return std::exp(point);
+}
+
+/// Flow under a unit gradient.
+struct Flow {
+  double factor = 0, residual = 0;
+  int iterations = 0;
+  Termination termination = Termination::iteration_limit;
+};
+
+/// The operator, and sums over pairs of rows of cells.
+class Reynolds {
+ public:
+  Reynolds(const FaceConductances& faces, FlowMultigrid& multigrid)
+      : faces_(faces), multigrid_(multigrid) {}
+
+  /// The mean of T(1 + δp)² over the cells, by conjugate gradients: its least value is the flow,
+  /// and its error the square of that of p. A unit gradient in units of cells, along x or y.
+  Flow flow(bool along_x, const FlowOptions& options, int iterations_before) {
+    const double cells = static_cast<double>(faces_.x.size());
+    const auto like = [&] { return uninitialised_field(faces_.x.rows(), faces_.x.cols()); };
+    Field p = Field::Zero(faces_.x.rows(), faces_.x.cols()), r = like(), z = like();
+    Field t = Field::Zero(p.rows(), p.cols()), image = t;
+    net_inflow(p, along_x, r);
+    double computed = dissipation(p, along_x), left = computed, last_product = 1, last_step = 0;
+    Flow result;
+    for (;; ++result.iterations) {
+      multigrid_.apply(r, z);
+      const auto [product, overlap] = products(z, r, image);
+      result.residual = std::max(0.0, product) / left;
+      if (!(std::isfinite(product) && left > 0)) {
+        result.termination = Termination::out_of_range;
+        break;
+      }
+      if (result.residual <= options.tolerance) {
+        result.termination = Termination::converged;
+        break;
+      }
+      if (result.iterations >= options.max_iterations) break;
+      if (options.on_progress &&
+          !options.on_progress(
+              {"flow", 0, iterations_before + result.iterations, result.residual})) {
+        result.termination = Termination::interrupted;
+        break;
+      }
+      // Flexible: the preconditioner is another operator at each call.
+      const double beta = result.iterations > 0 ? -last_step * overlap / last_product : 0;
+      const double curvature = take_direction(beta, z, t, image);
+      if (!(curvature > 0)) {
+        result.termination = Termination::stalled;
+        break;
+      }
+      const double descent = products(t, r, image)[0];
+      last_step = descent / curvature;
+      last_product = product;
+      advance(last_step, t, image, p, r);
+      left -= last_step * descent;
+      // Differences of what is much larger are computed afresh.
+      if (left < worth_a_refresh * computed) {
+        left = computed = dissipation(p, along_x);
+        net_inflow(p, along_x, r);
+      }
+    }
+    result.factor = dissipation(p, along_x) / cells;
+    return result;
+  }
+
+ private:
+  // body(k, the same cell of the row above and of the row below, left, right)
+  template <class Body>
+  void for_cells(Index first_row, Index last_row, const Body& body) const {
+    const Index rows = faces_.x.rows(), columns = faces_.x.cols();
+    for (Index row = first_row; row < last_row; ++row) {
+      const Index here = row * columns, above = (row == 0 ? rows - 1 : row - 1) * columns;
+      const Index below = (row == rows - 1 ? 0 : row + 1) * columns;
+      const auto cell = [&](Index column, Index left, Index right) {
+        body(here + column, above + column, below + column, here + left, here + right);
+      };
+      cell(0, columns - 1, columns > 1 ? 1 : 0);
+      for (Index column = 1; column < columns - 1; ++column) cell(column, column - 1, column + 1);
+      if (columns > 1) cell(columns - 1, columns - 2, 0);
+    }
+  }
+
+  // What flows into each cell more than out of it.
+  void net_inflow(const Field& p, bool along_x, Field& r) const {
+    const double gradient_x = along_x ? 1 : 0, gradient_y = along_x ? 0 : 1;
+    parallel::for_slabs(
+        p.rows(),
+        [&](Index begin, Index end) {
+          const double *u = p.data(), *x = faces_.x.data(), *y = faces_.y.data();
+          for_cells(begin, end, [&](Index k, Index above, Index below, Index left, Index right) {
+            r.data()[k] =
+                x[k] * (gradient_x + u[below] - u[k]) - x[above] * (gradient_x + u[k] - u[above]) +
+                y[k] * (gradient_y + u[right] - u[k]) - y[left] * (gradient_y + u[k] - u[left]);
+          });
+        },
+        p.size());
+  }
+
+  double dissipation(const Field& p, bool along_x) const {
+    const double gradient_x = along_x ? 1 : 0, gradient_y = along_x ? 0 : 1;
+    return parallel::sum_blocks(
+        p.rows(),
+        [&](Index begin, Index end) {
+          double sum = 0;
+          for_cells(begin, end, [&](Index k, Index, Index below, Index, Index right) {
+            const double x = gradient_x + p.data()[below] - p.data()[k];
+            const double y = gradient_y + p.data()[right] - p.data()[k];
+            sum += faces_.x.data()[k] * x * x + faces_.y.data()[k] * y * y;
+          });
+          return sum;
+        },
+        p.size());
+  }
+
+  static std::array<double, 2> products(const Field& z, const Field& r, const Field& image) {
+    std::array<double, 2> total{};
+    for (const auto& part : parallel::map_blocks<std::array<double, 2>>(
+             z.rows(),
+             [&](Index begin, Index end) {
+               std::array<double, 2> sums{};
+               for (Index k = begin * z.cols(); k < end * z.cols(); ++k) {
+                 sums[0] += z.data()[k] * r.data()[k];
+                 sums[1] += z.data()[k] * image.data()[k];
+               }
+               return sums;
+             },
+             z.size())) {
+      total[0] += part[0];
+      total[1] += part[1];
+    }
+    return total;
+  }
+
+  // t = z + β t, its image, and <t, image>.
+  double take_direction(double beta, const Field& z, Field& t, Field& image) const {
+    parallel::for_slabs(
+        t.rows(),
+        [&](Index begin, Index end) {
+          for (Index k = begin * t.cols(); k < end * t.cols(); ++k)
+            t.data()[k] = z.data()[k] + beta * t.data()[k];
+        },
+        t.size());
+    return parallel::sum_blocks(
+        t.rows(),
+        [&](Index begin, Index end) {
+          double sum = 0;
+          const double *u = t.data(), *x = faces_.x.data(), *y = faces_.y.data();
+          for_cells(begin, end, [&](Index k, Index above, Index below, Index left, Index right) {
+            const double here = u[k];
+            const double value = x[k] * (here - u[below]) + x[above] * (here - u[above]) +
+                                 y[k] * (here - u[right]) + y[left] * (here - u[left]);
+            image.data()[k] = value;
+            sum += here * value;
+          });
+          return sum;
+        },
+        t.size());
+  }
+
+  static void advance(double step, const Field& t, const Field& image, Field& p, Field& r) {
+    parallel::for_slabs(
+        p.rows(),
+        [&](Index begin, Index end) {
+          for (Index k = begin * p.cols(); k < end * p.cols(); ++k) {
+            p.data()[k] += step * t.data()[k];
+            r.data()[k] -= step * image.data()[k];
+          }
+        },
+        p.size());
+  }
+
+  const FaceConductances& faces_;
+  FlowMultigrid& multigrid_;
+};
+
+/// Conductances of the faces between cells that lie on a way round a period: what flows nowhere is
+/// left out.
+FaceConductances faces_of(const Field& conductance, const OpenParts& parts, const Grid2D& grid) {
+  FaceConductances faces{uninitialised_field(grid.nx, grid.ny),
+                         uninitialised_field(grid.nx, grid.ny)};
+  const double aspect = grid.dy() / grid.dx();
+  const auto between = [&](Index a, Index b) {
+    const double first = conductance.data()[a], second = conductance.data()[b];
+    return first > 0 && second > 0 ? 2 * first * second / (first + second) : 0.0;
+  };
+  parallel::for_slabs(
+      grid.nx,
+      [&](Index begin, Index end) {
+        for (Index row = begin; row < end; ++row)
+          for (Index column = 0; column < grid.ny; ++column) {
+            const Index k = row * grid.ny + column;
+            const bool used = parts.leads_round(k).any();
+            const Index below = (row + 1 == grid.nx ? 0 : row + 1) * grid.ny + column;
+            const Index right = row * grid.ny + (column + 1 == grid.ny ? 0 : column + 1);
+            // A cell that is its own neighbour exchanges nothing with it, but lets pass.
+            faces.x.data()[k] = used ? between(k, below) * aspect : 0;
+            faces.y.data()[k] = used ? between(k, right) / aspect : 0;
+          }
+      },
+      grid.points());
+  return faces;
+}
+
+template <class OpenCell>
+FlowFactors flow_through(const Field& gap, const Grid2D& grid, const FlowOptions& options,
+                         const OpenCell& open) {
+  require(options.tolerance >= 1e-14 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
+          "must lie in 1e-14 … 1e-1");
+  require(options.max_iterations >= 1, "max_iterations", options.max_iterations, "must be >= 1");
+  require_memory(grid, 150 * static_cast<double>(grid.points()), "the flow through a gap");
+  FlowFactors result;
+  const auto opening = [&](Index k) { return open(k) ? std::max(0.0, gap.data()[k]) : 0.0; };
+  Field conductance = uninitialised_field(grid.nx, grid.ny);
+  for (Index k = 0; k < grid.points(); ++k) conductance.data()[k] = opening(k);
+  result.mean_gap =
+      sum_cells(conductance, [](double g) { return g; }) / static_cast<double>(grid.points());
+  if (!(result.mean_gap > 0)) return result;
+  for (Index k = 0; k < grid.points(); ++k) {
+    const double relative = conductance.data()[k] / result.mean_gap;
+    conductance.data()[k] = relative > least_open ? relative * relative * relative : 0;
+  }
+  const double mean_cube =
+      sum_cells(conductance, [](double s) { return s; }) / static_cast<double>(grid.points());
+  result.bruggeman_flow_factor = effective_medium(conductance, mean_cube);
+  const OpenParts parts(conductance);
+  for (Index k = 0; k < grid.points(); ++k) {
+    const Directions round = parts.leads_round(k);
+    result.percolates_x |= round.x;
+    result.percolates_y |= round.y;
+  }
+  if (!result.percolates_x && !result.percolates_y) return result;
+
+  const FaceConductances faces = faces_of(conductance, parts, grid);
+  FlowMultigrid multigrid(faces);
+  Reynolds reynolds(faces, multigrid);
+  const double aspect = grid.dx() / grid.dy();
+  const auto solve = [&](bool along_x, double scale) {
+    const Flow flow = reynolds.flow(along_x, options, result.iterations);
+    result.residual = std::max(result.residual, flow.residual);
+    result.iterations += flow.iterations;
+    result.termination = std::max(result.termination, flow.termination);
+    return flow.factor * scale;
+  };
+  double both = 0;
+  if (result.percolates_x) both += result.pressure_flow_factor_x = solve(true, aspect);
+  if (result.percolates_y && result.termination != Termination::interrupted)
+    both += result.pressure_flow_factor_y = solve(false, 1 / aspect);
+  result.effective_gap = result.mean_gap * std::cbrt(0.5 * both);
+  return result;
+}
+
+void require_gap(const Field& gap, const Grid2D& grid) {
+  grid.validate();
+  require(gap.rows() == grid.nx && gap.cols() == grid.ny, "gap", gap.size(),
+          "cells must fill the grid");
+  require(gap.isFinite().all(), "gap", gap.sum(), "must be finite in every cell");
+}
+
+}  // namespace
+
+FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions& options) {
+  require_gap(gap, grid);
+  return flow_through(gap, grid, options, [](Index) { return true; });
+}
+
+FlowFactors flow_factors(const NormalContactState& state, const Grid2D& grid,
+                         const FlowOptions& options) {
+  require_that(state.ranks.alone(), "state",
+               "is spread over several processes, and a flow needs it whole");
+  require_gap(state.gap, grid);
+  const double* pressure = state.contact_pressure.data();
+  return flow_through(state.gap, grid, options, [&](Index k) { return !(pressure[k] > 0); });
+}
+
+}  // namespace salebra
