@@ -1,0 +1,568 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Adhesive contact as a sequence of contacts without adhesion.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/contact/normal/adhesion.hpp>
+#include <utility>
+#include <vector>
+
+#include "anderson.hpp"
+#include "base/memory.hpp"
+#include "contact/half_space/half_space.hpp"
+
+namespace salebra {
+namespace {
+
+constexpr double doubtful_zone = 1 / 0.3, least_zone = 1 / 0.7;
+// Largest part of the largest tension that may act at the edge of an isolated surface.
+constexpr double edge_tension = 1e-2;
+// Steps that Anderson's extrapolation looks back.
+constexpr std::size_t memory_of_steps = 7;
+// On a branch that is followed, extrapolation begins at this residual: before, it leaves the valley.
+constexpr double near_a_minimum = 1e-2;
+// Error of the tension that a contact may leave, as part of the residual.
+constexpr double inner_share = 0.02;
+constexpr double loosest_inner = 1e-3, sharpest_inner = 1e-12;
+constexpr double sharpening = 0.3, falls = 0.7;
+// Of the tension, below which a load that is left is rounding.
+constexpr double no_load = 1e-14;
+// So many contacts without a lower residual are one that stalls.
+constexpr int patience_of_adhesion = 60;
+
+/// What the solver needs of the surface, heights counted from the highest.
+struct HeightSums {
+  double highest = -std::numeric_limits<double>::infinity();
+  double first = 0, second = 0;  // Σ(h − zero), Σ(h − zero)²
+};
+
+HeightSums height_sums(const Share& rows, const Field& heights, double zero) {
+  HeightSums total;
+  for (const HeightSums& part : parallel::map_blocks<HeightSums>(
+           rows,
+           [&](Index begin, Index end) {
+             HeightSums sums;
+             for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
+               const double height = heights.data()[k] - zero;
+               sums.highest = std::max(sums.highest, height);
+               sums.first += height;
+               sums.second += height * height;
+             }
+             return sums;
+           },
+           heights.size())) {
+    total.highest = std::max(total.highest, part.highest);
+    total.first += part.first;
+    total.second += part.second;
+  }
+  total.highest += zero;
+  return total;
+}
+
+/// rms slope by differences between neighbours. Collective.
+double rms_slope_of(const Surface& surface, const Share& rows) {
+  const Field& h = surface.heights;
+  const Grid2D& grid = surface.grid;
+  std::vector<double> next_row(static_cast<std::size_t>(grid.ny));
+  const auto row_bytes = next_row.size() * sizeof(double);
+  RowExchange(
+      rows,
+      [&](int rank) {
+        const bool some = rows.end_of(rank) > rows.begin_of(rank);
+        return RowExchange::Window{rows.end_of(rank), some ? 1 : 0};
+      },
+      RowExchange::Edge::repeat)(h.data(), row_bytes, next_row.data(), row_bytes, row_bytes);
+  const double squares = parallel::sum_blocks(
+      rows,
+      [&](Index begin, Index end) {
+        double sum = 0;
+        for (Index i = begin; i < end; ++i) {
+          const double* here = h.data() + i * grid.ny;
+          const double* below = i + 1 < rows.count() ? here + grid.ny : next_row.data();
+          const bool at_edge = rows.begin() + i + 1 == grid.nx && !surface.periodic;
+          for (Index j = 0; j < grid.ny; ++j) {
+            const bool last = j + 1 == grid.ny;
+            const double x = at_edge ? 0 : (below[j] - here[j]) / grid.dx();
+            const double y =
+                last && !surface.periodic ? 0 : (here[last ? 0 : j + 1] - here[j]) / grid.dy();
+            sum += x * x + y * y;
+          }
+        }
+        return sum;
+      },
+      grid.points());
+  return std::sqrt(squares / static_cast<double>(grid.points()));
+}
+
+void check_adhesion(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
+                    const AdhesiveContactOptions& options) {
+  surface.require_complete_rows("a contact calculation");
+  require_positive(contact_modulus, "contact_modulus");
+  require(adhesion.work >= 0 && std::isfinite(adhesion.work), "work", adhesion.work,
+          "must be >= 0 and finite, J/m²; 0: no adhesion");
+  require_positive(adhesion.range, "range");
+  require(std::isinf(options.contact.hardness), "hardness", options.contact.hardness,
+          "is not known to adhesion; leave it out");
+  require(options.tolerance >= 1e-10 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
+          "must lie in 1e-10 … 1e-1");
+  require(options.max_outer_iterations >= 1, "max_outer_iterations", options.max_outer_iterations,
+          "must be >= 1");
+  if (const Field* start = options.start_tension)
+    require(start->rows() == surface.heights.rows() && start->cols() == surface.grid.ny &&
+                (*start >= 0 && *start <= std::numeric_limits<double>::max()).all(),
+            "start_tension", start->size(), "cells must fill the grid with finite tensions >= 0");
+  const double zone = cells_in_process_zone(adhesion, surface.grid, contact_modulus);
+  // The zone grows with the square of the range and with the number of cells.
+  require(zone >= least_zone || options.force_coarse, "range", adhesion.range,
+          fmt::format("leaves {:.2g} cells in the process zone, and the cells decide what sticks; "
+                      "use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
+                      zone, adhesion.range * std::sqrt(doubtful_zone / zone),
+                      std::max(surface.grid.dx(), surface.grid.dy()) * zone / doubtful_zone));
+}
+
+/// A load or a level that is held. A force of a surface is its pressure.
+struct AdhesiveTarget {
+  bool load_given = true;
+  double value = 0;  // Pa; or m: mean gap of a periodic contact, indentation of a free one
+};
+
+class AdhesiveSolve {
+ public:
+  AdhesiveSolve(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
+                const AdhesiveContactOptions& options, const Target& target)
+      : surface_(surface),
+        rows_(surface.share()),
+        cells_(static_cast<double>(surface.grid.points())),
+        modulus_(contact_modulus),
+        adhesion_(adhesion),
+        options_(options),
+        periodic_(options.contact.boundary == Boundary::periodic) {
+    const double some = surface.ranks.least_of(surface.heights.size() > 0
+                                                   ? surface.heights.data()[0]
+                                                   : std::numeric_limits<double>::infinity());
+    highest_ = height_sums(rows_, surface.heights, some).highest;
+    mean_depth_ = -height_sums(rows_, surface.heights, highest_).first / cells_;
+    target_ = target_of(target);
+    require_room(target);
+    reference_ = std::max(contact_modulus * rms_slope_of(surface, rows_), largest());
+  }
+
+  AdhesiveContactState go() {
+    start();
+    detail::Anderson anderson(rows_, memory_of_steps);
+    Field safe;  // the plain step from the last tension that was accepted
+    bool extrapolated = false;
+    double energy = std::numeric_limits<double>::infinity(), noise = 0;
+    double residual = 1, best = std::numeric_limits<double>::infinity(), lowest = best;
+    double sharpness = 1;  // of the contacts
+    int since_best = 0;
+    while (state_.outer_iterations < options_.max_outer_iterations) {
+      const double inner = std::max(sharpest_inner, sharpness * inner_tolerance(residual));
+      if (!press_under_tension(inner)) {
+        if (!state_.detached) measure();
+        return finish();
+      }
+      const Measure found = measure();
+      if (!std::isfinite(found.energy)) {
+        state_.termination = Termination::out_of_range;
+        return finish();
+      }
+      const double noise_here = state_.residual * found.contact_pressure * rms_raised_;
+      if (extrapolated && found.energy > energy + noise + noise_here) {
+        anderson.forget();
+        tension_ = safe;
+        extrapolated = false;
+        continue;
+      }
+      const double residual_here = found.largest_change / reference_;
+      // Where neither the energy fell beyond the noise of the contacts nor the residual, they become
+      // sharper.
+      if (!(found.energy < energy - noise - noise_here) && residual_here > falls * residual)
+        sharpness *= sharpening;
+      energy = found.energy;
+      noise = noise_here;
+      residual = state_.adhesion_residual = residual_here;
+      // The last contact has to be as sharp as the tolerance asks.
+      if (residual <= options_.tolerance &&
+          state_.residual <= 2 * inner_tolerance(options_.tolerance)) {
+        state_.termination = Termination::converged;
+        return finish();
+      }
+      since_best = residual < best || found.energy < lowest - noise ? 0 : since_best + 1;
+      best = std::min(best, residual);
+      lowest = std::min(lowest, found.energy);
+      if (since_best > patience_of_adhesion) {
+        state_.termination = Termination::stalled;
+        return finish();
+      }
+      if (options_.contact.on_progress &&
+          !options_.contact.on_progress(
+              {"adhesion", progress(residual), state_.outer_iterations, residual})) {
+        state_.termination = Termination::interrupted;
+        return finish();
+      }
+      const bool may_jump = adhesion_.potential != AdhesionPotential::maugis &&
+                            (!options_.start_tension || residual < near_a_minimum);
+      if (may_jump) {
+        safe = next_;
+        tension_ = anderson.extrapolate(tension_, next_ - tension_).max(0.0).min(largest());
+        extrapolated = true;
+      } else {
+        std::swap(tension_, next_);
+        extrapolated = false;
+      }
+    }
+    state_.termination = Termination::iteration_limit;
+    return finish();
+  }
+
+ private:
+  double largest() const { return adhesion_.largest_tension(); }
+
+  AdhesiveTarget target_of(const Target& target) const {
+    const auto& [pressure, mean_gap, indentation, force] = target;
+    require_that(
+        pressure.has_value() + mean_gap.has_value() + indentation.has_value() + force.has_value() ==
+            1,
+        "target", "exactly one of `pressure`, `mean_gap`, `indentation` and `force` must be given");
+    const double value = pressure      ? *pressure
+                         : mean_gap    ? *mean_gap
+                         : indentation ? *indentation
+                                       : *force;
+    const char* name = pressure      ? "pressure"
+                       : mean_gap    ? "mean_gap"
+                       : indentation ? "indentation"
+                                     : "force";
+    require(std::isfinite(value), name, value, "must be finite");
+    if (pressure || force) {
+      const double nominal = force ? value / surface_.grid.area() : value;
+      require(nominal <= 1e12 * modulus_, name, value,
+              fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
+                          modulus_));
+      return {true, nominal};
+    }
+    require(!mean_gap || periodic_, "boundary", "free",
+            "has no mean gap; give a force or an indentation");
+    require(!mean_gap || value > 0, "mean_gap", value, "must be > 0");
+    require(!indentation || !periodic_ || value < mean_depth_, "indentation", value,
+            fmt::format("must be below {} m, where a periodic contact is full", mean_depth_));
+    return {false, indentation && periodic_ ? mean_depth_ - value : value};
+  }
+
+  // An isolated surface whose edge is held is cut off there.
+  void require_room(const Target& target) const {
+    if (periodic_) return;
+    const double approach = std::max(0.0, target.indentation.value_or(0.0));
+    double held = 0;
+    for (const double part : parallel::map_blocks<double>(rows_, [&](Index begin, Index end) {
+           double most = 0;
+           for (Index i = begin; i < end; ++i)
+             for (Index j = 0; j < surface_.grid.ny; ++j) {
+               const Index row = rows_.begin() + i;
+               if (row > 0 && row + 1 < surface_.grid.nx && j > 0 && j + 1 < surface_.grid.ny)
+                 continue;
+               const double gap = highest_ - surface_.heights(i, j) - approach;
+               most = std::max(most, adhesion_.tension(std::max(0.0, gap)));
+             }
+           return most;
+         }))
+      held = std::max(held, part);
+    require(held <= edge_tension * largest(), "boundary", "free",
+            fmt::format("must leave room: the edge of the grid is held by {:.2g} of the largest "
+                        "tension; use a larger grid or a shorter range",
+                        held / largest()));
+  }
+
+  // Tension of the first contact, from the gap of one without adhesion or from first touch.
+  void start() {
+    const Grid2D& grid = surface_.grid;
+    require_memory(grid,
+                   (4 * sizeof(double) + 2 * memory_of_steps * sizeof(float)) *
+                       static_cast<double>(surface_.heights.size()),
+                   "an adhesive contact", surface_.ranks);
+    state_.ranks = surface_.ranks;
+    state_.cells_in_process_zone = salebra::cells_in_process_zone(adhesion_, grid, modulus_);
+    raised_ = {grid, Field(surface_.heights.rows(), grid.ny), surface_.periodic, surface_.origin,
+               surface_.ranks};
+    compliance_.emplace(
+        normal_compliance<double>(grid, modulus_, options_.contact.boundary, surface_.ranks));
+    if (options_.start_tension) {
+      tension_ = *options_.start_tension;
+    } else if (target_.load_given && !(target_.value > 0)) {
+      tension_ = (highest_ - surface_.heights).unaryExpr([&](double gap) {
+        return adhesion_.tension(gap);
+      });
+    } else {
+      tension_ = Field::Zero(surface_.heights.rows(), grid.ny);
+    }
+    next_ = tension_;
+  }
+
+  // Of a contact: a gap that is wrong by e·h_rms changes the tension by that over the range.
+  double inner_tolerance(double residual) const {
+    const double wanted = inner_share * std::max(residual, options_.tolerance);
+    const double change = largest() * rms_raised_ / adhesion_.range;
+    return std::clamp(std::min(wanted, change > 0 ? wanted * reference_ / change : wanted),
+                      sharpest_inner, loosest_inner);
+  }
+
+  static double progress_of(double residual, double tolerance) {
+    return std::log10(std::clamp(residual, tolerance, 1.0)) / std::log10(tolerance);
+  }
+  double progress(double residual) const { return progress_of(residual, options_.tolerance); }
+
+  // The contact of the raised heights under the target and the tension. False: the iteration is at
+  // its end.
+  bool press_under_tension(double tolerance) {
+    ++state_.outer_iterations;
+    compliance_->apply(tension_.data(), raised_.heights.data());
+    ++state_.fft_count;
+    raised_.heights += surface_.heights;
+    const HeightSums sums = height_sums(rows_, raised_.heights, highest_);
+    const double mean = sums.first / cells_;
+    rms_raised_ = std::sqrt(std::max(0.0, sums.second / cells_ - mean * mean));
+    const double mean_tension = mean_of(tension_);
+    Target target;
+    if (target_.load_given) {
+      const double load = target_.value + mean_tension;
+      if (!(load > no_load * largest()) && !(target_.value > 0)) {
+        detach();
+        return false;
+      }
+      target.pressure = load;
+    } else {
+      // Of the raised heights: from first touch on.
+      const double level = periodic_ ? sums.highest - highest_ - mean - target_.value
+                                     : target_.value + sums.highest - highest_;
+      if (!(level > 0)) {
+        float_above(level, sums.highest);
+        return true;
+      }
+      target.indentation = level;
+    }
+    NormalContactOptions inner = options_.contact;
+    inner.tolerance = tolerance;
+    inner.on_checkpoint = {};
+    inner.initial_pressure = nullptr;
+    if (!first_) {
+      start_pressure_ = std::move(state_.contact_pressure);
+      inner.initial_pressure = &start_pressure_;
+    }
+    first_ = false;
+    const Counts before = counts();
+    static_cast<NormalContactState&>(state_) = press(raised_, modulus_, target, inner);
+    state_.iterations += before.iterations;
+    state_.fft_count += before.fft_count;
+    state_.ladder_count += before.ladder_count;
+    // A contact that stalls is as sharp as rounding lets it be.
+    return state_.converged() || state_.termination == Termination::stalled;
+  }
+
+  struct Counts {
+    int iterations, fft_count, ladder_count;
+  };
+  Counts counts() const { return {state_.iterations, state_.fft_count, state_.ladder_count}; }
+
+  double mean_of(const Field& field) const {
+    return parallel::sum_blocks(
+               rows_,
+               [&](Index begin, Index end) {
+                 double sum = 0;
+                 for (Index k = begin * field.cols(); k < end * field.cols(); ++k)
+                   sum += field.data()[k];
+                 return sum;
+               },
+               field.size()) /
+           cells_;
+  }
+
+  // Nothing touches: the highest of the raised heights is −level off the plane.
+  void float_above(double level, double highest_raised) {
+    const Index nx = raised_.heights.rows(), ny = raised_.heights.cols();
+    state_.contact_pressure = Field::Zero(nx, ny);
+    state_.gap = highest_raised - level - raised_.heights;
+    state_.contact_area_fraction = 0;
+    state_.residual = 0;
+    state_.termination = Termination::converged;
+    first_ = true;
+  }
+
+  void detach() {
+    const Index nx = surface_.heights.rows(), ny = surface_.grid.ny;
+    state_.detached = true;
+    state_.contact_pressure = Field::Zero(nx, ny);
+    state_.gap = Field::Constant(nx, ny, std::numeric_limits<double>::infinity());
+    tension_ = Field::Zero(nx, ny);
+    state_.contact_area_fraction = 0;
+    state_.residual = state_.adhesion_residual = 0;
+    state_.termination = Termination::converged;
+  }
+
+  struct Measure {
+    double energy = 0;            // per area, what falls with each contact
+    double largest_change = 0;    // of the tension, over the cells with a gap
+    double contact_pressure = 0;  // mean of p
+  };
+
+  // φ'(g) becomes the next tension.
+  Measure measure() {
+    struct Sums {
+      double work = 0, displacement = 0, adhesive = 0, contact = 0, tension = 0, gap = 0;
+      double change = 0;
+    };
+    Sums total;
+    for (const Sums& part : parallel::map_blocks<Sums>(
+             rows_,
+             [&](Index begin, Index end) {
+               Sums sums;
+               const Index columns = surface_.grid.ny;
+               const double top = largest();
+               for (Index k = begin * columns; k < end * columns; ++k) {
+                 double &p = state_.contact_pressure.data()[k], &t = tension_.data()[k];
+                 const double gap = p > 0 ? 0.0 : std::max(0.0, state_.gap.data()[k]);
+                 // Where surfaces touch, a tension that is not yet that of g = 0 is missing in p
+                 // alone.
+                 if (p > 0) {
+                   p += top - t;
+                   t = top;
+                 }
+                 const double next = adhesion_.tension(gap);
+                 const double displaced = gap + surface_.heights.data()[k] - highest_;
+                 next_.data()[k] = next;
+                 if (!(p > 0)) sums.change = std::max(sums.change, std::abs(next - t));
+                 sums.work += displaced * (p - t);
+                 sums.displacement += displaced;
+                 sums.adhesive += adhesion_.energy(gap);
+                 sums.contact += p;
+                 sums.tension += t;
+                 sums.gap += gap;
+               }
+               return sums;
+             },
+             surface_.heights.size())) {
+      total.work += part.work;
+      total.displacement += part.displacement;
+      total.adhesive += part.adhesive;
+      total.contact += part.contact;
+      total.tension += part.tension;
+      total.gap += part.gap;
+      total.change = std::max(total.change, part.change);
+    }
+    const double pressure = (total.contact - total.tension) / cells_;
+    const double mean_gap = total.gap / cells_;
+    // u = displaced + offset; of a free contact, the plane stands at the indentation.
+    const double offset = periodic_ ? -total.displacement / cells_ : indentation();
+    const double elastic = 0.5 * (total.work / cells_ + offset * pressure);
+    const double adhesive = total.adhesive / cells_;
+    const double area = surface_.grid.area();
+    state_.mean_pressure = pressure;
+    state_.force = pressure * area;
+    state_.mean_gap = mean_gap;
+    state_.indentation = periodic_ ? mean_depth_ - mean_gap : indentation();
+    state_.elastic_energy = elastic * area;
+    state_.adhesive_energy = adhesive * area;
+    state_.tension_force = total.tension / cells_ * area;
+    const double load = target_.load_given ? target_.value : pressure;
+    const double potential = load * (periodic_ ? mean_gap : -state_.indentation);
+    state_.total_energy = (elastic + adhesive + potential) * area;
+    return {elastic + adhesive + (target_.load_given ? potential : 0.0), total.change,
+            total.contact / cells_};
+  }
+
+  // Of a free contact, from first touch of the surface itself.
+  double indentation() {
+    if (!target_.load_given) return target_.value;
+    // state_.indentation is that of the raised heights until measure() replaces it.
+    return state_.indentation - height_sums(rows_, raised_.heights, highest_).highest + highest_;
+  }
+
+  AdhesiveContactState finish() {
+    if (state_.detached) {
+      state_.mean_pressure = target_.value;
+      state_.force = target_.value * surface_.grid.area();
+      state_.mean_gap = std::numeric_limits<double>::infinity();
+      state_.indentation = -std::numeric_limits<double>::infinity();
+      state_.elastic_energy = state_.adhesive_energy = state_.total_energy = 0;
+      state_.tension_force = 0;
+    }
+    state_.tension = std::move(tension_);
+    return std::move(state_);
+  }
+
+  const Surface& surface_;
+  const Share rows_;
+  const double cells_;
+  const double modulus_;
+  const Adhesion adhesion_;
+  const AdhesiveContactOptions& options_;
+  const bool periodic_;
+  AdhesiveTarget target_;
+  double highest_ = 0, mean_depth_ = 0, reference_ = 1;
+  double rms_raised_ = 0;
+  bool first_ = true;
+  std::optional<Convolution2D<double>> compliance_;
+  Surface raised_;
+  Field tension_, next_, start_pressure_;
+  AdhesiveContactState state_;
+};
+
+}  // namespace
+
+double Adhesion::energy(double gap) const {
+  const double ratio = gap / range;
+  switch (potential) {
+    case AdhesionPotential::exponential:
+      return -work * std::exp(-ratio);
+    case AdhesionPotential::maugis:
+      return -work * std::max(0.0, 1 - ratio);
+    default:
+      return -work / ((1 + ratio) * (1 + ratio));
+  }
+}
+
+double Adhesion::tension(double gap) const {
+  const double ratio = gap / range, top = largest_tension();
+  switch (potential) {
+    case AdhesionPotential::exponential:
+      return top * std::exp(-ratio);
+    case AdhesionPotential::maugis:
+      return ratio < 1 ? top : 0;
+    default:
+      return top / ((1 + ratio) * (1 + ratio) * (1 + ratio));
+  }
+}
+
+double Adhesion::largest_tension() const {
+  return (potential == AdhesionPotential::van_der_waals ? 2 : 1) * work / range;
+}
+
+double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, double contact_modulus) {
+  const double top = adhesion.largest_tension();
+  if (!(top > 0)) return std::numeric_limits<double>::infinity();
+  return contact_modulus * adhesion.work / (top * top * std::max(grid.dx(), grid.dy()));
+}
+
+std::optional<std::string> doubt_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
+                                                 double contact_modulus) {
+  const double zone = cells_in_process_zone(adhesion, grid, contact_modulus);
+  if (zone >= doubtful_zone) return {};
+  return fmt::format(
+      "the process zone of adhesion has {:.2g} cells, and from 3.3 of them the cells do not "
+      "matter; "
+      "use a range of {:.3g} m or cells of {:.3g} m",
+      zone, adhesion.range * std::sqrt(doubtful_zone / zone),
+      std::max(grid.dx(), grid.dy()) * zone / doubtful_zone);
+}
+
+AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
+                                    const Target& target, const Adhesion& adhesion,
+                                    const AdhesiveContactOptions& options) {
+  collectively(surface.ranks, [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
+  return AdhesiveSolve(surface, contact_modulus, adhesion, options, target).go();
+}
+
+}  // namespace salebra

@@ -1,0 +1,469 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/contact/mdr/adhesive_indenter.hpp>
+#include <salebra/contact/normal/adhesion.hpp>
+#include <string>
+#include <vector>
+
+#include "base/fft.hpp"
+#include "ranks_in_threads.hpp"
+#include "rough_surface.hpp"
+
+using namespace salebra;
+using namespace salebra::test;
+using std::numbers::pi;
+
+namespace {
+
+// Cells are 1 m and E* is 1 Pa here: lengths in cells, pressures in E*.
+Grid2D cells(Index nx, Index ny) {
+  return {nx, ny, static_cast<double>(nx), static_cast<double>(ny)};
+}
+
+Surface steep(Index points, std::uint64_t seed = 1) {
+  return rough_surface(cells(points, points), {.cutoff = 16, .rms_slope = 0.5, .seed = seed});
+}
+
+/// Energy per area of a gap at a pressure, from its definition, and its gradient. Units as above.
+class EnergyOfGap {
+ public:
+  EnergyOfGap(const Surface& surface, const Adhesion& adhesion, double pressure)
+      : surface_(surface),
+        adhesion_(adhesion),
+        pressure_(pressure),
+        fft_(surface.grid.nx, surface.grid.ny),
+        modes_(static_cast<std::size_t>(surface.grid.nx * fft_.modes_y())) {}
+
+  double operator()(const Field& gap, Field* gradient = nullptr) {
+    const Grid2D& grid = surface_.grid;
+    Field displaced = gap + surface_.heights, response(grid.nx, grid.ny);
+    fft_.forward(displaced.data(), modes_.data());
+    for (Index i = 0; i < grid.nx; ++i)
+      for (Index j = 0; j < fft_.modes_y(); ++j)
+        modes_[static_cast<std::size_t>(i * fft_.modes_y() + j)] *=
+            pi * std::hypot(static_cast<double>(std::min(i, grid.nx - i)) / grid.lx,
+                            static_cast<double>(j) / grid.ly);
+    fft_.backward(modes_.data(), response.data());
+    response /= response_scale(displaced);
+    if (gradient)
+      *gradient = response + pressure_ +
+                  gap.unaryExpr([&](double g) { return adhesion_.tension(std::max(0.0, g)); });
+    return 0.5 * (displaced * response).mean() +
+           gap.unaryExpr([&](double g) { return adhesion_.energy(std::max(0.0, g)); }).mean() +
+           pressure_ * gap.mean();
+  }
+
+ private:
+  // The transforms may or may not be normalised: asked once.
+  double response_scale(const Field& like) {
+    if (scale_ > 0) return scale_;
+    RealFft2D<double> fft(like.rows(), like.cols());
+    std::vector<std::complex<double>> modes(modes_.size());
+    Field one = Field::Ones(like.rows(), like.cols());
+    fft.forward(one.data(), modes.data());
+    fft.backward(modes.data(), one.data());
+    return scale_ = one(0, 0);
+  }
+
+  const Surface& surface_;
+  Adhesion adhesion_;
+  double pressure_, scale_ = 0;
+  RealFft2D<double> fft_;
+  std::vector<std::complex<double>> modes_;
+};
+
+/// A minimum of the energy over gaps >= 0, by projected gradients with Barzilai and Borwein's steps,
+/// each of which may raise the energy: none of the solver's parts or ideas.
+Field minimised(EnergyOfGap& energy, Field gap) {
+  Field gradient(gap.rows(), gap.cols());
+  energy(gap, &gradient);
+  double step = 1;
+  for (int k = 0; k < 20000; ++k) {
+    const Field next = (gap - step * gradient).max(0.0);
+    Field next_gradient(gap.rows(), gap.cols());
+    energy(next, &next_gradient);
+    const Field moved = next - gap, turned = next_gradient - gradient;
+    const double curvature = (moved * turned).sum();
+    gap = next;
+    gradient = next_gradient;
+    const Field projected = (gap > 0).select(gradient, gradient.min(0.0));
+    if (projected.abs().maxCoeff() < 1e-10) break;
+    step = curvature > 0
+               ? (k % 2 ? moved.square().sum() / curvature : curvature / turned.square().sum())
+               : 1.0;
+  }
+  return gap;
+}
+
+double integral_of_tension(const AdhesiveContactState& state, const Adhesion& adhesion) {
+  return (state.contact_pressure > 0)
+      .select(adhesion.largest_tension(),
+              state.gap.max(0.0).unaryExpr([&](double g) { return adhesion.tension(g); }))
+      .sum();
+}
+
+const AdhesionPotential all_potentials[] = {
+    AdhesionPotential::exponential, AdhesionPotential::maugis, AdhesionPotential::van_der_waals};
+
+}  // namespace
+
+TEST_CASE("Potentials are concave, and their tension is their derivative", "[adhesion]") {
+  for (const AdhesionPotential potential : all_potentials) {
+    const Adhesion adhesion{potential, 0.05, 2e-9};
+    CHECK(adhesion.energy(0) == Approx(-0.05));
+    CHECK(adhesion.tension(0) == Approx(adhesion.largest_tension()));
+    CHECK(adhesion.energy(1e-3) == Approx(0).margin(1e-12));
+    double before = adhesion.tension(0);
+    for (const double gap : {0.3e-9, 1.1e-9, 1.9e-9, 2.3e-9, 9e-9}) {
+      constexpr double step = 1e-14;
+      CHECK((adhesion.energy(gap + step) - adhesion.energy(gap - step)) / (2 * step) ==
+            Approx(adhesion.tension(gap)).margin(1e-5 * adhesion.largest_tension()));
+      CHECK(adhesion.tension(gap) <= before);
+      before = adhesion.tension(gap);
+    }
+  }
+}
+
+TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
+  // The claim of the method, with contacts of its own: t = φ'(g), then the contact of the heights
+  // h + Gt under P + ⟨t⟩. A contact to e_c may miss its minimum by e_c P' h_rms, 1e-11 of the energy
+  // here.
+  const Adhesion adhesion{all_potentials[GENERATE(0, 1, 2)], 0.1, GENERATE(1.0, 3.0)};
+  const double pressure = GENERATE(0.002, 0.03);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Surface surface = steep(32, seed);
+    EnergyOfGap energy(surface, adhesion, pressure);
+    RealFft2D<double> fft(32, 32);
+    Field tension = Field::Zero(32, 32);
+    double before = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < 12; ++step) {
+      // Gt: the heights of which t is the pressure, by a contact that is full.
+      Surface raised = surface;
+      std::vector<std::complex<double>> modes(static_cast<std::size_t>(32 * fft.modes_y()));
+      Field copy = tension, lifted(32, 32);
+      fft.forward(copy.data(), modes.data());
+      const double zero_mode = modes[0].real() / (tension.sum() == 0 ? 1 : tension.sum());
+      for (Index i = 0; i < 32; ++i)
+        for (Index j = 0; j < fft.modes_y(); ++j) {
+          const double q =
+              2 * pi / 32 *
+              std::hypot(static_cast<double>(std::min(i, 32 - i)), static_cast<double>(j));
+          modes[static_cast<std::size_t>(i * fft.modes_y() + j)] *= q > 0 ? 2 / q : 0;
+        }
+      fft.backward(modes.data(), lifted.data());
+      // The normalisation of forward and backward together is that of forward of its mean.
+      if (tension.sum() > 0) raised.heights += lifted / (zero_mode * 1024);
+      const NormalContactState contact =
+          press(raised, 1, {.pressure = pressure + tension.mean()}, {.tolerance = 1e-13});
+      const Field gap = (contact.contact_pressure > 0).select(0, contact.gap.max(0.0));
+      const double now = energy(gap);
+      CHECK(now <= before + 1e-10 * std::abs(now));
+      before = now;
+      tension = gap.unaryExpr([&](double g) { return adhesion.tension(g); });
+    }
+  }
+}
+
+TEST_CASE("The solver's plain steps do not raise the energy", "[adhesion]") {
+  // On a branch that is followed, steps are plain until the residual is small. Each contact may miss
+  // its minimum by e_c ⟨p⟩ h_rms.
+  const Adhesion adhesion{all_potentials[GENERATE(0, 1, 2)], 0.1, 2.7};
+  const Surface surface = steep(48, GENERATE(1u, 2u));
+  const Field none = Field::Zero(48, 48);
+  AdhesiveContactState before;
+  for (int contacts = 1; contacts <= 8; ++contacts) {
+    AdhesiveContactState state =
+        press_adhesive(surface, 1, {.pressure = 0.01}, adhesion,
+                       {.max_outer_iterations = contacts, .start_tension = &none});
+    REQUIRE(state.outer_iterations <= contacts);
+    const double noise =
+        state.residual * state.contact_pressure.mean() * rms_height(surface) * surface.grid.area();
+    if (contacts > 1) CHECK(state.total_energy <= before.total_energy + 2 * noise);
+    before = std::move(state);
+  }
+}
+
+TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesion]") {
+  // The other method starts beside it. Its energy is right to the square of its residual, that of
+  // the solver as well.
+  const Adhesion adhesion{
+      GENERATE(AdhesionPotential::exponential, AdhesionPotential::van_der_waals), 0.1, 3};
+  const double pressure = GENERATE(0.003, 0.03);
+  const Surface surface = steep(48);
+  const AdhesiveContactState state =
+      press_adhesive(surface, 1, {.pressure = pressure}, adhesion, {.tolerance = 1e-7});
+  REQUIRE(state.converged());
+  const Field gap = (state.contact_pressure > 0).select(0, state.gap.max(0.0));
+  Lcg random(5);
+  Field start = gap;
+  for (double& g : start.reshaped()) g += 0.1 * random.uniform();
+  EnergyOfGap energy(surface, adhesion, pressure);
+  const Field other = minimised(energy, start);
+  const double expected = energy(other);
+  CHECK(energy(gap) == Approx(expected).epsilon(1e-8));
+  CHECK(state.total_energy / surface.grid.area() == Approx(expected).epsilon(1e-8));
+  CHECK(((other > 1e-9) == (gap > 1e-9)).all());
+
+  // What the state says of itself.
+  CHECK(state.mean_pressure == Approx(pressure).epsilon(1e-9));
+  CHECK(state.tension_force == Approx(integral_of_tension(state, adhesion)).epsilon(1e-6));
+  CHECK(state.contact_pressure.mean() - state.tension.mean() == Approx(pressure).epsilon(1e-9));
+  CHECK(state.elastic_energy + state.adhesive_energy +
+            pressure * state.mean_gap * surface.grid.area() ==
+        Approx(state.total_energy).epsilon(1e-12));
+  CHECK(state.mean_gap == Approx(gap.mean()).epsilon(1e-9));
+  // The contact sticks: more of it touches than without adhesion.
+  CHECK(state.contact_area_fraction >
+        press(surface, 1, {.pressure = pressure}).contact_area_fraction);
+}
+
+TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[adhesion]") {
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 3};
+  const Surface surface = steep(48, 2);
+  const AdhesiveContactOptions options{.tolerance = 1e-7};
+  const AdhesiveContactState loaded =
+      press_adhesive(surface, 1, {.pressure = 0.02}, adhesion, options);
+  REQUIRE(loaded.converged());
+  const double highest_gap = surface.heights.maxCoeff() - surface.heights.mean();
+  AdhesiveContactOptions from_there = options;
+  from_there.start_tension = &loaded.tension;
+  for (const Target& target :
+       {Target{.mean_gap = loaded.mean_gap}, Target{.indentation = highest_gap - loaded.mean_gap},
+        Target{.force = loaded.force}}) {
+    const AdhesiveContactState same = press_adhesive(surface, 1, target, adhesion, from_there);
+    REQUIRE(same.converged());
+    // Where the solver stops, t is wrong by its tolerance, and so is the mean of it.
+    CHECK(same.mean_pressure == Approx(0.02).epsilon(1e-5));
+    CHECK(same.mean_gap == Approx(loaded.mean_gap).epsilon(1e-6));
+    CHECK(same.contact_area_fraction == Approx(loaded.contact_area_fraction).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("Without work of adhesion the contact is the ordinary one", "[adhesion]") {
+  const Surface surface = steep(48);
+  const NormalContactState ordinary = press(surface, 1, {.pressure = 0.02}, {.tolerance = 1e-9});
+  const AdhesiveContactState state =
+      press_adhesive(surface, 1, {.pressure = 0.02}, {.work = 0, .range = 1}, {.tolerance = 1e-7});
+  REQUIRE(state.converged());
+  CHECK(state.mean_gap == Approx(ordinary.mean_gap).epsilon(1e-6));
+  CHECK(state.elastic_energy == Approx(ordinary.elastic_energy).epsilon(1e-6));
+  CHECK(state.tension_force == 0);
+}
+
+TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
+  // Unloading of an isolated paraboloid, from a contact on. The tension ends at a circle of some 30
+  // cells, which the cells hold back by about half of one: σ 2πc/2 of a cell is a tenth of the
+  // pull-off, and falls with the cell.
+  const double tabor = GENERATE(0.5, 1.0);
+  const auto error_at = [&](Index points) {
+    const double cell = 128.0 / static_cast<double>(points);
+    const Grid2D grid{points, points, 128, 128};
+    constexpr double radius = 100, work = 0.1;
+    const double range = std::cbrt(radius * work * work) / tabor;
+    const Surface sphere = surface_of(grid, [&](double x, double y) {
+      return -(std::pow(x - 64 + cell / 2, 2) + std::pow(y - 64 + cell / 2, 2)) / (2 * radius);
+    });
+    const Adhesion adhesion{AdhesionPotential::maugis, work, range};
+    const MaugisDugdale model(radius, 1, work, range);
+    const AdhesivePoint off = model.pull_off();
+    AdhesiveContactOptions options;
+    options.contact.boundary = Boundary::free;
+    Field tension;
+    double worst = 0, least = 0;
+    for (const double a : {1.6, 1.3, 1.15, 1.0}) {
+      const AdhesivePoint expected = model.contact(a * off.contact_radius);
+      const AdhesiveContactState state =
+          press_adhesive(sphere, 1, {.indentation = expected.indentation}, adhesion, options);
+      REQUIRE(state.converged());
+      worst = std::max(worst, std::abs(state.force - expected.force));
+      least = std::min(least, state.force);
+      tension = state.tension;
+      options.start_tension = &tension;
+    }
+    CHECK(least > -2 * pi * work * radius);
+    CHECK(least < -1.5 * pi * work * radius);
+    CHECK(least == Approx(off.force).epsilon(0.1));
+    return worst / (pi * work * radius);
+  };
+  const double coarse = error_at(64), fine = error_at(128);
+  std::printf("%g %g %g\n", coarse, fine, error_at(256));
+  CAPTURE(coarse, fine);
+  CHECK(coarse < 0.25);
+  CHECK(fine < 0.15);
+  CHECK(fine < 0.75 * coarse);
+}
+
+TEST_CASE("A wavy surface of short range is Johnson's", "[adhesion]") {
+  // Johnson (1995): p = p*[sin²ψ − α √tan ψ], ψ = πa/λ, for the half-width a of the contacts of
+  // Δ cos(2πx/λ), p* = πE*Δ/λ, α² = 2λw/(π²Δ²E*). The range is not nothing: a is uncertain by the
+  // zone of 8 cells of 512.
+  constexpr Index points = 512;
+  constexpr double wavelength = points, amplitude = 20, work = 0.6;
+  const Grid2D grid = cells(4, points);
+  const Surface wavy = surface_of(
+      grid, [](double, double y) { return amplitude * std::cos(2 * pi * y / wavelength); });
+  const double full = pi * amplitude / wavelength;
+  const double alpha = std::sqrt(2 * wavelength * work / (pi * pi * amplitude * amplitude));
+  const auto error_at = [&](double zone) {
+    const Adhesion adhesion{AdhesionPotential::exponential, work, std::sqrt(zone * work)};
+    AdhesiveContactOptions options;
+    Field tension;
+    double worst = 0;
+    for (const double gap : {8.0, 10.0, 12.0}) {
+      const AdhesiveContactState state =
+          press_adhesive(wavy, 1, {.mean_gap = gap}, adhesion, options);
+      REQUIRE(state.converged());
+      const double psi = pi / 2 * state.contact_area_fraction;
+      const double expected =
+          full * (std::pow(std::sin(psi), 2) - alpha * std::sqrt(std::tan(psi)));
+      worst = std::max(worst, std::abs(state.mean_pressure - expected) / full);
+      tension = state.tension;
+      options.start_tension = &tension;
+    }
+    return worst;
+  };
+  const double longer = error_at(32), shorter = error_at(8);
+  CAPTURE(longer, shorter);
+  CHECK(shorter < 0.03);
+  CHECK(shorter < longer);
+}
+
+TEST_CASE("A sticky surface comes off later than it snapped on, a detached one is at rest",
+          "[adhesion]") {
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.3, 2};
+  const Surface surface = rough_surface(
+      cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
+  const AdhesiveContactState pressed = press_adhesive(surface, 1, {.pressure = 0.05}, adhesion);
+  REQUIRE(pressed.converged());
+  // Held at no load, and by a small pull.
+  AdhesiveContactOptions follow;
+  follow.start_tension = &pressed.tension;
+  const AdhesiveContactState held =
+      press_adhesive(surface, 1, {.pressure = -0.002}, adhesion, follow);
+  REQUIRE(held.converged());
+  CHECK_FALSE(held.detached);
+  CHECK(held.contact_area_fraction > 0);
+  CHECK(held.mean_pressure == Approx(-0.002).epsilon(1e-6));
+  // Without its history the pull parts the surfaces, and beyond all tension with it.
+  CHECK(press_adhesive(surface, 1, {.pressure = -0.1}, adhesion).detached);
+  const AdhesiveContactState parted =
+      press_adhesive(surface, 1, {.pressure = -0.2}, adhesion, follow);
+  CHECK(parted.converged());
+  CHECK(parted.detached);
+  CHECK(std::isinf(parted.mean_gap));
+  CHECK(parted.contact_area_fraction == 0);
+  // Loading at a gap where the other branch still touches: hysteresis.
+  const double gap = surface.heights.maxCoeff() - surface.heights.mean() + 1;
+  const AdhesiveContactState loading = press_adhesive(surface, 1, {.mean_gap = gap}, adhesion);
+  const AdhesiveContactState unloading =
+      press_adhesive(surface, 1, {.mean_gap = gap}, adhesion, follow);
+  REQUIRE((loading.converged() && unloading.converged()));
+  CHECK(unloading.mean_pressure < 0);
+  CHECK(unloading.contact_area_fraction >= loading.contact_area_fraction);
+}
+
+TEST_CASE("An adhesive plane is in full contact under what its tension allows", "[adhesion]") {
+  Surface plane{cells(16, 16), Field::Constant(16, 16, 3.0), true, "test"};
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 2};
+  const double pressure = GENERATE(0.01, -0.01);
+  const AdhesiveContactState state = press_adhesive(plane, 1, {.pressure = pressure}, adhesion);
+  REQUIRE(state.converged());
+  CHECK(state.contact_area_fraction == 1);
+  CHECK(state.contact_pressure.mean() == Approx(pressure + 0.05));
+  CHECK(state.adhesive_energy == Approx(-0.1 * 256));
+  CHECK(press_adhesive(plane, 1, {.pressure = -0.051}, adhesion).detached);
+}
+
+TEST_CASE("An adhesive contact has the same bits for every number of threads and processes",
+          "[adhesion][share]") {
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 3};
+  const Surface surface = steep(96);
+  const auto solve = [&](const Surface& mine) {
+    return press_adhesive(mine, 1, {.pressure = 0.01}, adhesion, {.tolerance = 1e-4});
+  };
+  parallel::set_threads(1);
+  const AdhesiveContactState one = solve(surface);
+  REQUIRE(one.converged());
+  for (const int threads : {2, 3}) {
+    parallel::set_threads(threads);
+    const AdhesiveContactState many = solve(surface);
+    CHECK(many.outer_iterations == one.outer_iterations);
+    CHECK(many.total_energy == one.total_energy);
+    CHECK((many.contact_pressure == one.contact_pressure).all());
+    CHECK((many.tension == one.tension).all());
+  }
+  parallel::set_threads(1);
+  for (const int ranks : {2, 3}) {
+    std::atomic<int> right = 0;
+    salebra::testing::run_ranks(ranks, [&](const Communicator& together) {
+      const Share rows(together, surface.grid.nx);
+      Surface mine = surface;
+      mine.ranks = together;
+      mine.heights = surface.heights.middleRows(rows.begin(), rows.count());
+      const AdhesiveContactState spread = solve(mine);
+      right += spread.total_energy == one.total_energy &&
+               spread.outer_iterations == one.outer_iterations &&
+               (spread.tension == one.tension.middleRows(rows.begin(), rows.count())).all();
+    });
+    CHECK(right == ranks);
+  }
+  parallel::set_threads(0);
+}
+
+TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
+  const Surface surface = steep(32);
+  const Adhesion good{AdhesionPotential::exponential, 0.1, 2};
+  const auto message = [&](const Target& target, const Adhesion& adhesion,
+                           const AdhesiveContactOptions& options) -> std::string {
+    try {
+      press_adhesive(surface, 1, target, adhesion, options);
+    } catch (const InvalidInput& fault) {
+      return fault.what();
+    }
+    return "";
+  };
+  const Target load{.pressure = 0.01};
+  CHECK(message(load, {.work = -1, .range = 1}, {}).find("work") == 0);
+  CHECK(message(load, {.work = 1, .range = 0}, {}).find("range") == 0);
+  const std::string coarse = message(load, {.work = 1, .range = 0.5}, {});
+  CHECK(coarse.find("range") == 0);
+  CHECK(coarse.find("force_coarse") != std::string::npos);
+  CHECK(coarse.find('\n') == std::string::npos);
+  CHECK(message(load, {.work = 1, .range = 1}, {.force_coarse = true}).empty());
+  CHECK(message({}, good, {}).find("target") == 0);
+  CHECK(message({.pressure = 1, .force = 1}, good, {}).find("target") == 0);
+  CHECK(message({.mean_gap = 0}, good, {}).find("mean_gap") == 0);
+  CHECK(message({.indentation = 1e3}, good, {}).find("indentation") == 0);
+  CHECK(message(load, good, {.tolerance = 0}).find("tolerance") == 0);
+  CHECK(message(load, good, {.max_outer_iterations = 0}).find("max_outer") == 0);
+  const Field short_start = Field::Zero(3, 3);
+  CHECK(message(load, good, {.start_tension = &short_start}).find("start_tension") == 0);
+  AdhesiveContactOptions hard;
+  hard.contact.hardness = 1;
+  CHECK(message(load, good, hard).find("hardness") == 0);
+  AdhesiveContactOptions isolated;
+  isolated.contact.boundary = Boundary::free;
+  CHECK(message(load, {AdhesionPotential::exponential, 0.1, 50}, isolated).find("boundary") == 0);
+  CHECK(message({.mean_gap = 1}, good, isolated).find("boundary") == 0);
+
+  const AdhesiveContactState unfinished =
+      press_adhesive(surface, 1, load, good, {.max_outer_iterations = 2});
+  CHECK(unfinished.termination == Termination::iteration_limit);
+  AdhesiveContactOptions stopping;
+  stopping.contact.on_progress = [](const ProgressReport& report) {
+    return !(report.stage == "adhesion" && report.step >= 2);
+  };
+  CHECK(press_adhesive(surface, 1, load, good, stopping).termination == Termination::interrupted);
+
+  CHECK_FALSE(doubt_of_process_zone(good, surface.grid, 1));
+  CHECK(doubt_of_process_zone({AdhesionPotential::exponential, 1, 1}, surface.grid, 1));
+}
