@@ -160,7 +160,7 @@ class AdhesiveSolve {
     double residual = 1, best = std::numeric_limits<double>::infinity(), lowest = best;
     double sharpness = 1;  // of the contacts
     int since_best = 0;
-    while (state_.outer_iterations < options_.max_outer_iterations) {
+    for (;;) {
       const double inner = std::max(sharpest_inner, sharpness * inner_tolerance(residual));
       if (!press_under_tension(inner)) {
         if (!state_.detached) measure();
@@ -172,7 +172,8 @@ class AdhesiveSolve {
         return finish();
       }
       const double noise_here = state_.residual * found.contact_pressure * rms_raised_;
-      if (extrapolated && found.energy > energy + noise + noise_here) {
+      const bool last = state_.outer_iterations >= options_.max_outer_iterations;
+      if (!last && extrapolated && found.energy > energy + noise + noise_here) {
         anderson.forget();
         tension_ = safe;
         extrapolated = false;
@@ -205,6 +206,10 @@ class AdhesiveSolve {
         state_.termination = Termination::interrupted;
         return finish();
       }
+      if (last) {
+        state_.termination = Termination::iteration_limit;
+        return finish();
+      }
       const bool may_jump = adhesion_.potential != AdhesionPotential::maugis &&
                             (!options_.start_tension || residual < near_a_minimum);
       if (may_jump) {
@@ -216,8 +221,6 @@ class AdhesiveSolve {
         extrapolated = false;
       }
     }
-    state_.termination = Termination::iteration_limit;
-    return finish();
   }
 
  private:
