@@ -261,7 +261,7 @@ TEST_CASE(
   CHECK(flow["limit_5_percent"].is_null());
   CHECK(flow["limit_20_percent"].is_null());
   CHECK_THAT(test.run("damping" + sphere + hardness).out,
-             Catch::Contains("elastic: largest pressure below 0.6 of the hardness"));
+             Catch::Contains("elastic: pressure on spots below 0.6 of the hardness"));
   const std::string viscoelastic = "viscoelastic" + sphere + "--prony 3GPa:1ms ";
   CHECK_THAT(test.run(viscoelastic).out,
              Catch::Contains("The conditions are those of the relaxed elastic body"));

@@ -241,7 +241,7 @@ constexpr void describe(auto&& visit, std::type_identity<Premises>) {
                                     "the damping constant itself has no such limit",
                                     length});
   visit(&S::plasticity, PremiseWords{{"plasticity", "plasticity"},
-                                     "elastic: largest pressure below {} of the hardness",
+                                     "elastic: pressure on spots below {} of the hardness",
                                      "{}",
                                      "less load; a surface with `hardness` is loaded first"});
   visit(&S::inertia, PremiseWords{{"inertia", "inertia"},
