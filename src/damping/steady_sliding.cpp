@@ -86,7 +86,7 @@ constexpr double rule_point[rule_points] = {
 constexpr double rule_weight[rule_points] = {
     0.104656226026467265, 0.268488089868333440, 0.401397414775962222, 0.450916538658474142,
     0.401397414775962222, 0.268488089868333440, 0.104656226026467265};
-constexpr double gauss_weight[rule_points] = {0, 5.0 / 9, 0, 8.0 / 9, 0, 5.0 / 9, 0};
+constexpr double gauss_rule_weight[rule_points] = {0, 5.0 / 9, 0, 8.0 / 9, 0, 5.0 / 9, 0};
 
 // The law over one half of the oscillation δ = δ_min + u_z(1 − cosφ), at nodes that all velocities
 // share.
@@ -192,7 +192,7 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
       const PhaseShare share = share_of(node, period, slips, limit_scale, velocity, omega);
       values[j] = share.force;
       kronrod += rule_weight[j] * share.force;
-      gauss += gauss_weight[j] * share.force;
+      gauss += gauss_rule_weight[j] * share.force;
       damping += rule_weight[j] * share.damping;
     }
     double spread = 0;

@@ -22,7 +22,7 @@ using detail::NormalSpring;
 using detail::SpringPath;
 
 // A share of a step, in contact or above it.
-struct Part {
+struct LossPart {
   bool closed;
   std::size_t step;
   double share;
@@ -39,7 +39,7 @@ struct NormalPeriod {
   double work = 0;
   bool opens = false, closes = false;
   bool converged = false;  // whether it ends where it began
-  std::vector<Part> parts;
+  std::vector<LossPart> parts;
   std::vector<double> force;  // at the samples
 };
 
@@ -138,7 +138,7 @@ struct TangentialLoss {
 class OpeningSpring {
  public:
   OpeningSpring(const MaxwellSpring& spring, const SpringPath& path,
-                const std::vector<double>& moves, const std::vector<Part>& parts)
+                const std::vector<double>& moves, const std::vector<LossPart>& parts)
       : spring_(spring), path_(path), moves_(moves), parts_(parts) {}
 
   TangentialLoss loss() const {
@@ -164,7 +164,7 @@ class OpeningSpring {
     Branches branches = state.tail(spring_.terms()).array();
     TangentialLoss lost;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const Part& part = parts_[i];
+      const LossPart& part = parts_[i];
       const double duration = part.share * path_.duration[part.step];
       if (part.closed) {
         if (begins_stay(i)) lost.relaxation -= spring_.energy(w, branches);
@@ -223,7 +223,7 @@ class OpeningSpring {
   const MaxwellSpring& spring_;
   const SpringPath& path_;
   const std::vector<double>& moves_;
-  const std::vector<Part>& parts_;
+  const std::vector<LossPart>& parts_;
 };
 
 std::vector<double> differences(const std::vector<double>& values) {

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "base/random.hpp"
+#include "base/special_values.hpp"
 #include "surface/dense_systems.hpp"
 #include "surface/twin_fit.hpp"
 
@@ -28,7 +29,7 @@ constexpr double one_sided = 1.353;     ///< half the 90 % quantile of χ² with
 constexpr double refused_above = 1.8;   ///< misfit
 constexpr double bad_scan_above = 3.5;  ///< misfit of a scan, and over the median of its group
 constexpr double knots_per_decade = 5;
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+using detail::unknown;
 
 struct Candidate {
   TwinModel model;

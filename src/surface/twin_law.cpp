@@ -8,6 +8,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 
+#include "base/special_values.hpp"
 #include "surface/dense_systems.hpp"
 #include "surface/twin_kernels.hpp"
 
@@ -121,7 +122,6 @@ void log_density_slopes(const TwinLaw& law, std::span<const double> parameters,
 }
 
 TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double lowest) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   TwinDraw draw;
   draw.form = law.form;
   draw.reference = law.reference;

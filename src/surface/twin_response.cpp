@@ -19,7 +19,8 @@ constexpr double tilt = 3.4;             ///< C ∝ κ^−tilt within a cell
 constexpr double longest = 0.01;         ///< κ of the longest waves
 constexpr double farthest_tapered = 30;  ///< κ of sources for the bins of the sine tapers
 constexpr double farthest_hann = 60;
-constexpr double reach = 10;  ///< modes beyond which a Hann window passes less than 1e-7 of a wave
+constexpr double window_reach =
+    10;  ///< modes beyond which a Hann window passes less than 1e-7 of a wave
 constexpr double flat_above =
     3;  ///< κ of waves whose plane is nothing for the modes of the Hann bins
 
@@ -124,22 +125,22 @@ void add_waves(const ScanModes& modes, double kappa, double weight, std::vector<
     const double angle = (a + 0.5) / angles * pi / 2;
     for (const int sign_x : {1, -1}) {
       const double kappa_x = sign_x * kappa * std::cos(angle);
-      if (narrow && kappa_x < -reach * modes.step_x) continue;
+      if (narrow && kappa_x < -window_reach * modes.step_x) continue;
       for (SideModes& side : along_x) side.take(kappa_x);
       for (const int sign_y : {1, -1}) {
         const double kappa_y = sign_y * kappa * std::sin(angle);
-        if (narrow && kappa_y < -reach * modes.step_y) continue;
+        if (narrow && kappa_y < -window_reach * modes.step_y) continue;
         for (SideModes& side : along_y) side.take(kappa_y);
         const double share =
             weight / (4.0 * angles * static_cast<double>(along_x.size() * along_y.size()));
         for (Index k = 0; k <= quadrant.count_x; ++k) {
           const double x = static_cast<double>(k) * modes.step_x;
-          if (narrow && std::abs(x - kappa_x) > reach * modes.step_x) continue;
+          if (narrow && std::abs(x - kappa_x) > window_reach * modes.step_x) continue;
           double low = std::sqrt(std::max(0.0, inner * inner - x * x)),
                  high = std::sqrt(std::max(0.0, outer * outer - x * x));
           if (narrow) {
-            low = std::max(low, kappa_y - reach * modes.step_y);
-            high = std::min(high, kappa_y + reach * modes.step_y);
+            low = std::max(low, kappa_y - window_reach * modes.step_y);
+            high = std::min(high, kappa_y + window_reach * modes.step_y);
           }
           const auto first = static_cast<Index>(low / modes.step_y);
           const auto last =

@@ -75,7 +75,7 @@ struct Contacts {
 };
 
 /// Reports progress; throws Interrupted when asked to stop.
-struct Watch {
+struct SummitWatch {
   const Progress& progress;
   int step = 0;
   double residual = 0;
@@ -98,7 +98,7 @@ struct LinearSolution {
 /// then. A separate loop, because the first direction is the result where the system is indefinite,
 /// and the projection acts on the residual, which the shift is read from.
 LinearSolution linear_solve(Contacts& contacts, const Values& root, const Values& right,
-                            double tolerance, bool hold_sum, const Watch& watch) {
+                            double tolerance, bool hold_sum, const SummitWatch& watch) {
   const std::size_t n = root.size();
   LinearSolution solution{Values(n), 0, false};
   const double root_square = dot(root, root);
@@ -247,7 +247,7 @@ InteractingSummits::State InteractingSummits::equilibrium(Values indentation, co
   const std::lock_guard lock(system.mutex);
   const std::size_t n = system.size();
   State state;
-  Watch watch{progress ? progress : options_.on_progress};
+  SummitWatch watch{progress ? progress : options_.on_progress};
   watch();
   Iterate current = evaluated(std::move(indentation), goal);
   for (; state.iterations < options_.max_iterations; ++state.iterations) {
@@ -358,7 +358,7 @@ AsperityContact InteractingSummits::contact_of(const State& state, const Progres
   for (const std::uint32_t i : contacts.members) roots.push_back(std::sqrt(stiffness[i]));
   // (D⁻¹ + G)P' = 1 and, once more differentiated, (D⁻¹ + G)P'' = ½(P'/D)²/δ, on the summits in
   // contact.
-  const Watch watch{progress ? progress : options_.on_progress};
+  const SummitWatch watch{progress ? progress : options_.on_progress};
   const auto first =
       linear_solve(contacts, roots, Values(roots.size(), 1.0), options_.tolerance, false, watch);
   Values right;
