@@ -284,7 +284,7 @@ class AdhesiveSolve {
   void start() {
     const Grid2D& grid = surface_.grid;
     require_memory(grid,
-                   (4 * sizeof(double) + 2 * memory_of_steps * sizeof(float)) *
+                   (8 * sizeof(double) + 2 * memory_of_steps * sizeof(float)) *
                        static_cast<double>(surface_.heights.size()),
                    "an adhesive contact", surface_.ranks);
     state_.ranks = surface_.ranks;

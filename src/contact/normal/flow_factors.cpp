@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
@@ -407,6 +408,8 @@ void require_gap(const Field& gap, const Grid2D& grid) {
   grid.validate();
   require(gap.rows() == grid.nx && gap.cols() == grid.ny, "gap", gap.size(),
           "cells must fill the grid");
+  require(grid.points() < std::numeric_limits<std::int32_t>::max(), "grid", grid.points(),
+          "cells are too many for a flow, which counts up to 2147483646 of them");
   require(gap.isFinite().all(), "gap", gap.sum(), "must be finite in every cell");
 }
 

@@ -268,6 +268,41 @@ TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[
   }
 }
 
+TEST_CASE("The energy of a contact at a load falls with the load by its indentation",
+          "[adhesion]") {
+  // E is a minimum over gaps, so only its last term feels the load: dE/dP = ū A of a periodic
+  // surface, dE/dF = −δ of an isolated one. Central differences of 1 %.
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 2};
+  const Surface rough = steep(48, 3);
+  const Surface sphere = surface_of(cells(64, 64), [](double x, double y) {
+    return -(std::pow(x - 31.5, 2) + std::pow(y - 31.5, 2)) / 80;
+  });
+  for (const bool periodic : {true, false}) {
+    const Surface& surface = periodic ? rough : sphere;
+    AdhesiveContactOptions options{.tolerance = 1e-8};
+    if (!periodic) options.contact.boundary = Boundary::free;
+    const double force = periodic ? 20 : 5;
+    const AdhesiveContactState middle =
+        press_adhesive(surface, 1, {.force = force}, adhesion, options);
+    REQUIRE(middle.converged());
+    CHECK(middle.force == Approx(force).epsilon(1e-9));
+    options.start_tension = &middle.tension;
+    const auto energy_at = [&](double factor) {
+      const AdhesiveContactState state =
+          press_adhesive(surface, 1, {.force = factor * force}, adhesion, options);
+      REQUIRE(state.converged());
+      return state.total_energy;
+    };
+    CHECK((energy_at(1.01) - energy_at(0.99)) / (0.02 * force) ==
+          Approx(periodic ? middle.mean_gap : -middle.indentation).epsilon(1e-4));
+    // The same contact by its indentation.
+    const AdhesiveContactState same =
+        press_adhesive(surface, 1, {.indentation = middle.indentation}, adhesion, options);
+    REQUIRE(same.converged());
+    CHECK(same.force == Approx(force).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("Without work of adhesion the contact is the ordinary one", "[adhesion]") {
   const Surface surface = steep(48);
   const NormalContactState ordinary = press(surface, 1, {.pressure = 0.02}, {.tolerance = 1e-9});

@@ -110,8 +110,8 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 /// throws     InvalidInput before any work as press(); for less than 1.4 cells in the process zone,
 ///            unless forced; for a hardness; for a free boundary at which the undeformed gap has
 ///            more than 1e-2 of the largest tension. Non-convergence is returned, not thrown
-/// cost       10 to 40 contacts that start from each other, of some pairs each; 60 bytes a cell in
-///            addition to those of press(). Collective where the surface is spread, with the same
+/// cost       10 to 40 contacts that start from each other, of some pairs each; 130 bytes a cell
+///            in addition to those of press(). Collective where the surface is spread, with the same
 ///            bits for every number of processes and threads
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
                                     const Target& target, const Adhesion& adhesion,
