@@ -14,7 +14,7 @@
 #include "surface/twin_kernels.hpp"
 
 namespace salebra {
-namespace detail {
+namespace twin_detail {
 
 using std::numbers::pi;
 
@@ -64,12 +64,7 @@ std::vector<double> hann_taper(Index n) {
   return taper;
 }
 
-}  // namespace detail
-
 namespace {
-
-using detail::ScanModes;
-using std::numbers::pi;
 
 void require_instrument(const ScanInstrument& instrument, double weight) {
   if (instrument.kind == Instrument::optical) require_positive(instrument.resolution, "resolution");
@@ -134,8 +129,7 @@ struct BinSums {
 void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size_t first,
               double scale, BinSums& sums) {
   const Index nx = level.rows(), ny = level.cols(), columns = ny / 2 + 1;
-  const std::vector<double> wx = detail::hann_taper(nx),
-                            wy = ny == 1 ? std::vector{1.0} : detail::hann_taper(ny);
+  const std::vector<double> wx = hann_taper(nx), wy = ny == 1 ? std::vector{1.0} : hann_taper(ny);
   const Eigen::Map<const Eigen::Array<double, 1, Eigen::Dynamic>> along_y(wy.data(), ny);
   Field tapered(nx, ny);
   for (Index i = 0; i < nx; ++i)
@@ -146,7 +140,7 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
   transform.forward(tapered.data(), room.get());
   for (Index i = 0; i < nx; ++i) {
     const Index k = 2 * i <= nx ? i : i - nx;
-    if (drifts && std::abs(k) <= detail::drift_modes) continue;
+    if (drifts && std::abs(k) <= drift_modes) continue;
     const double x = static_cast<double>(k) * modes.step_x;
     std::size_t bin = first;
     for (Index j = 0; j < columns; ++j) {
@@ -174,7 +168,7 @@ void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::s
     const Index columns = n == 1 ? 1 : 4 * (count + 1);
     Field table = Field::Ones(n, columns);
     for (int t = 0; n > 1 && t < 2; ++t) {
-      const std::vector<double> taper = detail::sine_taper(n, t + 1);
+      const std::vector<double> taper = sine_taper(n, t + 1);
       for (Index i = 0; i < n; ++i)
         for (Index k = 0; k <= count; ++k) {
           const double phase = 2 * pi * static_cast<double>((i * k) % n) / static_cast<double>(n);
@@ -192,15 +186,15 @@ void add_tapered(const Field& level, const ScanModes& modes, bool drifts, std::s
   std::vector<double> row(static_cast<std::size_t>(of_y.cols()));
   for (Index i = 0; i < nx; ++i) {
     std::ranges::fill(row, 0.0);
-    detail::add_products({level.row(i).data(), static_cast<std::size_t>(ny)}, of_y.data(), row);
+    add_products({level.row(i).data(), static_cast<std::size_t>(ny)}, of_y.data(), row);
     for (Index k = 0; k < of_x.cols(); ++k)
-      detail::add_products({&of_x(i, k), 1}, row.data(), {&both(k, 0), row.size()});
+      add_products({&of_x(i, k), 1}, row.data(), {&both(k, 0), row.size()});
   }
   const int tapers_y = line ? 1 : 2;
   for (int t = 0; t < 2; ++t)
     for (int u = 0; u < tapers_y; ++u)
       for (Index k = 0; k <= count_x; ++k) {
-        if (drifts && k <= detail::drift_modes) continue;
+        if (drifts && k <= drift_modes) continue;
         for (Index j = 0; j <= count_y; ++j) {
           const double x = static_cast<double>(k) * modes.step_x,
                        y = static_cast<double>(j) * modes.step_y, square = x * x + y * y;
@@ -269,8 +263,8 @@ ScanSpectrum spectrum_of(const Field& heights, const Grid2D& grid, const ScanIns
   const ScanModes modes(grid);
   const bool line = grid.ny == 1, drifts = instrument.drifts() && !line;
   const Field level = levelled(heights);
-  BinSums sums(detail::bin_limits(modes.nyquist));
-  const std::size_t tapered = detail::tapered_bins(sums.limits);
+  BinSums sums(bin_limits(modes.nyquist));
+  const std::size_t tapered = tapered_bins(sums.limits);
   const double points = static_cast<double>(grid.points());
   const double scale =
       (line ? grid.lx / (2 * pi) : grid.area() / (4 * pi * pi)) / (points * points);
@@ -288,10 +282,8 @@ ScanSpectrum spectrum_of(const Field& heights, const Grid2D& grid, const ScanIns
   return spectrum;
 }
 
-}  // namespace
-
-ScanSpectrum scan_spectrum(const Field& heights, const Grid2D& grid,
-                           const ScanInstrument& instrument, double weight, std::string name) {
+ScanSpectrum spectrum_of_map(const Field& heights, const Grid2D& grid,
+                             const ScanInstrument& instrument, double weight, std::string name) {
   grid.validate();
   require_instrument(instrument, weight);
   require(std::min(grid.nx, grid.ny) >= 32, "grid", std::min(grid.nx, grid.ny),
@@ -306,7 +298,7 @@ ScanSpectrum scan_spectrum(const Field& heights, const Grid2D& grid,
   return spectrum_of(heights, grid, instrument, weight, std::move(name));
 }
 
-ScanSpectrum profile_spectrum(const std::vector<double>& heights, double length,
+ScanSpectrum spectrum_of_line(const std::vector<double>& heights, double length,
                               const ScanInstrument& instrument, double weight, std::string name) {
   require_instrument(instrument, weight);
   require_positive(length, "length");
@@ -315,6 +307,19 @@ ScanSpectrum profile_spectrum(const std::vector<double>& heights, double length,
       Eigen::Map<const Eigen::ArrayXd>(heights.data(), static_cast<Index>(heights.size()));
   require_that(line.allFinite(), "heights", "have undefined points; fill or crop them");
   return spectrum_of(line, {line.rows(), 1, length, length}, instrument, weight, std::move(name));
+}
+
+}  // namespace
+}  // namespace twin_detail
+
+ScanSpectrum scan_spectrum(const Field& heights, const Grid2D& grid,
+                           const ScanInstrument& instrument, double weight, std::string name) {
+  return twin_detail::spectrum_of_map(heights, grid, instrument, weight, std::move(name));
+}
+
+ScanSpectrum profile_spectrum(const std::vector<double>& heights, double length,
+                              const ScanInstrument& instrument, double weight, std::string name) {
+  return twin_detail::spectrum_of_line(heights, length, instrument, weight, std::move(name));
 }
 
 }  // namespace salebra

@@ -15,13 +15,9 @@
 #include "surface/twin_fit.hpp"
 
 namespace salebra {
+namespace twin_detail {
 namespace {
 
-using detail::TwinData;
-using detail::TwinFit;
-using detail::TwinLaw;
-using detail::TwinModel;
-using detail::TwinProfile;
 using std::numbers::pi;
 
 constexpr double seen_above = 6;        ///< 2 ln of a likelihood ratio
@@ -57,16 +53,35 @@ std::pair<double, double> range_of(const std::vector<TwinData>& data) {
 
 Candidate candidate_of(const std::vector<TwinData>& data, SpectrumForm form) {
   const auto [lowest, highest] = range_of(data);
-  TwinLaw law{form, std::sqrt(lowest * highest), {}};
-  if (law.table()) {
-    const double decades = std::log10(highest / lowest);
-    const int knots = std::max(5, static_cast<int>(std::ceil(decades * knots_per_decade)) + 1);
-    for (int k = 0; k < knots; ++k)
-      law.knots.push_back(std::log(lowest / law.reference) +
-                          std::log(highest / lowest) * k / (knots - 1));
-  }
+  TwinModel model(data, TwinLaw{form, std::sqrt(lowest * highest), {}});
+  TwinFit fit = fitted(model);
+  return {std::move(model), std::move(fit)};
+}
+
+/// A table, from the self-affine law that fits best.
+Candidate table_near(const Candidate& best) {
+  const std::vector<TwinData>& data = best.model.data();
+  const TwinLaw& near = best.model.law();
+  const auto [lowest, highest] = range_of(data);
+  TwinLaw law{SpectrumForm::table, near.reference, {}};
+  const double decades = std::log10(highest / lowest);
+  const int knots_of_law = std::max(5, static_cast<int>(std::ceil(decades * knots_per_decade)) + 1);
+  for (int k = 0; k < knots_of_law; ++k)
+    law.knots.push_back(std::log(lowest / law.reference) +
+                        std::log(highest / lowest) * k / (knots_of_law - 1));
   TwinModel model(data, law);
-  TwinFit fit = detail::fitted(model);
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(model.size());
+  std::vector<double> knots, values(law.knots.size());
+  for (const double knot : law.knots) knots.push_back(law.reference * std::exp(knot));
+  log_density(near, {best.fit.parameters.data(), static_cast<std::size_t>(near.size())},
+              LawPoints(near, knots), values);
+  start.head(law.cutoff()) =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
+  start.tail(model.size() - law.cutoff()) =
+      best.fit.parameters.tail(best.model.size() - near.cutoff());
+  // Under a wide tolerance first, as every fit.
+  model.set_tolerance(0.3, 0.3, 1);
+  TwinFit fit = refitted(model, minimised(model, start).parameters);
   return {std::move(model), std::move(fit)};
 }
 
@@ -78,7 +93,7 @@ struct Forms {
 };
 
 Forms forms_of(const std::vector<TwinData>& data, const std::optional<SpectrumForm>& form) {
-  if (form) return {candidate_of(data, *form), {}, 0};
+  if (form && *form != SpectrumForm::table) return {candidate_of(data, *form), {}, 0};
   Candidate corner = candidate_of(data, SpectrumForm::corner),
             smooth = candidate_of(data, SpectrumForm::smooth);
   // The tolerance about the cut-off must be one for both to be compared.
@@ -86,7 +101,7 @@ Forms forms_of(const std::vector<TwinData>& data, const std::optional<SpectrumFo
   Candidate& follower = &guide == &smooth ? corner : smooth;
   const double cutoff = 2 * pi * std::exp(-guide.fit.parameters[guide.model.law().cutoff()]);
   follower.model.set_tolerance(0.03, 0.5, cutoff);
-  follower.fit = detail::minimised(follower.model, follower.fit.parameters);
+  follower.fit = minimised(follower.model, follower.fit.parameters);
   const double ratio = 2 * (corner.fit.cost - smooth.fit.cost);
   if (ratio > 0) return {std::move(smooth), std::move(corner), ratio};
   return {std::move(corner), std::move(smooth), -ratio};
@@ -141,11 +156,11 @@ Ends ends_of(const Candidate& one) {
   const auto held = [&](Index parameter, double value) {
     Eigen::VectorXd start = one.fit.parameters;
     start[parameter] = value;
-    TwinFit best = detail::minimised(model, start, {parameter});
+    TwinFit best = minimised(model, start, {parameter});
     // Without a plateau a lower exponent may serve better.
     if (!law.table()) {
       start[TwinLaw::hurst] -= 0.1;
-      const TwinFit second = detail::minimised(model, start, {parameter});
+      const TwinFit second = minimised(model, start, {parameter});
       if (second.cost < best.cost) best = second;
     }
     return best;
@@ -158,7 +173,7 @@ Ends ends_of(const Candidate& one) {
                  top = std::log(2 * pi / model.finest_wavenumber()) + 1.5;
     std::vector<double> values;
     for (int k = 0; k < steps; ++k) values.push_back(top + (bottom - top) * k / (steps - 1));
-    ends.cutoffs = detail::profiled(model, law.cutoff(), values, ends.without_cutoff.parameters);
+    ends.cutoffs = profiled(model, law.cutoff(), values, ends.without_cutoff.parameters);
   }
   if (law.table()) return ends;
   const double top = model.highest()[TwinLaw::rolloff] - 1e-3;
@@ -169,16 +184,14 @@ Ends ends_of(const Candidate& one) {
         std::max(model.lowest()[TwinLaw::rolloff] + 1e-3, std::log(0.1 * model.largest_scan()));
     std::vector<double> values;
     for (int k = 0; k < steps; ++k) values.push_back(bottom + (top - bottom) * k / (steps - 1));
-    ends.rolloffs =
-        detail::profiled(model, TwinLaw::rolloff, values, ends.without_rolloff.parameters);
+    ends.rolloffs = profiled(model, TwinLaw::rolloff, values, ends.without_rolloff.parameters);
   }
   return ends;
 }
 
 TwinDraw spectrum_of(const TwinModel& model, const Eigen::VectorXd& parameters) {
-  return detail::draw_of(model.law(),
-                         {parameters.data(), static_cast<std::size_t>(model.law().size())},
-                         2 * pi / model.largest_scan());
+  return draw_of(model.law(), {parameters.data(), static_cast<std::size_t>(model.law().size())},
+                 2 * pi / model.largest_scan());
 }
 
 /// Value and standard deviation of a function of the spectrum, by the curvature at a fit.
@@ -210,9 +223,9 @@ double least_height(const Candidate& one, const TwinProfile& profile) {
   for (const TwinFit& fit : profile.fits) {
     const double rest = least + one_sided - fit.cost;
     if (rest < 0) continue;
-    const Spread height = spread_of(
-        one.model, fit.parameters,
-        detail::laplace_covariance(one.model, fit.parameters, {TwinLaw::rolloff}), log_height);
+    const Spread height =
+        spread_of(one.model, fit.parameters,
+                  laplace_covariance(one.model, fit.parameters, {TwinLaw::rolloff}), log_height);
     lowest = std::min(lowest, height.value - std::sqrt(2 * rest) * height.deviation);
   }
   return std::exp(lowest);
@@ -223,8 +236,7 @@ Eigen::MatrixXd ensemble(const Candidate& one, const Ends& ends, std::uint64_t s
   const TwinModel& model = one.model;
   const Index size = model.size(), walkers = std::max<Index>(128, 8 * size);
   const auto factor_of = [&](const Eigen::VectorXd& at, const std::vector<Index>& fixed) {
-    const detail::Modes modes =
-        detail::symmetric_modes(detail::laplace_covariance(model, at, fixed));
+    const detail::Modes modes = detail::symmetric_modes(laplace_covariance(model, at, fixed));
     Eigen::MatrixXd factor = modes.vectors;
     for (Index k = 0; k < size; ++k)
       factor.col(k) *= 0.8 * std::sqrt(std::max(0.0, modes.values[k]));
@@ -301,7 +313,7 @@ std::vector<TwinDraw> draws_of(const Candidate& one, const Ends& ends, Index cou
   std::vector<TwinDraw> draws;
   if (count == 0) return draws;
   const Eigen::MatrixXd points =
-      detail::sampled_posterior(one.model, ensemble(one, ends, seed), count, seed);
+      sampled_posterior(one.model, ensemble(one, ends, seed), count, seed);
   for (Index draw = 0; draw < count; ++draw)
     draws.push_back(spectrum_of(one.model, points.col(draw)));
   return draws;
@@ -313,7 +325,7 @@ TwinSpectrum band_of(const std::vector<TwinDraw>& draws, const TwinLaw& law, dou
   TwinSpectrum band;
   for (int k = 0; k < points; ++k)
     band.wavenumber.push_back(lowest * std::pow(highest / lowest, k / (points - 1.0)));
-  const detail::LawPoints places(law, band.wavenumber);
+  const LawPoints places(law, band.wavenumber);
   std::vector<std::vector<double>> values(points);
   for (const TwinDraw& draw : draws) {
     for (std::size_t k = 0; k < points; ++k) {
@@ -347,14 +359,14 @@ struct Curved {
 bool sees(const Candidate& one, Index parameter, double held_at) {
   Eigen::VectorXd held = one.fit.parameters;
   held[parameter] = held_at;
-  return 2 * (detail::minimised(one.model, held, {parameter}).cost - one.fit.cost) > seen_above;
+  return 2 * (minimised(one.model, held, {parameter}).cost - one.fit.cost) > seen_above;
 }
 
 /// Parameters of a fit of a self-affine law by its curvature: hurst, ln of the others.
 Curved curved(const Candidate& one) {
   const TwinModel& model = one.model;
   const Index cutoff = model.law().cutoff();
-  const Eigen::MatrixXd covariance = detail::laplace_covariance(model, one.fit.parameters, {});
+  const Eigen::MatrixXd covariance = laplace_covariance(model, one.fit.parameters, {});
   const auto spread = [&](const auto& function) {
     return spread_of(model, one.fit.parameters, covariance, function);
   };
@@ -385,7 +397,7 @@ std::vector<TwinWithout> fits_without(const Candidate& all) {
     TwinModel model(rest, all.model.law());
     Eigen::VectorXd start = Eigen::VectorXd::Zero(model.size());
     start.head(model.law().size()) = all.fit.parameters.head(model.law().size());
-    TwinFit fit = detail::refitted(model, start);
+    TwinFit fit = refitted(model, start);
     const Candidate one{std::move(model), std::move(fit)};
     const Curved part = curved(one);
     TwinWithout without;
@@ -419,22 +431,13 @@ std::vector<TwinWithout> fits_without(const Candidate& all) {
 
 std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
-}  // namespace
-
-const TwinDraw& SurfaceTwin::draw(std::uint64_t seed) const {
-  require_that(!draws.empty(), "draws", "are none");
-  const double part = uniform_pair(seed, 0, 0, 113).first;
-  return draws[std::min(draws.size() - 1,
-                        static_cast<std::size_t>(part * static_cast<double>(draws.size())))];
-}
-
-SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
+SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
   require_that(!scans.empty(), "scans", "are none; give one or more");
   require(options.draws >= 100, "draws", options.draws, "must be >= 100");
   std::vector<bool> left_out(scans.size(), false);
-  detail::Responses responses;
+  Responses responses;
   const auto data_of_all = [&] {
-    std::vector<TwinData> data = detail::grouped(scans, left_out, responses);
+    std::vector<TwinData> data = grouped(scans, left_out, responses);
     std::size_t bins = 0;
     for (const TwinData& group : data) bins += group.bins.size();
     require(bins >= 8, "scans", bins,
@@ -460,7 +463,7 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
           " is left out: its spectrum is far from that of the others");
     }
   }
-  if (options.leave_one_out && !forms.best.model.law().table()) {
+  if (options.leave_one_out) {
     twin.without = fits_without(forms.best);
     for (const TwinWithout& without : twin.without)
       if (!without.agrees)
@@ -468,12 +471,21 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
                              " the parameters move by more than chance explains: one of the "
                              "instruments is not what it is said to be");
   }
-  if (!options.form && forms.best.misfit() > refused_above) {
-    Candidate table = candidate_of(forms.best.model.data(), SpectrumForm::table);
-    twin.notes.push_back(
-        "the spectrum is no self-affine one, with a corner or a smooth roll-off: a table is "
-        "fitted");
-    forms = {std::move(table), {}, 0};
+  const double misfit = forms.best.misfit();
+  const bool asked = options.form == SpectrumForm::table;
+  if (asked || (!options.form && misfit > refused_above)) {
+    Candidate table = table_near(forms.best);
+    if (!asked) {
+      const bool better = table.misfit() < 0.8 * misfit;
+      twin.notes.push_back(std::string("the scans fit no self-affine spectrum, with a corner or a "
+                                       "smooth roll-off: ") +
+                           (better ? "a table is fitted"
+                                   : "nor do they fit any other, so that they contradict each "
+                                     "other, and intervals are too narrow"));
+      if (better) forms = {std::move(table), {}, 0};
+    } else {
+      forms = {std::move(table), {}, 0};
+    }
   }
   const Candidate& best = forms.best;
   const TwinModel& model = best.model;
@@ -486,12 +498,12 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
   twin.cutoff_ratio = ends.cutoff_ratio;
   for (std::size_t group = 0; group < model.data().size(); ++group) {
     const TwinData& data = model.data()[group];
-    const TwinModel::Misfit misfit = model.misfit(best.fit.parameters, group);
-    twin.chi_square += misfit.deviance;
+    const TwinModel::Misfit of_law = model.misfit(best.fit.parameters, group);
+    twin.chi_square += of_law.deviance;
     twin.groups.push_back({data.instrument, static_cast<Index>(data.scans.size()),
                            2 * pi / data.wavenumber.back(), 2 * pi / data.wavenumber.front(),
                            static_cast<Index>(data.bins.size()),
-                           model.gain(best.fit.parameters, group), misfit.ratio()});
+                           model.gain(best.fit.parameters, group), of_law.ratio()});
     if (data.tip_limit > 0)
       twin.notes.push_back(data.instrument + ": waves below " +
                            length_text(2 * pi / data.tip_limit) +
@@ -552,6 +564,20 @@ SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& 
                           std::max(model.finest_wavenumber(),
                                    ends.sees_cutoff() ? 2 * pi / end : model.finest_wavenumber()));
   return twin;
+}
+
+}  // namespace
+}  // namespace twin_detail
+
+const TwinDraw& SurfaceTwin::draw(std::uint64_t seed) const {
+  require_that(!draws.empty(), "draws", "are none");
+  const double part = uniform_pair(seed, 0, 0, 113).first;
+  return draws[std::min(draws.size() - 1,
+                        static_cast<std::size_t>(part * static_cast<double>(draws.size())))];
+}
+
+SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
+  return twin_detail::twin_of(scans, options);
 }
 
 }  // namespace salebra

@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Bins, in modes κ = qL/2π of a scan, that measured and expected periodograms share.
-namespace salebra::detail {
+namespace salebra::twin_detail {
 
 constexpr double hann_from = 12;       ///< lower limit of the bins that have a Hann window
 constexpr double response_below = 36;  ///< bins whose mean over the window's response is computed
@@ -34,4 +34,4 @@ struct ScanModes {
 std::vector<double> sine_taper(Index n, int k);
 std::vector<double> hann_taper(Index n);
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

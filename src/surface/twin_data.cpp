@@ -6,7 +6,7 @@
 
 #include "surface/twin_model.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 namespace {
 
 using std::numbers::pi;
@@ -193,4 +193,4 @@ std::vector<TwinData> grouped(const std::vector<ScanSpectrum>& scans,
   return data;
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 namespace {
 
 using std::numbers::pi;
@@ -44,17 +44,6 @@ std::vector<Eigen::VectorXd> starts(const TwinModel& model) {
   std::vector<double> cutoffs{model.lowest()[law.cutoff()] + 0.2};
   for (const double factor : {1.3, 3.0, 6.0, 12.0, 24.0})
     cutoffs.push_back(std::log(2 * pi / model.finest_wavenumber() * factor));
-  if (law.table()) {
-    for (const double cutoff : cutoffs) {
-      Eigen::VectorXd start = Eigen::VectorXd::Zero(model.size());
-      for (Index k = 0; k < law.size() - 1; ++k)
-        start[k] =
-            seen_level(model, law.reference * std::exp(law.knots[static_cast<std::size_t>(k)]));
-      start[law.cutoff()] = cutoff;
-      all.push_back(start);
-    }
-    return all;
-  }
   const double level = seen_level(model, law.reference);
   for (const double hurst : {0.5, 0.85})
     for (const double rolloff : {0.15, 0.6})
@@ -195,4 +184,4 @@ Eigen::MatrixXd laplace_covariance(const TwinModel& model, const Eigen::VectorXd
       Eigen::MatrixXd::Identity(model.size(), model.size()));
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

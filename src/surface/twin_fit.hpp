@@ -6,7 +6,7 @@
 
 #include "surface/twin_model.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 
 struct TwinFit {
   Eigen::VectorXd parameters;
@@ -18,7 +18,7 @@ struct TwinFit {
 TwinFit minimised(const TwinModel& model, Eigen::VectorXd start,
                   const std::vector<Index>& fixed = {});
 
-/// The best of several starts under a wide tolerance, then under that of the law with the zone of
+/// The best of several starts of a self-affine law under a wide tolerance, then under that of the law with the zone of
 /// the cut-off apart, which it leaves set.
 TwinFit fitted(TwinModel& model);
 
@@ -51,4 +51,4 @@ Eigen::MatrixXd laplace_covariance(const TwinModel& model, const Eigen::VectorXd
 Eigen::MatrixXd sampled_posterior(const TwinModel& model, const Eigen::MatrixXd& start, Index draws,
                                   std::uint64_t seed);
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

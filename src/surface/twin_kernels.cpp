@@ -4,7 +4,10 @@
 
 #include "base/elementary.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
+
+using detail::exponential;
+using detail::natural_log;
 
 SALEBRA_VECTOR_WIDTHS
 void add_products(std::span<const double> values, const double* table, std::span<double> sums) {
@@ -40,4 +43,4 @@ void logarithms(std::span<double> values) {
   for (std::size_t k = 0; k < values.size(); ++k) at[k] = natural_log(at[k]);
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -5,7 +5,7 @@
 #include <span>
 
 /// Innermost loops of the surface twin, for every vector width with the same bits.
-namespace salebra::detail {
+namespace salebra::twin_detail {
 
 /// sums[c] += Σ_j values[j]·table[j·sums.size() + c].
 void add_products(std::span<const double> values, const double* table, std::span<double> sums);
@@ -20,4 +20,4 @@ void exponentials(std::span<double> values);
 /// values[k] = ln values[k], of normal numbers > 0.
 void logarithms(std::span<double> values);
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -13,7 +13,7 @@
 #include "surface/twin_kernels.hpp"
 
 namespace salebra {
-namespace detail {
+namespace twin_detail {
 namespace {
 
 using std::numbers::pi;
@@ -36,7 +36,7 @@ Eigen::MatrixXd spline_curvatures(const std::vector<double>& knots) {
     right(k, k) = -1 / step(k - 1) - 1 / step(k);
     right(k, k + 1) = 1 / step(k);
   }
-  return pseudo_inverse(left) * right;
+  return detail::pseudo_inverse(left) * right;
 }
 
 /// Row of the spline's basis at x, straight beyond the first and the last knot.
@@ -174,7 +174,7 @@ TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double 
   return draw;
 }
 
-}  // namespace detail
+}  // namespace twin_detail
 
 double TwinDraw::density(double q) const {
   if (q > 2 * std::numbers::pi / short_cutoff * (1 + 1e-12)) return 0;
@@ -184,7 +184,8 @@ double TwinDraw::density(double q) const {
     const Eigen::Map<const Eigen::VectorXd> heights(log_psd.data(),
                                                     static_cast<Index>(log_psd.size()));
     return std::exp(
-        detail::spline_row(places, detail::spline_curvatures(places), std::log(q)).dot(heights));
+        twin_detail::spline_row(places, twin_detail::spline_curvatures(places), std::log(q))
+            .dot(heights));
   }
   const double corner = 2 * std::numbers::pi / rolloff;
   return form == SpectrumForm::corner

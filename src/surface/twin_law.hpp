@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 
 /// ln C as a function of its parameters: (ln A, H, ln λ_r, ln λ_s), A being C of the power law at
 /// the reference, or ln C at the knots of a spline, and ln λ_s. C ends at λ_s; that is for the
@@ -45,4 +45,4 @@ void log_density_slopes(const TwinLaw& law, std::span<const double> parameters,
 /// The spectrum with its moments; those of a table from the wave number `lowest` on.
 TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double lowest);
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -10,7 +10,7 @@
 
 #include "surface/twin_kernels.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 namespace {
 
 using std::numbers::pi;
@@ -311,4 +311,4 @@ double TwinModel::gain(const Eigen::VectorXd& parameters, std::size_t group) con
   return std::exp(parameters[gain_at(group)]);
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -10,7 +10,7 @@
 #include "surface/twin_law.hpp"
 #include "surface/twin_response.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 
 /// Scans of one instrument, size and grid, in the bins that are used.
 struct TwinData {
@@ -117,4 +117,4 @@ class TwinModel {
   double largest_ = 0, finest_ = 0;
 };
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

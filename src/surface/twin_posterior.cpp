@@ -7,12 +7,14 @@
 #include "base/random.hpp"
 #include "surface/twin_fit.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 namespace {
 
-constexpr int settling = 80;      ///< steps before the first draw
-constexpr int least_steps = 120;  ///< after it
-constexpr double freedom = 6;     ///< degrees of the proposals' t distribution
+constexpr int settling = 80;     ///< steps before the first draw
+constexpr int least_steps = 30;  ///< after it
+constexpr double apart =
+    15;  ///< states of walkers for a draw that is kept, so that draws are as good as independent
+constexpr double freedom = 6;  ///< degrees of the proposals' t distribution
 enum Stream : std::uint32_t { choice = 101, chance, normals };
 
 /// Student t about the mean of half an ensemble.
@@ -71,7 +73,9 @@ Eigen::MatrixXd sampled_posterior(const TwinModel& model, const Eigen::MatrixXd&
     });
 
   const int steps =
-      settling + std::max<int>(least_steps, static_cast<int>((draws + walkers - 1) / walkers));
+      settling +
+      std::max(least_steps, static_cast<int>(std::ceil(static_cast<double>(draws) * apart /
+                                                       static_cast<double>(walkers))));
   Eigen::MatrixXd kept(size, (steps - settling) * walkers);
   for (int step = 0; step < steps; ++step) {
     for (const Index first : {Index{0}, half}) {
@@ -113,4 +117,4 @@ Eigen::MatrixXd sampled_posterior(const TwinModel& model, const Eigen::MatrixXd&
   return chosen;
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -10,7 +10,7 @@
 
 #include "surface/twin_kernels.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 namespace {
 
 using std::numbers::pi;
@@ -355,4 +355,4 @@ Response response_of(const Grid2D& grid, bool drifts) {
   return response;
 }
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -5,7 +5,7 @@
 
 #include "surface/twin_bins.hpp"
 
-namespace salebra::detail {
+namespace salebra::twin_detail {
 
 /// What a scan's binned periodogram is expected to be, E_b = Σ_j C(q_j) weight_jb, as a matrix
 /// over cells of the spectrum in |κ|. The cells have limits in the ratio 1.15^⅓ (those of the bins
@@ -32,4 +32,4 @@ struct Response {
 /// Cost: 0.1 s for a map, less for a profile.
 Response response_of(const Grid2D& grid, bool drifts);
 
-}  // namespace salebra::detail
+}  // namespace salebra::twin_detail

@@ -18,7 +18,7 @@ constexpr double micro = 1e-6;
 
 /// Mean periodogram of plane waves of one wave number and all directions and phases, amplitude 1 µm.
 std::vector<double> of_plane_waves(const Grid2D& grid, double kappa, bool drift) {
-  const detail::ScanModes modes(grid);
+  const twin_detail::ScanModes modes(grid);
   const double q = modes.wavenumber(kappa);
   ScanInstrument instrument;
   instrument.line_drift = drift;
@@ -61,8 +61,8 @@ TEST_CASE("The response to a plane wave is the mean periodogram of such waves", 
                                     std::pair{Grid2D{256, 128, 2e-4, 1e-4}, false},
                                     std::pair{Grid2D{128, 256, 1e-4, 1e-4}, false},
                                     std::pair{Grid2D{256, 1, 1e-4, 1e-4}, false}}) {
-    const detail::Response response = detail::response_of(grid, drift);
-    const detail::ScanModes modes(grid);
+    const twin_detail::Response response = twin_detail::response_of(grid, drift);
+    const twin_detail::ScanModes modes(grid);
     for (const double about : {0.2, 0.7, 1.6, 4.2}) {
       std::size_t cell = 0;
       while (response.limits[cell + 1] < about) ++cell;

@@ -87,6 +87,16 @@ std::vector<ScanSpectrum> two_instruments(RoughPatches& patches, const TwinDraw&
   return scans;
 }
 
+/// A quick fit: fewer draws, no checks. One thread: that more change no bit is a test of its own.
+SurfaceTwin quick_twin(const std::vector<ScanSpectrum>& scans, TwinOptions options = {}) {
+  const int before = parallel::threads();
+  parallel::set_threads(1);
+  options.draws = 300;
+  SurfaceTwin twin = fit_twin(scans, options);
+  parallel::set_threads(before);
+  return twin;
+}
+
 bool holds(const IntervalEstimate& interval, double truth) {
   return interval.low <= truth && truth <= interval.high;
 }
@@ -97,9 +107,9 @@ TEST_CASE("Moments of a draw are those of its density", "[twin]") {
   for (const SpectrumForm form : {SpectrumForm::corner, SpectrumForm::smooth})
     for (const double hurst : {0.02, 0.5, 1.0, 1.2}) {
       const TwinDraw truth = law(form, hurst, 4e-5, 5e-7);
-      const detail::TwinLaw own{form, truth.reference, {}};
+      const twin_detail::TwinLaw own{form, truth.reference, {}};
       const std::vector<double> parameters{truth.amplitude, hurst, std::log(4e-5), std::log(5e-7)};
-      const TwinDraw draw = detail::draw_of(own, parameters, 1e5);
+      const TwinDraw draw = twin_detail::draw_of(own, parameters, 1e5);
       const Moments moments = integrated(truth);
       INFO(word_of(form) << ", H = " << hurst);
       // The corner between two points costs Simpson's rule 1e-6.
@@ -109,7 +119,7 @@ TEST_CASE("Moments of a draw are those of its density", "[twin]") {
       CHECK(draw.density(2e7) == 0);
     }
   // A spline through a power law is that law, between its knots and beyond.
-  detail::TwinLaw table{SpectrumForm::table, 1e6, {}};
+  twin_detail::TwinLaw table{SpectrumForm::table, 1e6, {}};
   std::vector<double> parameters;
   const TwinDraw power = law(SpectrumForm::corner, 0.7, 1, 5e-7);
   for (int k = 0; k < 7; ++k) {
@@ -117,7 +127,7 @@ TEST_CASE("Moments of a draw are those of its density", "[twin]") {
     parameters.push_back(std::log(power.density(1e6 * std::exp(table.knots.back()))));
   }
   parameters.push_back(std::log(5e-7));
-  const TwinDraw draw = detail::draw_of(table, parameters, 1e5);
+  const TwinDraw draw = twin_detail::draw_of(table, parameters, 1e5);
   for (const double q : {1e5, 4e5, 3e6, 1.2e7})
     CHECK(draw.density(q) == Approx(power.density(q)).epsilon(1e-9));
   // ∫2πq³C dq in closed form.
@@ -148,15 +158,15 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
   RoughPatches patches(21);
   const TwinDraw truth = law(SpectrumForm::corner, 0.7, 3e-5, 6e-7);
   const std::vector<ScanSpectrum> scans = two_instruments(patches, truth);
-  detail::Responses responses;
-  const std::vector<detail::TwinData> data =
-      detail::grouped(scans, std::vector<bool>(scans.size(), false), responses);
+  twin_detail::Responses responses;
+  const std::vector<twin_detail::TwinData> data =
+      twin_detail::grouped(scans, std::vector<bool>(scans.size(), false), responses);
   for (const SpectrumForm form :
        {SpectrumForm::corner, SpectrumForm::smooth, SpectrumForm::table}) {
-    detail::TwinLaw own{form, 1e6, {}};
+    twin_detail::TwinLaw own{form, 1e6, {}};
     Eigen::VectorXd at;
     if (form == SpectrumForm::table) own.knots = {-3, -2, -1, 0, 1, 2, 3};
-    const detail::TwinModel model(data, own);
+    const twin_detail::TwinModel model(data, own);
     at = Eigen::VectorXd::Zero(model.size());
     if (form == SpectrumForm::table) {
       const TwinDraw endless = law(SpectrumForm::corner, 0.7, 3e-5, 1e-8);
@@ -169,7 +179,7 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
     at[own.cutoff()] = std::log(5.83e-7);
     for (Index p = own.size(); p < model.size(); ++p)
       at[p] = 0.1 * std::cos(static_cast<double>(p));
-    detail::TwinModel::Work work;
+    twin_detail::TwinModel::Work work;
     Eigen::VectorXd values, up, down;
     Eigen::MatrixXd slopes;
     model.residuals(at, work, values, &slopes);
@@ -198,7 +208,7 @@ TEST_CASE("The twin of two instruments holds the truth", "[twin]") {
     const double hurst = 0.4 + 0.2 * seed;
     const TwinDraw truth =
         law(seed == 2 ? SpectrumForm::smooth : SpectrumForm::corner, hurst, 2.5e-5, 6e-7);
-    const SurfaceTwin twin = fit_twin(two_instruments(patches, truth));
+    const SurfaceTwin twin = quick_twin(two_instruments(patches, truth));
     const Moments moments = integrated(truth);
     INFO("seed " << seed << ": H " << twin.hurst.low << " " << twin.hurst.high << ", roll-off "
                  << twin.rolloff.low << " " << twin.rolloff.high << ", cut-off "
@@ -220,7 +230,7 @@ TEST_CASE("The twin of two instruments holds the truth", "[twin]") {
     CHECK(twin.rms_slope.high / twin.rms_slope.low < 1.3);
     // The calibration of 5 % of two instruments is in it.
     CHECK(twin.rms_slope.high / twin.rms_slope.low > 1.08);
-    CHECK(twin.draws.size() == 1000);
+    CHECK(twin.draws.size() == 300);
     CHECK(twin.draw(7).hurst == twin.draw(7).hurst);
     // The band holds the truth nearly everywhere, below the cut-off's interval.
     int inside = 0, asked = 0;
@@ -244,7 +254,7 @@ TEST_CASE("What no scan sees is said and gets a limit", "[twin]") {
   for (int scan = 0; scan < 3; ++scan)
     scans.push_back(
         scan_of(patches, truth, 160, 100e-6, instrument(Instrument::optical, 1e-9, 2e-6)));
-  const SurfaceTwin twin = fit_twin(scans);
+  const SurfaceTwin twin = quick_twin(scans);
   CHECK(!twin.rolloff.seen);
   CHECK(!twin.rolloff.found());
   CHECK(twin.rolloff.low < truth.rolloff);
@@ -275,8 +285,8 @@ TEST_CASE("A tip is believed up to R κ_rms of 0.08", "[twin]") {
   truth.amplitude = std::log(2e-29);
   std::vector<ScanSpectrum> scans{
       scan_of(patches, truth, 160, 20e-6, instrument(Instrument::afm, 1e-10, 1e-6))};
-  detail::Responses responses;
-  const auto data = detail::grouped(scans, {false}, responses);
+  twin_detail::Responses responses;
+  const auto data = twin_detail::grouped(scans, {false}, responses);
   REQUIRE(data.size() == 1);
   REQUIRE(data[0].tip_limit > 0);
   CHECK(data[0].wavenumber.back() < data[0].tip_limit);
@@ -288,9 +298,9 @@ TEST_CASE("A tip is believed up to R κ_rms of 0.08", "[twin]") {
   CHECK(1e-6 * std::sqrt(square) == Approx(0.08).epsilon(0.3));
   // A tip ten times finer goes on.
   scans.front().instrument.tip_radius = 1e-7;
-  const auto finer = detail::grouped(scans, {false}, responses);
+  const auto finer = twin_detail::grouped(scans, {false}, responses);
   CHECK(finer[0].wavenumber.back() > 2 * data[0].wavenumber.back());
-  const SurfaceTwin twin = fit_twin(scans);
+  const SurfaceTwin twin = quick_twin(scans);
   CHECK(twin.groups.size() == 1);
 }
 
@@ -304,7 +314,7 @@ TEST_CASE("Heights are as uncertain as their calibration", "[twin]") {
   std::vector<double> widths;
   for (const double calibration : {0.01, 0.1}) {
     for (ScanSpectrum& scan : scans) scan.instrument.height_calibration = calibration;
-    widths.push_back(width(fit_twin(scans, {.leave_one_out = false})));
+    widths.push_back(width(quick_twin(scans, {.leave_one_out = false})));
   }
   // 3.92 of 10 %/√2, two instruments being one mean where both say the same, to 10 %, one deciding
   // on the slope alone. Without it, modes and scans alone.
@@ -317,7 +327,7 @@ TEST_CASE("A bad scan is left out, and a bad instrument is named", "[twin]") {
   RoughPatches patches(51);
   const TwinDraw truth = law(SpectrumForm::corner, 0.7, 2.5e-5, 6e-7);
   std::vector<ScanSpectrum> scans = two_instruments(patches, truth);
-  const SurfaceTwin good = fit_twin(scans);
+  const SurfaceTwin good = quick_twin(scans);
   for (const TwinScan& scan : good.scans) CHECK(!scan.left_out);
   for (const TwinWithout& without : good.without) CHECK(without.agrees);
 
@@ -325,20 +335,20 @@ TEST_CASE("A bad scan is left out, and a bad instrument is named", "[twin]") {
   std::vector<ScanSpectrum> spoiled = scans;
   spoiled[3].name = "C3";
   for (double& power : spoiled[3].psd) power += 1e-32;
-  const SurfaceTwin twin = fit_twin(spoiled);
+  const SurfaceTwin twin = quick_twin(spoiled);
   CHECK(twin.scans[3].left_out);
   CHECK(twin.scans[3].misfit > 3 * twin.scans[2].misfit);
   CHECK(std::count_if(twin.scans.begin(), twin.scans.end(),
                       [](const TwinScan& scan) { return scan.left_out; }) == 1);
   CHECK_THAT(twin.notes.front(), Contains("scan C3 is left out"));
   CHECK(twin.hurst.value == Approx(good.hurst.value).margin(0.03));
-  CHECK(!fit_twin(spoiled, {.drop_bad_scans = false, .leave_one_out = false}).scans[3].left_out);
+  CHECK(!quick_twin(spoiled, {.drop_bad_scans = false, .leave_one_out = false}).scans[3].left_out);
 
   // Heights of the microscope twice what they are: beyond any calibration of 5 %. Where the two
   // meet, one of them must be wrong.
   for (std::size_t scan = 2; scan < 5; ++scan)
     for (double& power : scans[scan].psd) power *= 4;
-  const SurfaceTwin wrong = fit_twin(scans);
+  const SurfaceTwin wrong = quick_twin(scans);
   CHECK(std::any_of(wrong.without.begin(), wrong.without.end(),
                     [](const TwinWithout& without) { return !without.agrees; }));
 }
@@ -351,7 +361,7 @@ TEST_CASE("The twin has the same bits for every number of threads and the same s
   std::vector<SurfaceTwin> twins;
   for (const int threads : {1, 3}) {
     parallel::set_threads(threads);
-    twins.push_back(fit_twin(scans, {.draws = 200, .leave_one_out = false}));
+    twins.push_back(fit_twin(scans, {.draws = 100, .leave_one_out = false}));
   }
   parallel::set_threads(before);
   REQUIRE(twins[0].draws.size() == twins[1].draws.size());
@@ -360,7 +370,7 @@ TEST_CASE("The twin has the same bits for every number of threads and the same s
     CHECK(twins[0].draws[k].rms_slope == twins[1].draws[k].rms_slope);
   }
   CHECK(twins[0].draw(3).rolloff == twins[1].draw(3).rolloff);
-  const SurfaceTwin other = fit_twin(scans, {.seed = 2, .draws = 200, .leave_one_out = false});
+  const SurfaceTwin other = fit_twin(scans, {.seed = 2, .draws = 100, .leave_one_out = false});
   CHECK(other.draws[0].hurst != twins[0].draws[0].hurst);
 }
 
@@ -380,7 +390,7 @@ TEST_CASE("A spectrum that is not self-affine becomes a table", "[twin]") {
     ideal.noise = 1e-10;
     scans.push_back(scan_spectrum(heights, {192, 192, 60e-6, 60e-6}, ideal));
   }
-  const SurfaceTwin twin = fit_twin(scans);
+  const SurfaceTwin twin = quick_twin(scans);
   CHECK(twin.form == SpectrumForm::table);
   CHECK(!twin.hurst.found());
   int inside = 0, asked = 0;
@@ -411,7 +421,7 @@ TEST_CASE("Profiles of a surface give the spectrum of the surface", "[twin]") {
       lines.push_back(profile_spectrum(line, 100e-6, ideal));
     }
   }
-  const SurfaceTwin twin = fit_twin(lines);
+  const SurfaceTwin twin = quick_twin(lines);
   const Moments moments = integrated(truth);
   INFO("H " << twin.hurst.low << " " << twin.hurst.high << ", roll-off " << twin.rolloff.low << " "
             << twin.rolloff.high << ", cut-off " << twin.short_cutoff.low << " "
