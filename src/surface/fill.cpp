@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Undefined points filled by the discrete Laplace equation.
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <salebra/base/error.hpp>
@@ -10,6 +11,34 @@
 #include "shape.hpp"
 
 namespace salebra {
+
+Holes holes_of(const Surface& surface) {
+  detail::require_shape(surface);
+  const Grid2D& grid = surface.grid;
+  Holes holes;
+  // Side of the largest square that ends at each point of a row: one more than the least of its
+  // three neighbours before.
+  std::vector<Index> sides(static_cast<std::size_t>(grid.ny) + 1, 0);
+  Index widest = 0;
+  for (Index ix = 0; ix < grid.nx; ++ix) {
+    Index diagonal = 0;
+    for (Index iy = 0; iy < grid.ny; ++iy) {
+      Index& before = sides[static_cast<std::size_t>(iy)];
+      Index& side = sides[static_cast<std::size_t>(iy) + 1];
+      const Index above = side;
+      const bool hole = std::isnan(surface.heights(ix, iy));
+      side = hole ? 1 + std::min({before, above, diagonal}) : 0;
+      diagonal = above;
+      holes.points += hole;
+      widest = std::max(widest, side);
+    }
+  }
+  const auto points = static_cast<double>(widest);
+  holes.fraction = static_cast<double>(holes.points) / static_cast<double>(grid.points());
+  holes.width = points * std::max(grid.dx(), grid.dy());
+  holes.widest_share = points / static_cast<double>(std::min(grid.nx, grid.ny));
+  return holes;
+}
 
 Surface filled(Surface surface) {
   detail::require_shape(surface);

@@ -30,10 +30,10 @@ Eigen::ArrayXd profile_weights(Window window, Index points) {
   if (window == Window::none) return Eigen::ArrayXd::Ones(points);
   const auto place = Eigen::ArrayXd::LinSpaced(points, 0.5, static_cast<double>(points) - 0.5);
   const Eigen::ArrayXd turn = 2 * pi / static_cast<double>(points) * place;
-  const Eigen::ArrayXd weights =
-      window == Window::blackman ? (0.42 - 0.5 * turn.cos() + 0.08 * (2 * turn).cos()).eval()
-      : window == Window::welch  ? (1 - (turn / pi - 1).square()).eval()
-                                 : (0.5 * (1 - turn.cos())).eval();
+  const Eigen::ArrayXd weights = window == Window::blackman
+                                     ? (0.42 - 0.5 * turn.cos() + 0.08 * (2 * turn).cos()).eval()
+                                 : window == Window::welch ? (1 - (turn / pi - 1).square()).eval()
+                                                           : (0.5 * (1 - turn.cos())).eval();
   return weights / std::sqrt(weights.square().mean());
 }
 

@@ -5,6 +5,21 @@
 
 namespace salebra {
 
+/// The undefined points of a surface.
+struct Holes {
+  Index points = 0;
+  double fraction = 0;      ///< of all points
+  double width = 0;         ///< m, side of the largest square in which no point is defined
+  double widest_share = 0;  ///< of that side in the surface, along the axis where it is larger
+
+  /// At most a twentieth of the points, and no hole wider than a tenth of the surface: then what
+  /// filled() makes of them hardly changes how the surface carries load.
+  bool few() const { return fraction <= 0.05 && widest_share <= 0.1; }
+};
+
+/// Cost: one pass.
+Holes holes_of(const Surface& surface);
+
 /// The surface with its undefined points filled by the smoothest heights that fit: the discrete
 /// Laplace equation
 ///     Σ (h_neighbour − h)/dx² + Σ (h_neighbour − h)/dy² = 0,

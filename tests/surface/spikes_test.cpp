@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/surface/moments.hpp>
+#include <salebra/surface/spikes.hpp>
+#include <set>
+
+#include "test_surfaces.hpp"
+
+using namespace salebra;
+
+namespace {
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+const Grid2D grid{256, 192, 256e-6, 192e-6};
+
+/// A self-affine surface of rms height 0.3 µm.
+Surface rough(double hurst, std::uint64_t seed = 1) {
+  SelfAffineParameters parameters;
+  parameters.hurst = hurst;
+  parameters.rolloff = 64e-6;
+  parameters.short_cutoff = 4e-6;
+  parameters.rms_height = 0.3e-6;
+  Surface surface = filtered_noise(grid, SelfAffineSpectrum(parameters), seed);
+  surface.periodic = false;
+  return surface;
+}
+
+std::set<std::pair<Index, Index>> places(const std::vector<Spike>& spikes) {
+  std::set<std::pair<Index, Index>> found;
+  for (const Spike& spike : spikes) found.emplace(spike.ix, spike.iy);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("Spikes are found where they are, whatever the surface below", "[spikes]") {
+  const double hurst = GENERATE(0.3, 0.8);
+  INFO("H = " << hurst);
+  const Surface clean = rough(hurst);
+  Surface dirty = clean;
+  std::mt19937 engine(3);
+  std::set<std::pair<Index, Index>> expected;
+  // Single points, pairs and squares of four, 8 µm up or down, apart from each other; corners too.
+  for (Index ix = 0; ix < grid.nx; ix += 51)
+    for (Index iy = 0; iy < grid.ny; iy += 38) {
+      const auto kind = engine() % 3;
+      const double height = engine() % 2 ? 8e-6 : -8e-6;
+      for (Index jx = ix; jx <= ix + (kind > 1) && jx < grid.nx; ++jx)
+        for (Index jy = iy; jy <= iy + (kind > 0) && jy < grid.ny; ++jy) {
+          dirty.heights(jx, jy) += height;
+          expected.emplace(jx, jy);
+        }
+    }
+  REQUIRE(expected.size() > 50);
+  const std::vector<Spike> found = find_spikes(dirty);
+  CHECK(places(found) == expected);
+  for (const Spike& spike : found) {
+    // The surface beside a spike differs from it by less than its own height of 1.5 µm.
+    CHECK(std::abs(std::abs(spike.height) - 8e-6) < 1.5e-6);
+    CHECK((spike.height > 0) ==
+          (dirty.heights(spike.ix, spike.iy) > clean.heights(spike.ix, spike.iy)));
+  }
+  const Surface cleaned = despiked(dirty);
+  CHECK(cleaned.undefined_points() == Index(expected.size()));
+  // They make more than half of the slope; less 0.2 % of its points, the surface has its own.
+  CHECK(difference_moments(dirty).rms_slope() > 2 * difference_moments(clean).rms_slope());
+  CHECK(difference_moments(cleaned).rms_slope() ==
+        Approx(difference_moments(clean).rms_slope()).epsilon(0.01));
+}
+
+TEST_CASE("A clean surface has no spikes", "[spikes]") {
+  // 2e-9 of Gaussian points by six deviations: none among 2.5 million.
+  for (const double hurst : {0.1, 0.3, 0.5, 0.8, 1.0})
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      INFO("H = " << hurst << ", seed " << seed);
+      CHECK(find_spikes(rough(hurst, seed)).empty());
+    }
+  // Uniform and independent points, and those of an instrument with noise of a few digits.
+  CHECK(find_spikes(white(grid, true)).empty());
+  Surface coarse = white(grid, false);
+  coarse.heights = (0.6 * coarse.heights).round();  // −1, 0 or 1, of which most are 0
+  CHECK(find_spikes(coarse).empty());
+  CHECK(find_spikes(sampled(grid, false, [](double x, double y) { return 3 * x - y; })).empty());
+}
+
+TEST_CASE("Steps, scratches and plateaus are features, no spikes", "[spikes]") {
+  const Surface clean = rough(0.8);
+  const auto with = [&](const std::function<void(Field&)>& change) {
+    Surface surface = clean;
+    change(surface.heights);
+    return find_spikes(surface);
+  };
+  CHECK(with([](Field& h) { h.bottomRows(100) += 5e-6; }).empty());
+  CHECK(with([](Field& h) { h.block(40, 50, 30, 20) += 5e-6; }).empty());
+  CHECK(with([](Field& h) { h.block(40, 50, 3, 2) += 5e-6; }).empty());  // with four corners
+  CHECK(with([](Field& h) { h.row(77) -= 5e-6; }).empty());
+  CHECK(with([](Field& h) { h.block(77, 30, 1, 90) -= 5e-6; }).empty());
+  CHECK(with([](Field& h) {
+          for (Index k = 20; k < 120; ++k) h(k, k) -= 5e-6;
+        }).empty());
+}
+
+TEST_CASE("Spikes beside holes and on a flat surface are found", "[spikes]") {
+  Surface surface = rough(0.8);
+  surface.heights.block(100, 80, 12, 9).setConstant(undefined);
+  surface.heights(99, 84) += 8e-6;
+  CHECK(places(find_spikes(surface)) == std::set<std::pair<Index, Index>>{{99, 84}});
+  // Of a point with less than three neighbours nothing is known.
+  surface.heights(105, 84) = 8e-6;
+  CHECK(find_spikes(surface).size() == 1);
+
+  Surface flat = sampled(grid, false, [](double, double) { return 1e-6; });
+  CHECK(find_spikes(flat).empty());
+  flat.heights(7, 9) = 2e-6;
+  CHECK(places(find_spikes(flat)) == std::set<std::pair<Index, Index>>{{7, 9}});
+  // Across the edge of a periodic surface there are neighbours too.
+  Surface edge = sampled(grid, true, [](double, double) { return 0; });
+  edge.heights.row(0).setConstant(1e-6);
+  edge.heights(grid.nx - 1, 3) = 1e-6;
+  CHECK(find_spikes(edge).empty());
+  edge.periodic = false;
+  CHECK(places(find_spikes(edge)) == std::set<std::pair<Index, Index>>{{grid.nx - 1, 3}});
+}
+
+TEST_CASE("Spikes do not depend on the number of threads, and bad thresholds are refused",
+          "[spikes]") {
+  Surface surface = rough(0.5);
+  for (Index k = 5; k < 190; k += 7) surface.heights(k, k) += 4e-6;
+  const auto found = places(find_spikes(surface));
+  CHECK(found.size() == 27);
+  parallel::set_threads(1);
+  CHECK(places(find_spikes(surface)) == found);
+  parallel::set_threads(0);
+  CHECK_THROWS_AS(find_spikes(surface, 2.9), InvalidInput);
+  CHECK_THROWS_AS(find_spikes(surface, undefined), InvalidInput);
+}
