@@ -62,6 +62,8 @@ macro(salebra_find library)
     salebra_need(HDF5_FOUND "HDF5 1.10 or later for C, with its high-level library")
     # libzip's own CMake package asks for its programs, which Debian packs apart.
     salebra_need_module(LIBZIP libzip "libzip")
+    find_package(ZLIB QUIET)
+    salebra_need(ZLIB_FOUND "zlib")
     find_package(pugixml QUIET)
     salebra_need(pugixml_FOUND "pugixml")
     find_package(nlohmann_json QUIET)

@@ -27,6 +27,7 @@ class Salebra(CMakePackage):
     depends_on("gsl@2.7:")
     depends_on("hdf5@1.10:+hl~mpi")
     depends_on("libzip")
+    depends_on("zlib-api")
     depends_on("pugixml")
     depends_on("random123", type="build")
     depends_on("tomlplusplus")

@@ -2,6 +2,7 @@
 // Reader of a surface from an HDF5 file.
 #include "hdf5_document.hpp"
 #include "loaded_surface.hpp"
+#include "surface_importer.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -17,14 +18,36 @@ std::string heights_name(const Document& document) {
     if (kind == Object::Kind::group || kind == Object::Kind::refused) continue;
     if (document.dataset(name).shape.size() != 2) continue;
     if (!found.empty())
-      refuse(document.path(),
-             "has several two-dimensional datasets at its root and none "
-             "of them is named heights; name it so");
+      refuse_unknown(document.path(),
+                     "has several two-dimensional datasets at its root and none "
+                     "of them is named heights; name it so");
     found = name;
   }
   if (!found.empty()) return found;
   if (!refused.empty()) return refused;
-  refuse(document.path(), "has no dataset heights (nx, ny) at its root; store the surface there");
+  refuse_unknown(document.path(),
+                 "has no dataset heights (nx, ny) at its root; store the surface there");
+}
+
+/// One-dimensional heights, with their positions `x` or an attribute size_x.
+LoadedSurface read_profile(const Document& document, const std::string& name) {
+  const auto column = [&](const std::string& of) {
+    std::vector<double> values(document.numeric(of).count());
+    document.numbers(of, values);
+    return values;
+  };
+  const std::vector<double> heights = column(name);
+  const Object& root = document.group("/");
+  LoadedSurface profile;
+  if (document.find("x")) {
+    profile = profile_of(document.path(), column("x"), heights);
+  } else {
+    profile.is_profile = true;
+    profile.heights = Eigen::Map<const Eigen::ArrayXd>(heights.data(), Index(heights.size()));
+    profile.size_x = root.number("size_x");
+  }
+  profile.unit = root.text("units").value_or("");
+  return profile;
 }
 
 }  // namespace
@@ -34,6 +57,7 @@ LoadedSurface read_hdf5(const std::filesystem::path& file, const Communicator& r
   const std::string name = heights_name(document);
   const Object& heights = document.dataset(name);
   const Object& root = document.group("/");
+  if (heights.shape.size() == 1 && ranks.alone()) return read_profile(document, name);
   if (heights.shape.size() != 2 || heights.shape[0] == 0 || heights.shape[1] == 0)
     refuse(document.path(),
            "has heights that are not two-dimensional with nx, ny >= 1; store heights (nx, ny)");

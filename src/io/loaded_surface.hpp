@@ -23,6 +23,8 @@ struct LoadedSurface {
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;
   std::string unit;                       ///< of the heights; empty where the file names none
+  bool lateral_unit_open = false;         ///< the sizes are in a unit that the file does not name
+  bool is_profile = false;                ///< one row
   std::vector<std::string> remarks = {};  ///< on what it says and the reader did not use
 };
 
@@ -33,7 +35,8 @@ struct LoadedSurface {
 /// the memory that is free.
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny);
 
-/// The whole of a regular file. Throws InvalidInput if there is no such file or it cannot be read.
+/// The whole of a regular file, by plain_content(). Throws InvalidInput if there is no such file or
+/// it cannot be read.
 std::string file_content(const std::filesystem::path& file);
 
 /// Whether the file begins as HDF5 does.
@@ -44,6 +47,11 @@ std::optional<double> metres_in(const std::string& unit);
 /// The same, where it must be one; throws InvalidInput naming the file.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
+/// Points at these positions, which increase, as a profile of equal steps: heights between are
+/// interpolated where they are off by more than a tenth of a step. size_x is in the unit of x.
+LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<double>& positions,
+                         const std::vector<double>& heights);
+
 /// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar
 /// may lie.
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content);
@@ -53,6 +61,7 @@ struct ReadSurface {
   Surface surface = {};        ///< m
   double metres_per_unit = 1;  ///< of the heights in the file
   bool names_unit = false;     ///< the file does
+  bool names_lateral_unit = true;
 };
 
 /// The surface in metres, with what the options say in place of the file. Throws InvalidInput as

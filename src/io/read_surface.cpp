@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reading of a surface: format by content, then size, unit and period from options or file.
+#include <fmt/format.h>
+#include <stdlib.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/io/read_surface.hpp>
+#include <salebra/surface/crop.hpp>
+#include <salebra/surface/fill.hpp>
+#include <salebra/surface/spikes.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -13,16 +21,50 @@
 #include "input.hpp"
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
+#include "plain_content.hpp"
 #include "surface/plausibility.hpp"
 #include "surface_format.hpp"
+#include "surface_importer.hpp"
 
 namespace salebra {
 namespace {
 
-detail::LoadedSurface load(const std::filesystem::path& file) {
-  // HDF5 is read through its own library, which need not hold the whole file.
-  if (detail::is_hdf5(file)) return detail::read_hdf5(file);
-  return detail::read_content(file, detail::file_content(file));
+SurfaceImporter surface_importer = nullptr;
+
+/// A folder that is gone at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_(std::filesystem::temp_directory_path() / "salebra-import-XXXXXX") {
+    std::string name = path_.string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw IoError(path_.string() + ": cannot be made (" + std::strerror(errno) + ")");
+    path_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  std::filesystem::path operator/(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions& options) {
+  try {
+    // HDF5 is read through its own library, which need not hold the whole file.
+    if (detail::is_hdf5(file)) return detail::read_hdf5(file);
+    return detail::read_content(file, detail::file_content(file));
+  } catch (const UnknownFormat& refusal) {
+    if (surface_importer == nullptr || options.known_formats) throw;
+    const ScratchFolder scratch;
+    std::vector<std::string> remarks = surface_importer(file, scratch / "surface.h5", refusal);
+    detail::LoadedSurface loaded = detail::read_hdf5(scratch / "surface.h5");
+    loaded.remarks = std::move(remarks);
+    return loaded;
+  }
 }
 
 double size_along(const std::filesystem::path& file, const char* field,
@@ -42,8 +84,8 @@ double size_along(const std::filesystem::path& file, const char* field,
     return *given;
   }
   if (!stated)
-    detail::refuse(file,
-                   "does not state its " + std::string(field) + "; give `size_x` and `size_y`");
+    detail::refuse(file, "does not state its " + std::string(field) +
+                             "; give `size_x` and `size_y`, or `pixel_size`");
   if (!std::isfinite(*stated) || *stated <= 0)
     detail::refuse(file, "states a " + std::string(field) + " of " + std::to_string(*stated) +
                              " m, which is not > 0; give `size_x` and `size_y`");
@@ -72,6 +114,10 @@ void refuse(const std::filesystem::path& file, const std::string& what) {
   throw InvalidInput(file.string(), printable_line(what));
 }
 
+void refuse_unknown(const std::filesystem::path& file, const std::string& what) {
+  throw UnknownFormat(file.string(), printable_line(what));
+}
+
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny) {
   const double bytes = sizeof(double) * static_cast<double>(nx) * static_cast<double>(ny);
   if (!fits_into_memory(bytes))
@@ -84,7 +130,11 @@ Field heights_of(const std::filesystem::path& file, Index nx, Index ny) {
 
 bool is_hdf5(const std::filesystem::path& file) { return InputFile(file).is_hdf5(); }
 
-std::string file_content(const std::filesystem::path& file) { return InputFile(file).content(); }
+std::string file_content(const std::filesystem::path& file) {
+  std::string content = InputFile(file).content();
+  if (std::optional<std::string> plain = plain_content(file, content)) return std::move(*plain);
+  return content;
+}
 
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content) {
   const auto begins = [&](std::string_view head) { return content.starts_with(head); };
@@ -108,14 +158,96 @@ double metres_per(const std::filesystem::path& file, const std::string& unit) {
   refuse(file, "has heights in '" + unit + "', which is no unit of length; convert them to metres");
 }
 
+namespace {
+
+/// What the user gave of the size along x or y.
+std::optional<double> given_size(const ReadOptions& options, int axis, Index points) {
+  const std::optional<double>& size = axis == 0 ? options.size_x : options.size_y;
+  if (!options.pixel_size) return size;
+  require(!size, axis == 0 ? "size_x" : "size_y", size.value_or(0),
+          "was given beside `pixel_size`; give one of them");
+  const auto [dx, dy] = *options.pixel_size;
+  const double step = axis == 0 ? dx : dy;
+  require_positive(step, "pixel_size");
+  return step * static_cast<double>(points);
+}
+
+/// Sizes of the user that suit the grid better the other way round: programs disagree on which axis
+/// of an array comes first.
+std::optional<std::string> doubt_of_axes(const Grid2D& grid) {
+  const auto ratio = [](double a, double b) { return std::max(a, b) / std::min(a, b); };
+  const double other_dx = grid.lx / static_cast<double>(grid.ny),
+               other_dy = grid.ly / static_cast<double>(grid.nx);
+  const double now = ratio(grid.dx(), grid.dy()), other = ratio(other_dx, other_dy);
+  if (grid.nx == grid.ny || now <= other * (1 + 1e-9)) return {};
+  const auto cells = [](double dx, double dy) {
+    return format_quantity(dx, Dimension::length, 3) + " x " +
+           format_quantity(dy, Dimension::length, 3);
+  };
+  return fmt::format("{} x {} points along x and y, cells of {}; `transpose` makes them {}",
+                     grid.nx, grid.ny, cells(grid.dx(), grid.dy()), cells(other_dx, other_dy));
+}
+
+void scale_sizes(const std::filesystem::path& file, const ReadOptions& options,
+                 LoadedSurface& loaded) {
+  if (options.lateral_unit.empty()) return;
+  const std::optional<double> metres = metres_in(options.lateral_unit);
+  require(metres.has_value(), "lateral_unit", options.lateral_unit,
+          "is no unit of length; give one such as um");
+  if (loaded.lateral_unit_open) {
+    for (auto* size : {&loaded.size_x, &loaded.size_y})
+      if (*size) **size *= *metres;
+  } else if (options.remarks) {
+    options.remarks->push_back(
+        file.string() + ": `lateral_unit` " + options.lateral_unit + " was not used: " +
+        (loaded.size_x ? "the file states its size with a unit" : "the file holds no coordinates"));
+  }
+}
+
+/// A line profile as a surface of one row, as wide as its step; nothing else than it is refused.
+void complete_profile(const std::filesystem::path& file, const ReadOptions& options,
+                      const LoadedSurface& loaded, Grid2D& grid) {
+  if (!options.profiles)
+    refuse(file, fmt::format("is a line profile of {} points, and a contact needs an area; "
+                             "`statistics` fits the isotropic surface to generate in its place",
+                             loaded.heights.rows()));
+  if (options.transpose || options.crop)
+    refuse(file, "is a line profile, which has nothing to transpose or to crop");
+  if (!options.size_x && !options.pixel_size && !loaded.size_x)
+    refuse(file, fmt::format("is a line profile of {} points that does not state its length; give "
+                             "`size_x` or `pixel_size`",
+                             loaded.heights.rows()));
+  grid.lx =
+      size_along(file, "size_x", given_size(options, 0, grid.nx), loaded.size_x, options.remarks);
+  grid.ly = grid.dx();
+}
+
+}  // namespace
+
 ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
                       const ReadOptions& options) {
-  ReadSurface read{.names_unit = !loaded.unit.empty()};
+  ReadSurface read{
+      .names_unit = !loaded.unit.empty(),
+      .names_lateral_unit = !loaded.lateral_unit_open || !options.lateral_unit.empty()};
   Surface& surface = read.surface;
+  if (options.transpose) {
+    loaded.heights = Field(loaded.heights.transpose());
+    std::swap(loaded.size_x, loaded.size_y);
+  }
+  scale_sizes(file, options, loaded);
   surface.grid.nx = loaded.rows.value_or(loaded.heights.rows());
   surface.grid.ny = loaded.heights.cols();
-  surface.grid.lx = size_along(file, "size_x", options.size_x, loaded.size_x, options.remarks);
-  surface.grid.ly = size_along(file, "size_y", options.size_y, loaded.size_y, options.remarks);
+  if (loaded.is_profile) {
+    complete_profile(file, options, loaded, surface.grid);
+  } else {
+    const auto given_x = given_size(options, 0, surface.grid.nx),
+               given_y = given_size(options, 1, surface.grid.ny);
+    surface.grid.lx = size_along(file, "size_x", given_x, loaded.size_x, options.remarks);
+    surface.grid.ly = size_along(file, "size_y", given_y, loaded.size_y, options.remarks);
+    if (options.remarks && given_x && given_y && !loaded.size_x && !options.pixel_size)
+      if (const auto doubt = doubt_of_axes(surface.grid))
+        options.remarks->push_back(file.string() + ": " + *doubt);
+  }
   surface.heights = std::move(loaded.heights);
   const std::string unit = read.names_unit ? loaded.unit : options.height_unit;
   if (!unit.empty() && unit != "m") {
@@ -126,9 +258,10 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
     refuse(file, "holds an infinite height; mark undefined points as nan");
   surface.periodic = options.periodic.value_or(loaded.periodic.value_or(false));
   surface.origin = file.string();
-  if (options.remarks)
+  if (options.remarks) {
     for (const std::string& remark : loaded.remarks)
       options.remarks->push_back(file.string() + ": " + printable_line(remark));
+  }
   return read;
 }
 
@@ -161,42 +294,141 @@ void share(std::vector<std::string>& lines, const Communicator& ranks) {
   for (std::string line; std::getline(of_root, line);) lines.push_back(line);
 }
 
-/// The surface, its heights doubted in the remarks. Collective of a surface that is spread.
-Surface with_remarks(const std::filesystem::path& file, detail::ReadSurface read,
-                     const ReadOptions& options) {
-  if (options.remarks == nullptr) return std::move(read.surface);
-  if (const auto doubt = doubt_of_heights(read.surface, read.metres_per_unit))
-    options.remarks->push_back(file.string() + ": " + *doubt +
-                               (read.names_unit ? "" : "; see `height_unit`"));
-  return std::move(read.surface);
+/// Remarks of a surface in one process or of one that is spread: its heights, and its size.
+void doubt(const std::filesystem::path& file, const detail::ReadSurface& read,
+           const ReadOptions& options) {
+  if (options.remarks == nullptr) return;
+  const auto remark = [&](const std::string& text) {
+    options.remarks->push_back(file.string() + ": " + text);
+  };
+  const Grid2D& grid = read.surface.grid;
+  if (!read.names_lateral_unit && std::max(grid.lx, grid.ly) > 1)
+    remark(fmt::format("is {} long, its coordinates being in metres; see `lateral_unit`",
+                       format_quantity(std::max(grid.lx, grid.ly), Dimension::length)));
+  if (const auto slope = doubt_of_heights(read.surface, read.metres_per_unit))
+    remark(*slope + (read.names_unit ? "" : "; see `height_unit`"));
+}
+
+std::string points_text(Index points) {
+  return points == 1 ? "1 point" : std::to_string(points) + " points";
+}
+
+/// Says of spikes what they do, or that they are gone.
+std::string spikes_text(const std::vector<Spike>& spikes, bool removed) {
+  Index above = 0;
+  double highest = 0;
+  for (const Spike& spike : spikes) {
+    above += spike.height > 0;
+    highest = std::max(highest, removed ? std::abs(spike.height) : spike.height);
+  }
+  const std::string height = format_quantity(highest, Dimension::length, 3);
+  const auto count = static_cast<Index>(spikes.size());
+  if (removed)
+    return fmt::format("{} far from {} neighbours, up to {}, {} now undefined", points_text(count),
+                       count == 1 ? "its" : "their", height, count == 1 ? "is" : "are");
+  if (above == 0) return "";
+  return fmt::format(
+      "{} alone, up to {} above {} neighbours, and {} the first contacts; `despike` leaves {} out",
+      points_text(above) + (above == 1 ? " stands" : " stand"), height,
+      above == 1 ? "its" : "their", above == 1 ? "carries" : "carry", above == 1 ? "it" : "them");
+}
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+/// Of a part in the whole, m.
+struct Corner {
+  double x = 0, y = 0;
+};
+
+/// Throws InvalidInput with what the user can do about the undefined points.
+[[noreturn]] void refuse_holes(const std::filesystem::path& file, const Surface& surface,
+                               const Corner& corner, const Holes& holes) {
+  std::string advice = "`fill` fills them by the smoothest surface";
+  const Grid2D& grid = surface.grid;
+  if (const auto part = largest_defined_part(surface)) {
+    // Seven digits find a cell among 65536 again.
+    const auto text = [](double length) { return fmt::format("{:.7g}um", 1e6 * length); };
+    const double share = (part->x1 - part->x0) * (part->y1 - part->y0) / grid.area();
+    if (share >= 0.01)
+      advice =
+          fmt::format("`crop` {},{},{},{} takes the largest part without any, {} of the area; {}",
+                      text(corner.x + part->x0), text(corner.y + part->y0),
+                      text(corner.x + part->x1), text(corner.y + part->y1), percent(share), advice);
+  }
+  detail::refuse(file, fmt::format("has {} undefined {} of {} ({}), holes up to {} wide; {}",
+                                   holes.points, holes.points == 1 ? "point" : "points",
+                                   grid.points(), percent(holes.fraction),
+                                   format_quantity(holes.width, Dimension::length, 3), advice));
+}
+
+/// What the options ask for, done to the heights of one process.
+Surface prepared(const std::filesystem::path& file, Surface surface, const ReadOptions& options) {
+  const auto remark = [&](const std::string& text) {
+    if (options.remarks && !text.empty()) options.remarks->push_back(file.string() + ": " + text);
+  };
+  if (options.despike) {
+    const std::vector<Spike> spikes = find_spikes(surface, *options.despike);
+    remove_spikes(surface, spikes);
+    if (!spikes.empty()) remark(spikes_text(spikes, true));
+  } else if (options.remarks && !surface.periodic && surface.grid.ny > 1) {
+    remark(spikes_text(find_spikes(surface), false));
+  }
+  Corner corner;
+  if (options.crop) {
+    const Grid2D& grid = surface.grid;
+    corner = {std::round(options.crop->x0 / grid.dx()) * grid.dx(),
+              std::round(options.crop->y0 / grid.dy()) * grid.dy()};
+    surface = cropped(surface, *options.crop);
+  }
+  if (options.undefined == Undefined::keep) return surface;
+  const Holes holes = holes_of(surface);
+  if (holes.points == 0) return surface;
+  if (options.undefined == Undefined::fill_few && !holes.few())
+    refuse_holes(file, surface, corner, holes);
+  remark(fmt::format("{} of {} ({}) without a height, filled by the smoothest surface",
+                     points_text(holes.points), surface.grid.points(), percent(holes.fraction)));
+  return filled(std::move(surface));
+}
+
+Surface read_whole(const std::filesystem::path& file, const ReadOptions& options) {
+  detail::ReadSurface read = detail::completed(file, load(file, options), options);
+  doubt(file, read, options);
+  return prepared(file, std::move(read.surface), options);
 }
 
 }  // namespace
 
+void set_surface_importer(SurfaceImporter importer) { surface_importer = importer; }
+
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options,
                      const Communicator& ranks) {
-  const auto read = [&](detail::LoadedSurface loaded) {
-    return detail::completed(file, std::move(loaded), options);
-  };
-  if (ranks.alone()) return with_remarks(file, read(load(file)), options);
-  Surface surface;
-  bool hdf5 = false;
-  collectively(ranks, [&] {
-    if (!ranks.is_root()) return;
-    hdf5 = detail::is_hdf5(file);
-    if (!hdf5) surface = with_remarks(file, read(load(file)), options);
-  });
-  ranks.broadcast(&hdf5, sizeof hdf5);
-  if (!hdf5) {
-    if (options.remarks) share(*options.remarks, ranks);
-    return spread(surface, ranks);
+  if (ranks.alone()) return read_whole(file, options);
+  const bool changed = options.transpose || options.despike || options.crop;
+  bool by_rows = false;
+  collectively(ranks, [&] { by_rows = ranks.is_root() && !changed && detail::is_hdf5(file); });
+  ranks.broadcast(&by_rows, sizeof by_rows);
+  if (by_rows) {
+    const std::size_t before = options.remarks ? options.remarks->size() : 0;
+    // Each process reads its rows itself.
+    require_one_file(file, ranks);
+    detail::ReadSurface rows;
+    collectively(ranks,
+                 [&] { rows = detail::completed(file, detail::read_hdf5(file, ranks), options); });
+    rows.surface.ranks = ranks;
+    const bool complete = options.undefined == Undefined::keep ||
+                          ranks.all_agree(rows.surface.undefined_points() == 0);
+    if (complete) {
+      doubt(file, rows, options);
+      return std::move(rows.surface);
+    }
+    if (options.remarks) options.remarks->resize(before);
   }
-  // Each process reads its rows itself.
-  require_one_file(file, ranks);
-  detail::ReadSurface rows;
-  collectively(ranks, [&] { rows = read(detail::read_hdf5(file, ranks)); });
-  rows.surface.ranks = ranks;
-  return with_remarks(file, std::move(rows), options);
+  Surface surface;
+  collectively(ranks, [&] {
+    if (ranks.is_root()) surface = read_whole(file, options);
+  });
+  if (options.remarks) share(*options.remarks, ranks);
+  return spread(surface, ranks);
 }
 
 }  // namespace salebra

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "loaded_surface.hpp"
+#include "surface_importer.hpp"
 #include "text_numbers.hpp"
 
 /// Digital Surf's SUR: a header of 512 bytes at fixed places, a comment, a private zone, then
@@ -54,8 +55,8 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
   if (content.size() < header_size) refuse(file, "ends within its SUR header; it is truncated");
   const SurHeader header(content);
   if (header.int16(14) > 1)
-    refuse(file, "holds " + std::to_string(header.int16(14)) +
-                     " objects; export one surface of them to a file");
+    refuse_unknown(file, "holds " + std::to_string(header.int16(14)) +
+                             " objects; export one surface of them to a file");
   const std::int16_t bits = header.int16(98);
   if (bits != 16 && bits != 32)
     refuse(file,

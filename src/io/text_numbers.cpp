@@ -12,16 +12,12 @@
 #include "base/memory.hpp"
 #include "loaded_surface.hpp"
 #include "surface_formats.hpp"
+#include "surface_importer.hpp"
 
 namespace salebra::detail {
 namespace {
 
 bool is_blank(char symbol) { return symbol == ' ' || symbol == '\t'; }
-
-const char* skip_blanks(const char* at, const char* end) {
-  while (at != end && is_blank(*at)) ++at;
-  return at;
-}
 
 [[noreturn]] void refuse_line(const std::filesystem::path& file, int number,
                               const std::string& what) {
@@ -193,14 +189,24 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+std::string_view without_spaces(std::string_view text) {
+  while (text.starts_with(' ')) text.remove_prefix(1);
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return text;
+}
+
+std::optional<char> NumberFormat::symbol() const {
+  if (separator == Separator::comma) return ',';
+  if (separator == Separator::semicolon) return ';';
+  return tabs ? std::optional('\t') : std::nullopt;
+}
+
 std::string_view require_text(const std::filesystem::path& file, std::string_view content) {
-  if (content.starts_with("\xff\xfe") || content.starts_with("\xfe\xff"))
-    refuse(file, "is UTF-16 text; save it as UTF-8");
   if (content.find('\0') != std::string_view::npos)
-    refuse(file,
-           "is neither text (it holds NUL bytes) nor of another format that is read; convert it to "
-           "one of " +
-               read_extensions());
+    refuse_unknown(file,
+                   "is neither text (it holds NUL bytes) nor of another format that is read; "
+                   "convert it to one of " +
+                       read_extensions());
   if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
   return content;
 }
@@ -226,13 +232,13 @@ bool starts_with_number(std::string_view line) {
   double value;
   const char *at = line.data(), *end = at + line.size();
   if (const char* stop = parse_number(at, end, value)) return stop == end || is_separator(*stop);
-  return parse_mark(at, end) && is_row(line);
+  const bool empty = *at == ',' || *at == ';';
+  return (empty || parse_mark(at, end)) && is_row(line);
 }
 
 bool ends_with_separator(std::string_view line, const NumberFormat& format) {
-  line = trimmed(line);
-  return format.separator != Separator::blank &&
-         line.ends_with(format.separator == Separator::comma ? ',' : ';');
+  const std::optional<char> symbol = format.symbol();
+  return symbol && without_spaces(line).ends_with(*symbol);
 }
 
 void settle_format(const std::filesystem::path& file, std::string_view line, int number,
@@ -259,21 +265,24 @@ void append_numbers(const std::filesystem::path& file, std::string_view line, in
                     const NumberFormat& format, std::vector<double>& values) {
   const char* at = line.data();
   const char* const end = at + line.size();
-  const char symbol = format.separator == Separator::comma ? ',' : ';';
-  for (at = skip_blanks(at, end); at != end;) {
+  const std::optional<char> symbol = format.symbol();
+  const auto skip = [&](const char* from) {
+    while (from != end && is_blank(*from) && *from != symbol) ++from;
+    return from;
+  };
+  for (at = skip(at); at != end;) {
     double value = std::numeric_limits<double>::quiet_NaN();
-    if (format.separator == Separator::blank || *at != symbol) {
+    if (*at != symbol) {
       const char* stop =
           format.decimal_comma ? parse_comma_number(at, end, value) : parse_number(at, end, value);
       if (!stop) stop = parse_mark(at, end);
       if (!stop)
-        refuse_line(file, number,
-                    "holds '" + excerpt(at, end, format.decimal_comma ? " \t;" : " \t;,") +
-                        "', which is no number; an undefined point is written nan");
+        refuse_unknown(file, "line " + std::to_string(number) + " holds '" +
+                                 excerpt(at, end, format.decimal_comma ? " \t;" : " \t;,") +
+                                 "', which is no number; an undefined point is written nan");
       if (std::isinf(value)) refuse_line(file, number, "holds an infinite value; correct it");
-      const char* const after = skip_blanks(stop, end);
-      const bool separated =
-          after == end || (format.separator == Separator::blank ? after != stop : *after == symbol);
+      const char* const after = skip(stop);
+      const bool separated = after == end || (symbol ? *after == symbol : after != stop);
       if (!separated)
         refuse_line(file, number,
                     "holds '" + excerpt(at, end) +
@@ -283,7 +292,7 @@ void append_numbers(const std::filesystem::path& file, std::string_view line, in
     }
     if (values.size() == values.capacity()) require_room(file, values.capacity());
     values.push_back(value);
-    if (at != end && format.separator != Separator::blank) at = skip_blanks(at + 1, end);
+    if (at != end && symbol) at = skip(at + 1);
   }
 }
 

@@ -26,6 +26,8 @@ class Lines {
 };
 
 std::string_view trimmed(std::string_view text);
+/// Without spaces at its ends; tabs stay.
+std::string_view without_spaces(std::string_view text);
 
 /// What separates the values of a line.
 enum class Separator { blank, comma, semicolon };
@@ -35,17 +37,20 @@ struct NumberFormat {
   bool decimal_comma = false;
   bool has_separator = false;      ///< in a line so far
   bool has_decimal_point = false;  ///< in a line so far
+  bool tabs = false;  ///< of blanks, one tab separates two values: between two tabs is none
+
+  /// Between values that may be empty; nothing where blanks separate them.
+  std::optional<char> symbol() const;
 };
 
-/// The content without a byte order mark. Throws InvalidInput for UTF-16 and for text with NUL
-/// bytes.
+/// The content without a byte order mark. Throws InvalidInput for text with NUL bytes.
 std::string_view require_text(const std::filesystem::path& file, std::string_view content);
 
 /// Text that is not UTF-8 is taken for Latin-1, in which older programs write "µm" and "Höhe".
 std::string utf8(std::string_view text);
 
-/// Whether the first value of the line is a number or "nan", or a mark of an undefined point in a
-/// line of nothing but numbers and such marks. A rule of dashes is no line of numbers.
+/// Whether the first value of the line is a number or "nan", or empty or a mark of an undefined
+/// point in a line of nothing but numbers and such marks. A rule of dashes is no line of numbers.
 bool starts_with_number(std::string_view line);
 
 /// Whether the line ends with a separator that is no blank: a value that is empty, or nothing.

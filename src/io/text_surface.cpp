@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "loaded_surface.hpp"
+#include "surface_importer.hpp"
 #include "text_header.hpp"
 #include "text_numbers.hpp"
 #include "xyz.hpp"
@@ -36,13 +37,15 @@ struct TextMatrix {
   }
 };
 
-TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, TextHeader& header) {
+/// tabs: each separates two values, of which one may be empty; else any blanks do.
+TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, TextHeader& header,
+                     bool tabs = false) {
   TextMatrix matrix;
   std::optional<NumberFormat> format;
   bool all_open = false;  // every row so far ends with a separator
   Lines lines(text);
   for (std::string_view line; lines.next(line);) {
-    const std::string_view content = trimmed(line);
+    std::string_view content = trimmed(line);
     if (content.empty()) continue;
     const bool comment = content.front() == '#' || content.front() == '%';
     if (comment || (matrix.rows == 0 && !starts_with_number(content))) {
@@ -50,6 +53,8 @@ TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, T
       continue;
     }
     settle_format(file, content, lines.number(), format);
+    format->tabs = tabs;
+    if (tabs) content = without_spaces(line);
     const std::size_t before = matrix.values.size();
     append_numbers(file, content, lines.number(), *format, matrix.values);
     auto columns = static_cast<Index>(matrix.values.size() - before);
@@ -67,14 +72,21 @@ TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, T
       ++columns;
     }
     all_open = all_open && open;
-    if (columns != matrix.columns)
-      refuse(file, "line " + std::to_string(lines.number()) + " holds " + std::to_string(columns) +
-                       " values where the first row holds " + std::to_string(matrix.columns) +
-                       "; the file is truncated or no matrix");
+    if (columns != matrix.columns) {
+      // Where tabs separate values, blanks hide those that are empty.
+      if (!tabs && !format->symbol() && text.find('\t') != std::string_view::npos) {
+        header = {};
+        return read_rows(file, text, header, true);
+      }
+      refuse_unknown(file, "line " + std::to_string(lines.number()) + " holds " +
+                               std::to_string(columns) + " values where the first row holds " +
+                               std::to_string(matrix.columns) +
+                               "; the file is truncated or no matrix");
+    }
     ++matrix.rows;
   }
   if (matrix.rows == 0)
-    refuse(file, "holds no numbers and is in no format that is known; name a surface file");
+    refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");
   const auto check = [&](const std::optional<Index>& declared, Index found, const char* what) {
     if (declared && *declared != found)
       refuse(file, "declares " + std::to_string(*declared) + what + " but holds " +
@@ -85,19 +97,55 @@ TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, T
   return matrix;
 }
 
+/// Whether the numbers are a line profile: heights alone, or behind positions that increase.
+bool is_profile(const TextMatrix& matrix, const TextHeader& header) {
+  constexpr Index least = 4;
+  if (matrix.rows < least || matrix.columns > 2 || header.height) return false;
+  if (matrix.columns == 1) return true;
+  for (Index row = 1; row < matrix.rows; ++row)
+    if (!(matrix.values[std::size_t(2 * row)] > matrix.values[std::size_t(2 * row - 2)]))
+      return false;
+  return !header.width && !header.pixel_x;
+}
+
+LoadedSurface profile_of_text(const std::filesystem::path& file, const TextMatrix& matrix,
+                              const TextHeader& header) {
+  LoadedSurface profile;
+  if (matrix.columns == 1) {
+    profile.is_profile = true;
+    profile.heights = Eigen::Map<const Field>(matrix.values.data(), matrix.rows, 1);
+    if (header.pixel_x) profile.size_x = *header.pixel_x * static_cast<double>(matrix.rows);
+    if (header.width) profile.size_x = header.width;
+  } else {
+    std::vector<double> positions, heights;
+    for (Index row = 0; row < matrix.rows; ++row) {
+      positions.push_back(matrix.values[std::size_t(2 * row)]);
+      heights.push_back(matrix.values[std::size_t(2 * row + 1)]);
+    }
+    profile = profile_of(file, positions, heights);
+    profile.lateral_unit_open = header.x_unit.empty();
+    if (!header.x_unit.empty()) *profile.size_x *= metres_per(file, header.x_unit);
+  }
+  return profile;
+}
+
 }  // namespace
 
 LoadedSurface read_text(const std::filesystem::path& file, std::string_view content) {
   TextHeader header;
   const TextMatrix matrix = read_rows(file, require_text(file, content), header);
+  const bool of_line = is_profile(matrix, header);
   const bool are_points = matrix.columns == 3 && !header.width && !header.pixel_x;
   if (const Index found = matrix.rows * (are_points ? 1 : matrix.columns);
       header.points && *header.points != found)
     refuse(file, "declares " + std::to_string(*header.points) + " points but holds " +
                      std::to_string(found) + "; it is truncated or its header is wrong");
   LoadedSurface surface;
-  if (are_points) {
+  if (of_line) {
+    surface = profile_of_text(file, matrix, header);
+  } else if (are_points) {
     surface = grid_of_points(file, matrix.values);
+    surface.lateral_unit_open = header.x_unit.empty() && header.y_unit.empty();
     if (!header.x_unit.empty()) *surface.size_x *= metres_per(file, header.x_unit);
     if (!header.y_unit.empty()) *surface.size_y *= metres_per(file, header.y_unit);
   } else {
@@ -108,8 +156,10 @@ LoadedSurface read_text(const std::filesystem::path& file, std::string_view cont
     surface.heights *= *header.height_factor;
   else
     surface.unit = header.value_unit;
-  if (header.pixel_x) surface.size_x = *header.pixel_x * static_cast<double>(matrix.columns);
-  if (header.pixel_y) surface.size_y = *header.pixel_y * static_cast<double>(matrix.rows);
+  if (!of_line && header.pixel_x)
+    surface.size_x = *header.pixel_x * static_cast<double>(matrix.columns);
+  if (!of_line && header.pixel_y)
+    surface.size_y = *header.pixel_y * static_cast<double>(matrix.rows);
   if (header.width) surface.size_x = header.width;
   if (header.height) surface.size_y = header.height;
   if (const std::string remark = header.remark(); !remark.empty())

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "stored_number.hpp"
+#include "surface_importer.hpp"
 #include "x3p.hpp"
 
 namespace salebra::detail {
@@ -34,7 +35,8 @@ class Description {
                        "); it is damaged");
     root_ = document_.document_element();
     if (!std::string_view(root_.name()).ends_with("ISO5436_2"))
-      refuse(file, "has a main.xml that describes no surface of ISO 25178-72; name an X3P file");
+      refuse_unknown(file,
+                     "has a main.xml that describes no surface of ISO 25178-72; name an X3P file");
   }
 
   bool has(const char* path) const { return !root_.first_element_by_path(path).empty(); }
@@ -90,9 +92,9 @@ const StoredType& height_type(const Description& description) {
 
 void require_height_map(const std::filesystem::path& file, const Description& description) {
   if (description.words("Record1/FeatureType") != "SUR")
-    refuse(file, "holds a feature of type '" +
-                     std::string(description.words("Record1/FeatureType").substr(0, 24)) +
-                     "', not a surface (SUR); profiles and point clouds are not read");
+    refuse_unknown(file, "holds a feature of type '" +
+                             std::string(description.words("Record1/FeatureType").substr(0, 24)) +
+                             "', not a surface (SUR); profiles and point clouds are not read");
   for (const char* axis : {"Record1/Axes/CX/AxisType", "Record1/Axes/CY/AxisType"})
     if (description.required(axis) != "I")
       refuse(file, "lists its points instead of a grid (" + std::string(axis) +
@@ -112,7 +114,7 @@ void require_height_map(const std::filesystem::path& file, const Description& de
 
 LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& member) {
   const auto xml = member("main.xml", {});
-  if (!xml) refuse(file, "is a ZIP archive without main.xml; name an X3P file");
+  if (!xml) refuse_unknown(file, "is a ZIP archive without main.xml; name an X3P file");
   const Description description(file, *xml);
   require_height_map(file, description);
 

@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 
 #include "atomic_file.hpp"
+#include "surface_importer.hpp"
 #include "surface_writers.hpp"
 
 namespace salebra::detail {
@@ -57,8 +58,8 @@ XyzAxis find_axis(const std::filesystem::path& file, std::vector<double> coordin
       std::round(span / least_gap) * (1 - most_missing) <= intervals)
     intervals = std::round(span / least_gap);
   if (!on_grid(coordinates, span / intervals))
-    refuse(file, std::string("has three columns, but as XYZ points their ") + name +
-                     " is not equally spaced; resample them on a regular grid");
+    refuse_unknown(file, std::string("has three columns, but as XYZ points their ") + name +
+                             " is not equally spaced; resample them on a regular grid");
   return {coordinates.front(), span / intervals, static_cast<Index>(intervals) + 1};
 }
 
@@ -90,9 +91,10 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
   const XyzAxis along_x = find_axis(file, x, "x"), along_y = find_axis(file, y, "y");
   if (static_cast<std::size_t>(along_x.points) >
       2 * count / static_cast<std::size_t>(along_y.points))
-    refuse(file,
-           "has three columns, but as XYZ points they fill less than half of a regular grid; "
-           "resample them on one");
+    refuse_unknown(
+        file,
+        "has three columns, but as XYZ points they fill less than half of a regular grid; "
+        "resample them on one");
   LoadedSurface surface;
   surface.heights =
       Field::Constant(along_x.points, along_y.points, std::numeric_limits<double>::quiet_NaN());

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "../../src/io/loaded_surface.hpp"
+#include "../../src/io/plain_content.hpp"
 #include "../../src/io/surface_format.hpp"
 #include "../../src/io/x3p.hpp"
 #include "io/number_table.hpp"
@@ -103,6 +104,12 @@ const std::map<std::string, Target, std::less<>>& targets() {
     std::map<std::string, Target, std::less<>> some{
         {"x3p-parts", {{}, read_x3p_parts}},
         {"any", {{}, surface(detail::read_content)}},
+        {"gzip",
+         {{"\x1f\x8b\x08", "\xff\xfe", "\xfe\xff"},
+          [](const std::string& input) {
+            const auto plain = detail::plain_content("input", input);
+            complete("input", detail::read_content("input", plain.value_or(input)));
+          }}},
         {"table",
          {{},
           [](const std::string& input) {

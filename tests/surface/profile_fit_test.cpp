@@ -71,35 +71,33 @@ TEST_CASE("A profile of a generated surface gives the law that made it", "[profi
   const double rolloff = 400e-6, short_cutoff = 8e-6;
   int inside = 0, lines = 0, rolloffs = 0, cutoffs = 0;
   double sum = 0, slope = 0;
-  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-    const Surface surface = rough(hurst, rolloff, short_cutoff, seed);
-    for (Index iy = 0; iy < 128; iy += 16) {
-      const ProfileFit fit = fit_profile(line(surface, iy, 6000));
-      INFO("H " << fit.hurst.low << " " << fit.hurst.value << " " << fit.hurst.high);
-      REQUIRE(fit.hurst.found());
-      CHECK(fit.hurst.low < fit.hurst.value);
-      CHECK(fit.hurst.value < fit.hurst.high);
-      inside += fit.hurst.low <= hurst && hurst <= fit.hurst.high;
-      sum += fit.hurst.value;
-      slope += fit.surface_slope * fit.surface_slope;
-      if (!std::isnan(fit.rolloff)) {
-        ++rolloffs;
-        CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
-      }
-      if (!std::isnan(fit.short_cutoff)) {
-        ++cutoffs;
-        // A bin is 12 % wide.
-        CHECK(fit.short_cutoff == Approx(short_cutoff).epsilon(0.12));
-      }
-      ++lines;
+  const Surface surface = rough(hurst, rolloff, short_cutoff, 1);
+  for (Index iy = 0; iy < 128; iy += 12) {
+    const ProfileFit fit = fit_profile(line(surface, iy, 6000));
+    INFO("H " << fit.hurst.low << " " << fit.hurst.value << " " << fit.hurst.high);
+    REQUIRE(fit.hurst.found());
+    CHECK(fit.hurst.low < fit.hurst.value);
+    CHECK(fit.hurst.value < fit.hurst.high);
+    inside += fit.hurst.low <= hurst && hurst <= fit.hurst.high;
+    sum += fit.hurst.value;
+    slope += fit.surface_slope * fit.surface_slope;
+    if (!std::isnan(fit.rolloff)) {
+      ++rolloffs;
+      CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
     }
+    if (!std::isnan(fit.short_cutoff)) {
+      ++cutoffs;
+      // A bin is 12 % wide.
+      CHECK(fit.short_cutoff == Approx(short_cutoff).epsilon(0.12));
+    }
+    ++lines;
   }
-  // 95 % of 16 are 15; 12 and less have a probability of 1 %.
-  CHECK(inside >= 13);
+  // Of 11, less than 8 have a probability of 0.2 % where 95 % cover.
+  CHECK(inside >= 8);
   // Fifteen roll-offs lie in the profile, of whose plateau it has some ten waves.
-  CHECK(rolloffs >= 5);
-  CHECK(cutoffs >= 14);
-  CHECK(sum / lines == Approx(hurst).margin(0.03));
+  CHECK(rolloffs >= 3);
+  CHECK(cutoffs >= 9);
+  CHECK(sum / lines == Approx(hurst).margin(0.05));
   // Differences of neighbours see 2 % less of waves of eight points.
   CHECK(std::sqrt(slope / lines) == Approx(0.1).epsilon(0.05));
 }

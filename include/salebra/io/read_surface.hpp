@@ -4,20 +4,41 @@
 #include <filesystem>
 #include <optional>
 #include <salebra/base/grid.hpp>
+#include <salebra/surface/crop.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace salebra {
 
-/// What the user knows better than the file, or what the file does not say.
+/// What becomes of undefined points.
+enum class Undefined {
+  keep,      ///< they stay NaN
+  fill_few,  ///< filled where Holes::few() holds; else the file is refused
+  fill       ///< filled, however many
+};
+
+/// What the user knows better than the file, or what the file does not say, and what is done to the
+/// heights before they are used, in the order of its members.
 struct ReadOptions {
-  std::optional<double> size_x;  ///< m; in place of the file's
-  std::optional<double> size_y;  ///< m
-  std::optional<bool> periodic;  ///< in place of the file's
-  std::string height_unit;       ///< such as "nm", for files that give none; empty: metres
+  bool transpose = false;             ///< exchanges x and y of the file, before all that follows
+  std::optional<double> size_x = {};  ///< m; in place of the file's
+  std::optional<double> size_y = {};  ///< m
+  std::optional<std::pair<double, double>> pixel_size =
+      {};  ///< m, distance of the points along x and y, in place of sizes
+  std::string lateral_unit =
+      {};  ///< such as "um", of XYZ points whose file gives none; empty: metres
+  std::optional<bool> periodic = {};   ///< in place of the file's
+  std::string height_unit = {};        ///< such as "nm", for files that give none; empty: metres
+  std::optional<double> despike = {};  ///< threshold of find_spikes(), which become undefined
+  std::optional<Rectangle> crop = {};  ///< m, in the coordinates of the whole
+  Undefined undefined = Undefined::keep;
+  bool known_formats = false;  ///< whoever was set to import others is not asked
+  bool profiles = false;  ///< a line profile is read as a surface of one row; else it is refused
   std::vector<std::string>* remarks =
-      nullptr;  ///< receives lines on what is most likely a slip, "<file>: <what>"; of a surface
-                ///< that is spread the same in all processes, which all give it or none
+      nullptr;  ///< receives lines on what is most likely a slip, and on what was done, "<file>:
+                ///< <what>"; of a surface that is spread the same in all processes, which all give
+                ///< it or none
 };
 
 /// Reads the heights of a surface. What the file is follows from its first bytes, not from its
@@ -40,13 +61,19 @@ struct ReadOptions {
 ///           empty fields, "nan", "***", "---", "NA", "BAD" and "No Data"
 ///   XYZ     text of three columns that form a complete or partly filled regular grid; units in the
 ///           header or beside the names of its columns
+///   profile text of one column, or of two whose first grows; HDF5 with one-dimensional heights and
+///           positions x: a line profile, which ReadOptions::profiles asks for
+/// Any of them but HDF5 may be packed by gzip, and text may be UTF-16 with its byte order mark.
 /// Undefined points become NaN. Heights are metres unless the file or the options name a unit.
 /// throws   InvalidInput "<file>: <what is wrong>; <what to do>" for a file that is absent, not one
 ///          of these, truncated, larger by its header than by its content, ambiguous, without a
-///          size, or with an infinite height
-/// ranks    processes over which the surface is spread: of an HDF5 file each reads its rows, any
-///          other is read by the root whole. Collective; what fails in one process is thrown on all
-/// cost     one pass over the file; memory: the file and the heights
+///          size, or with an infinite height; and by Undefined::fill_few for too many undefined
+///          points, with the largest part without any
+/// ranks    processes over which the surface is spread: of an HDF5 file each reads its rows unless
+///          something is to be done to the heights, any other is read by the root whole.
+///          Collective; what fails in one process is thrown on all
+/// cost     one pass over the file; memory: the file and the heights. With remarks, a search for
+///          spikes in a surface that is not periodic, 0.1 µs a point
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {},
                      const Communicator& ranks = {});
 

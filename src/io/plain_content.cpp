@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Content of files without gzip, and UTF-16 as UTF-8.
+#include "plain_content.hpp"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <salebra/base/error.hpp>
+
+#include "base/memory.hpp"
+#include "loaded_surface.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// A stream of inflate that is closed.
+class Inflater {
+ public:
+  Inflater() {
+    constexpr int gzip_of_any_window = 16 + MAX_WBITS;
+    if (inflateInit2(&stream_, gzip_of_any_window) != Z_OK) throw std::bad_alloc();
+  }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+  ~Inflater() { inflateEnd(&stream_); }
+  z_stream* operator->() { return &stream_; }
+  z_stream* get() { return &stream_; }
+
+ private:
+  z_stream stream_ = {};
+};
+
+std::string unzipped(const std::filesystem::path& file, std::string_view content) {
+  const std::uint64_t most = 64 * std::uint64_t(content.size()) + (std::uint64_t{256} << 20);
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  Inflater inflater;
+  std::string out;
+  std::size_t filled = 0;
+  const auto refuse_size = [&] {
+    refuse(file, "unpacks to more than " + memory_text(static_cast<double>(filled)) +
+                     ", more than it can hold here; unpack it and crop what is in it");
+  };
+  for (int status = Z_OK; status != Z_STREAM_END || !content.empty();) {
+    if (status == Z_STREAM_END) {
+      // Behind a member stands another one, or padding.
+      if (!content.starts_with("\x1f\x8b")) break;
+      inflateReset(inflater.get());
+    }
+    if (out.size() - filled < piece) {
+      const std::uint64_t wanted =
+          std::min(std::max<std::uint64_t>(2 * out.size(), 4 * piece), most + 2 * piece);
+      if (!fits_into_memory(static_cast<double>(wanted))) refuse_size();
+      out.resize(wanted);
+    }
+    constexpr std::size_t longest = std::numeric_limits<uInt>::max();
+    const auto given = static_cast<uInt>(std::min(content.size(), longest));
+    const auto room = static_cast<uInt>(std::min(out.size() - filled, longest));
+    // inflate does not write to its input.
+    inflater->next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(content.data()));
+    inflater->avail_in = given;
+    inflater->next_out = reinterpret_cast<Bytef*>(out.data() + filled);
+    inflater->avail_out = room;
+    status = inflate(inflater.get(), Z_NO_FLUSH);
+    content.remove_prefix(given - inflater->avail_in);
+    filled += room - inflater->avail_out;
+    if (filled > most) refuse_size();
+    const bool stuck = status == Z_BUF_ERROR && content.empty();
+    if (stuck || (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR))
+      refuse(file, "is a truncated or damaged gzip file; copy or pack it again");
+  }
+  out.resize(filled);
+  return out;
+}
+
+void append_utf8(std::string& text, std::uint32_t symbol) {
+  const auto tail = [&](int shift) {
+    text += static_cast<char>(0x80 | ((symbol >> shift) & 0x3f));
+  };
+  if (symbol < 0x80) {
+    text += static_cast<char>(symbol);
+  } else if (symbol < 0x800) {
+    text += static_cast<char>(0xc0 | (symbol >> 6));
+    tail(0);
+  } else if (symbol < 0x10000) {
+    text += static_cast<char>(0xe0 | (symbol >> 12));
+    tail(6);
+    tail(0);
+  } else {
+    text += static_cast<char>(0xf0 | (symbol >> 18));
+    tail(12);
+    tail(6);
+    tail(0);
+  }
+}
+
+std::string utf8_of_utf16(const std::filesystem::path& file, std::string_view content, bool big) {
+  const auto unit = [&](std::size_t i) {
+    const auto first = static_cast<unsigned char>(content[i]),
+               second = static_cast<unsigned char>(content[i + 1]);
+    return static_cast<std::uint32_t>(big ? first << 8 | second : second << 8 | first);
+  };
+  if (content.size() % 2 != 0) refuse(file, "is UTF-16 text that is truncated; copy it again");
+  std::string text;
+  text.reserve(content.size() / 2);
+  for (std::size_t i = 2; i < content.size(); i += 2) {
+    std::uint32_t symbol = unit(i);
+    if (symbol >= 0xd800 && symbol < 0xe000) {
+      const bool paired = symbol < 0xdc00 && i + 2 < content.size() && unit(i + 2) >= 0xdc00 &&
+                          unit(i + 2) < 0xe000;
+      if (!paired) refuse(file, "is no UTF-16 text, though it begins as such; save it as UTF-8");
+      symbol = 0x10000 + ((symbol - 0xd800) << 10) + (unit(i + 2) - 0xdc00);
+      i += 2;
+    }
+    append_utf8(text, symbol);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::string> plain_content(const std::filesystem::path& file,
+                                         std::string_view content) {
+  std::optional<std::string> plain;
+  if (content.starts_with("\x1f\x8b")) content = plain.emplace(unzipped(file, content));
+  const bool big = content.starts_with("\xfe\xff");
+  if (big || content.starts_with("\xff\xfe")) plain = utf8_of_utf16(file, content, big);
+  return plain;
+}
+
+}  // namespace salebra::detail

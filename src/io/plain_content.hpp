@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace salebra::detail {
+
+/// The content without what is wrapped around it, whatever its format: gzip, whose members follow
+/// each other, and UTF-16 text with a byte order mark, which becomes UTF-8. Nothing for content that
+/// is not wrapped.
+/// Throws InvalidInput where the gzip is damaged or cut, or unpacks to more than 64 times the file
+/// and 256 MB, and for UTF-16 that is cut or not paired. Cost: one pass; memory: what comes out.
+std::optional<std::string> plain_content(const std::filesystem::path& file,
+                                         std::string_view content);
+
+}  // namespace salebra::detail
