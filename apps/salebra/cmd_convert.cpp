@@ -16,7 +16,6 @@ namespace {
 struct ConvertArguments {
   SurfaceOptions surface;
   std::string to;
-  bool fill = false;
 };
 
 void run(ConvertArguments& arguments, Session& session) {
@@ -25,9 +24,9 @@ void run(ConvertArguments& arguments, Session& session) {
   require_surface_name(arguments.to);
   require_output(arguments.to, session.write_options());
   if (arguments.surface.detrend.empty()) arguments.surface.detrend = "none";
-  Surface surface = arguments.surface.read(session);
+  Surface surface = arguments.surface.read(session, Undefined::keep);
   Json answer = {{"file", arguments.to}};
-  if (arguments.fill) {
+  if (arguments.surface.fill) {
     answer["filled_points"] = surface.undefined_points();
     surface = filled(std::move(surface));
   }
@@ -53,9 +52,6 @@ void add_convert_command(Program& program) {
                   "new file; its extension decides on the format: " + written_extensions())
       ->required()
       ->file(FileUse::output);
-  command.add_flag(
-      "--fill", arguments->fill,
-      "fill undefined points by the smoothest surface through the others, for contacts");
 }
 
 }  // namespace salebra::cli

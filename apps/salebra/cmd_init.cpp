@@ -55,7 +55,7 @@ file = {file}
 {size_x}
 {size_y}
 {height_unit}
-{detrend}
+{rest}{detrend}
 # A measured surface is continued periodically after its plane is removed; the study says how high the step at the seam is.
 )";
 
@@ -136,6 +136,26 @@ std::string key_or_choice(std::string_view key, const std::string& value, std::s
                        : fmt::format("{} = {}  # {}", key, value, remark);
 }
 
+/// Keys for what was given beside size and unit, and otherwise that they are there.
+std::string preparation(const MeasuredSurface& surface) {
+  std::string lines;
+  if (surface.transpose) lines += "transpose = true\n";
+  if (const auto& step = surface.pixel_size)
+    lines +=
+        fmt::format("pixel_size = [{}, {}]\n", toml_length(step->first), toml_length(step->second));
+  if (!surface.lateral_unit.empty())
+    lines += fmt::format("lateral_unit = {}\n", toml_string(surface.lateral_unit));
+  if (surface.despike) lines += fmt::format("despike = {}\n", *surface.despike);
+  if (const auto& part = surface.crop)
+    lines += fmt::format("crop = [{}, {}, {}, {}]\n", toml_length(part->x0), toml_length(part->y0),
+                         toml_length(part->x1), toml_length(part->y1));
+  if (surface.fill) lines += "fill = true\n";
+  return lines.empty()
+             ? "# transpose, pixel_size, lateral_unit, despike, crop, fill: as the options "
+               "of that name\n"
+             : lines;
+}
+
 struct Arguments {
   std::string file = "study.toml";
   SurfaceOptions surface;
@@ -171,6 +191,7 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
                                        "without it cells are square")),
       fmt::arg("height_unit", key_or_choice("height_unit", text(given.height_unit), "\"nm\"",
                                             "where the file names none")),
+      fmt::arg("rest", preparation(given.measured())),
       fmt::arg("detrend", key_or_choice("detrend", text(given.detrend), "\"plane\"",
                                         fmt::format("{}", fmt::join(words_of<Detrend>(), ", ")))));
 }

@@ -9,6 +9,7 @@
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/fill.hpp>
 #include <salebra/surface/moments.hpp>
+#include <salebra/surface/profile_fit.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -30,7 +31,7 @@ namespace {
 struct StatisticsArguments {
   SurfaceOptions surface;
   std::string window = "default", convention = "salebra";
-  bool all = false, fill = false;
+  bool all = false;
   std::optional<double> tip_radius, resolution;
 };
 
@@ -67,8 +68,8 @@ Json summary(const StatisticsArguments& arguments, const Surface& surface, Index
              const SelfAffineFit& fit) {
   const HeightStatistics heights = height_statistics(surface);
   Json answer = json_of(surface.grid);
-  answer.add(json_of(
-      SurfacePoints{surface.periodic, undefined, arguments.fill ? undefined : 0, heights.mean}));
+  answer.add(json_of(SurfacePoints{surface.periodic, undefined,
+                                   arguments.surface.fill ? undefined : 0, heights.mean}));
   answer.add(json_of(heights));
   answer.add(json_of(undefined > 0 ? difference_moments(surface) : surface_moments(surface)));
   answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
@@ -124,7 +125,7 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   std::vector<ResultTable> tables;
   std::optional<PowerSpectrum> spectrum;
   SelfAffineFit fit;
-  if (undefined == 0 || arguments.fill) {
+  if (undefined == 0 || arguments.surface.fill) {
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     spectrum = power_spectrum(complete, window);
@@ -152,15 +153,56 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   session.answer(with_tables(whole, tables), text);
 }
 
+/// A generated surface on which contacts can be computed in place of a profile: as long as it is
+/// where that needs no more than 2048 points, four of them for the shortest wave.
+std::string generation(const Grid2D& line, const ProfileFit& fit) {
+  const auto text = [](double length) { return fmt::format("{:.3g}um", 1e6 * length); };
+  const double shortest = std::isnan(fit.short_cutoff) ? 2 * line.dx() : fit.short_cutoff;
+  const double step = shortest / 4;
+  Index points = 256;
+  while (points < 2048 && static_cast<double>(points) * step < line.lx) points *= 2;
+  std::string command = fmt::format(
+      "salebra generate --points {} --size-x {} --hurst {:.2f} --short-cutoff {} --rms-slope "
+      "{:.3g}",
+      points, text(static_cast<double>(points) * step), std::clamp(fit.hurst.value, 0.01, 1.0),
+      text(shortest), fit.surface_slope);
+  if (!std::isnan(fit.rolloff)) command += " --rolloff " + text(fit.rolloff);
+  return command + " -o surface.h5";
+}
+
+/// A line profile: what it has itself, and the isotropic surface that has such profiles.
+void analyse_profile(const StatisticsArguments& arguments, const Surface& profile,
+                     Session& session) {
+  const Index undefined = profile.undefined_points();
+  const Surface complete = undefined == 0 ? profile : filled(profile);
+  const ProfileFit fit = fit_profile(complete);
+  const ProfilePsd psd = profile_psd(complete, Axis::x, *value_of<Window>(arguments.window));
+  Json answer{
+      {"nx", profile.grid.nx}, {"size_x", profile.grid.lx}, {"undefined_points", undefined}};
+  answer.add(json_of(fit));
+  answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
+  answer["rolloff"] = fit.rolloff;
+  answer["short_cutoff"] = fit.short_cutoff;
+  if (undefined > 0) session.note(fmt::format("{} undefined points were filled", undefined));
+  const std::vector<ResultTable> tables{psd_table(
+      "profile_psd_x", converted(psd, *value_of<PsdConvention>(arguments.convention)), psd.modes)};
+  write_tables(session, "statistics", answer, tables);
+  session.answer(answer);
+  if (fit.hurst.found())
+    session.note("An isotropic surface with such profiles: " + generation(profile.grid, fit));
+}
+
 void run(const StatisticsArguments& arguments, Session& session) {
   for (const auto& [given, option] :
-       {std::pair(arguments.fill, "--fill"), {session.has_plot(), "--plot"}})
+       {std::pair(arguments.surface.fill, "--fill"), {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
   if (!arguments.surface.given()) require_options({"SURFACE (or --recipe)"}, "statistics");
   std::vector<std::string> names = spectrum_tables;
   names.insert(names.end(), other_tables.begin(), other_tables.end());
   require_tables(session, names);
-  const Surface surface = arguments.surface.read(session);
+  const Surface surface = arguments.surface.read(session, Undefined::keep);
+  if (surface.grid.ny == 1 && surface.grid.nx > 1)
+    return analyse_profile(arguments, surface, session);
   try {
     analyse(arguments, surface, session);
   } catch (const InvalidInput& refusal) {
@@ -186,6 +228,7 @@ void add_statistics_command(Program& program) {
       OutputCheck::any_name);
   arguments->surface.add_to(command, false);
   arguments->surface.add_recipe_to(command);
+  arguments->surface.profiles = true;
   command.add_flag("--all", arguments->all,
                    "print areal parameters, spectra and all other tables too, which files have");
   add_choice<Window>(command, "--window", arguments->window,
@@ -193,8 +236,6 @@ void add_statistics_command(Program& program) {
   add_choice<PsdConvention>(
       command, "--convention", arguments->convention,
       "of the power spectral density; default salebra, rms_height^2 = integral of C d^2q");
-  command.add_flag("--fill", arguments->fill,
-                   "fill undefined points by the smoothest surface, for the spectra only");
   add_quantity(command, "--tip-radius", arguments->tip_radius, Dimension::length,
                "of the scanning probe: gives the wavelength below which it shows");
   add_quantity(command, "--resolution", arguments->resolution, Dimension::length,

@@ -63,6 +63,11 @@ Option* Option::required(bool needed) {
   return this;
 }
 
+Option* Option::value_without(std::string number) {
+  value_without_ = std::move(number);
+  return this;
+}
+
 Option* Option::choices(std::vector<std::string> values) {
   choices_ = std::move(values);
   return this;

@@ -45,6 +45,8 @@ class Option {
   /// Names a file: FILE. partner: another option that may name the file that this one writes.
   Option* file(FileUse use, std::string partner = "");
   Option* required(bool needed = true);
+  /// Takes a number, and stands for this one where none follows.
+  Option* value_without(std::string number);
   /// The only values allowed; a misspelt one is answered with the nearest.
   Option* choices(std::vector<std::string> values);
   /// For whole numbers, both ends included.
@@ -71,6 +73,8 @@ class Option {
   std::vector<std::string> files() const;
   bool positional() const { return names_.front().front() != '-'; }
   bool required() const { return required_; }
+  /// Empty where a value must follow.
+  const std::string& value_without() const { return value_without_; }
   /// Whether the command line has it.
   bool given() const { return given_; }
   void note_given() { given_ = true; }
@@ -78,7 +82,7 @@ class Option {
  private:
   std::vector<std::string> names_;
   Target target_;
-  std::string help_, group_, type_name_, partner_;
+  std::string help_, group_, type_name_, partner_, value_without_;
   FileUse file_use_ = FileUse::none;
   std::vector<std::string> choices_;
   std::optional<std::pair<int, int>> range_;

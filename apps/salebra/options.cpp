@@ -180,9 +180,24 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
   add_quantity(app, "--size-x", size_x, Dimension::length,
                "for files that do not state their size");
   add_quantity(app, "--size-y", size_y, Dimension::length, "as --size-x");
+  add_values(app, "--pixel-size", pixel_size, Dimension::length,
+             "distance of the points, DX or DX,DY, instead of sizes");
+  app.add_option("--lateral-unit", lateral_unit,
+                 "such as um, for XYZ points that do not name one; default m")
+      ->type_name("UNIT");
   app.add_option("--height-unit", height_unit,
                  "such as nm, for files that do not name one; default m")
       ->type_name("UNIT");
+  app.add_flag("--transpose", transpose, "exchange x and y of the file, before anything else");
+  add_quantity(app, "--despike", despike, Dimension::dimensionless,
+               "make single points undefined that are so many robust standard deviations from "
+               "their neighbours; 6 without a number")
+      ->value_without("6");
+  add_values(app, "--crop", crop, Dimension::length,
+             "X0,Y0,X1,Y1: use this part; spikes are looked for before, undefined points filled "
+             "behind");
+  app.add_flag("--fill", fill,
+               "fill all undefined points by the smoothest surface; contacts fill few without it");
   add_choice<Detrend>(app, "--detrend", detrend,
                       "default: plane if measured, mean if generated; lines and "
                       "median-differences flatten a scan line by line, which changes statistics "
@@ -200,9 +215,11 @@ void SurfaceOptions::add_recipe_to(Command& app) {
 namespace {
 
 StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& ranks) {
-  require_that(
-      options.file.empty() && !options.size_x && !options.size_y && options.height_unit.empty(),
-      "--recipe", "given together with a file or with options of files; give one of them");
+  require_that(options.file.empty() && !options.size_x && !options.size_y &&
+                   options.height_unit.empty() && options.pixel_size.empty() &&
+                   options.lateral_unit.empty() && options.crop.empty() && !options.despike &&
+                   !options.fill && !options.transpose,
+               "--recipe", "given together with a file or with options of files; give one of them");
   StudyConfiguration study;
   collectively(ranks, [&] { study = read_study_configuration(options.recipe); });
   require(std::holds_alternative<GeneratedSurfaces>(study.surfaces), "--recipe", options.recipe,
@@ -212,7 +229,33 @@ StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& 
 
 }  // namespace
 
-Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const {
+MeasuredSurface SurfaceOptions::measured() const {
+  if (size_x) require_positive(*size_x, "--size-x");
+  if (size_y) require_positive(*size_y, "--size-y");
+  MeasuredSurface surface;
+  surface.file = file;
+  surface.size_x = size_x;
+  surface.size_y = size_y;
+  surface.detrend = value_of<Detrend>(detrend);
+  surface.height_unit = height_unit;
+  surface.lateral_unit = lateral_unit;
+  surface.transpose = transpose;
+  surface.despike = despike;
+  surface.fill = fill;
+  if (!pixel_size.empty()) {
+    require(pixel_size.size() <= 2, "--pixel-size", pixel_size.size(),
+            "values are too many; give DX or DX,DY");
+    surface.pixel_size = {pixel_size.front(), pixel_size.back()};
+  }
+  if (!crop.empty()) {
+    require(crop.size() == 4, "--crop", crop.size(), "values; give X0,Y0,X1,Y1");
+    surface.crop = {crop[0], crop[1], crop[2], crop[3]};
+  }
+  return surface;
+}
+
+Surface SurfaceOptions::read(Session& session, const Communicator& ranks,
+                             std::optional<Undefined> points) const {
   if (!recipe.empty()) {
     Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
     session.warn(doubts_of_cells(made.grid));
@@ -220,12 +263,9 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks) const 
     const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);
   }
-  if (size_x) require_positive(*size_x, "--size-x");
-  if (size_y) require_positive(*size_y, "--size-y");
-  ReadOptions options;
-  options.size_x = size_x;
-  options.size_y = size_y;
-  options.height_unit = height_unit;
+  ReadOptions options = measured().reading();
+  if (points) options.undefined = *points;
+  options.profiles = profiles;
   std::vector<std::string> remarks;
   options.remarks = &remarks;
   Surface surface = read_surface(file, options, ranks);

@@ -103,7 +103,11 @@ struct SurfaceOutline {
 struct SurfaceOptions {
   std::string file;
   std::optional<double> size_x, size_y;
-  std::string detrend, height_unit;
+  std::string detrend, height_unit, lateral_unit;
+  std::vector<double> pixel_size, crop;
+  std::optional<double> despike;
+  bool fill = false, transpose = false;
+  bool profiles = false;  ///< the command takes line profiles too
   std::string recipe;
   std::uint64_t seed = 1;
 
@@ -113,10 +117,16 @@ struct SurfaceOptions {
   void add_recipe_to(Command& app);
   bool given() const { return !file.empty() || !recipe.empty(); }
   /// Read or made, over the processes of the session, and, with --detrend or else as is customary
-  /// for its kind, detrended. Warns of cells, sizes and heights that are most likely a slip.
-  Surface read(Session& session) const { return read(session, session.ranks()); }
+  /// for its kind, detrended. points: by default filled where they are few, as contacts
+  /// need it, and all with --fill. Warns of cells, sizes and heights that are most likely a slip.
+  Surface read(Session& session, std::optional<Undefined> points = {}) const {
+    return read(session, session.ranks(), points);
+  }
   /// Does so over one group of the processes.
-  Surface read(Session& session, const Communicator& ranks) const;
+  Surface read(Session& session, const Communicator& ranks,
+               std::optional<Undefined> points = {}) const;
+  /// Of a file; throws InvalidInput for lists of another length.
+  MeasuredSurface measured() const;
   /// Reads a file; a recipe is not generated.
   SurfaceOutline outline(Session& session) const;
 };

@@ -21,6 +21,7 @@
 #include "base/undefined_points.hpp"
 #include "confinement/confinement.hpp"
 #include "help_text.hpp"
+#include "import_helper.hpp"
 #include "option_words.hpp"
 #include "options.hpp"
 #include "scarce_memory.hpp"
@@ -209,6 +210,19 @@ constexpr FormerCommand former_commands[]{
     {"sweep", "contact, with several values of --pressure"},
 };
 
+/// Writes the number after an option that goes without one: CLI11 would take whatever follows.
+void complete_options(const Command& command, std::vector<std::string>& words) {
+  for (const Option& option : command.options()) {
+    if (option.value_without().empty()) continue;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (std::ranges::find(option.names(), words[i]) == option.names().end()) continue;
+      double number = 0;
+      if (i + 1 == words.size() || !CLI::detail::lexical_cast(words[i + 1], number))
+        words[i] += "=" + option.value_without();
+    }
+  }
+}
+
 /// Parses and runs. Throws NotUnderstood, and what the command throws.
 void run(int argc, char** argv, const Launch& launch) {
   require_one_command(join(argc, argv), launch.ranks);
@@ -245,7 +259,10 @@ void run(int argc, char** argv, const Launch& launch) {
         word, fmt::format("is not a command{}; see {} --help", did_you_mean(word, names), name));
   }
   const auto chosen = std::ranges::find(program.commands(), word, &Command::name);
-  if (chosen != program.commands().end()) name_options(*chosen);
+  if (chosen != program.commands().end()) {
+    name_options(*chosen);
+    complete_options(*chosen, words);
+  }
   try {
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(words);
@@ -305,7 +322,10 @@ int run_program(int argc, char** argv, const Launch& launch) {
   catch_interrupts();
   // Libraries of networks do not survive a child process. Several processes trust the files that
   // they are given.
-  if (launch.ranks.alone()) confinement::install();
+  if (launch.ranks.alone()) {
+    confinement::install();
+    install_import_helper();
+  }
   prepare_for_scarce_memory();
   try {
     run(argc, argv, launch);

@@ -25,6 +25,7 @@
 
 #include "compare_figure.hpp"
 #include "dry_run.hpp"
+#include "results/answer_json.hpp"
 #include "results/columns.hpp"
 #include "text.hpp"
 
@@ -191,6 +192,7 @@ std::optional<std::string> StudyReport::complete() {
 bool is_surface(const std::string& file) {
   ReadOptions options;
   options.size_x = options.size_y = 1;
+  options.known_formats = true;
   try {
     read_surface(file, options);
     return true;
@@ -221,6 +223,7 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
     require_options(missing, "a study without a file");
     study.pressures = parse_values("5e-4:0.2:16", Dimension::dimensionless, "pressures");
     study.relative_pressures = true;
+    study.pressures_below_hardness = true;
   }
   if (!arguments.twin.empty()) {
     auto* generated = std::get_if<GeneratedSurfaces>(&study.surfaces);
@@ -231,8 +234,7 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
     generated->tables = tables_of(read_twin_draws(arguments.twin), generated->grid);
   }
   if (!surface.given()) return study;
-  return with_surface(std::move(study), {surface.file, surface.size_x, surface.size_y,
-                                         value_of<Detrend>(surface.detrend), surface.height_unit});
+  return with_surface(std::move(study), surface.measured());
 }
 
 }  // namespace
@@ -252,6 +254,7 @@ StudyConfiguration StudyArguments::study() const {
             "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
     study.pressures = pressures;
     study.relative_pressures = false;
+    study.pressures_below_hardness = false;
   }
   if (precision) {
     require(*precision > 0 && *precision < 1, "--target-precision", *precision,
@@ -515,7 +518,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   const Communicator& ranks = session.ranks();
   if (resume && is_complete(configuration, folder, session)) {
     const StudyFiles files{session.output().string(), page.complete()};
-    session.answer(Json{{"files", to_json(files)}},
+    session.answer(Json{{"files", salebra::to_json(files)}},
                    fmt::format("results: {}, complete already\n", *files.results) +
                        StudyFiles{{}, files.report}.text());
     page.require_written();
@@ -648,7 +651,7 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
     }
     text += point.text;
   }
-  answer["files"] = to_json(files);
+  answer["files"] = salebra::to_json(files);
   if (!session.ranks().alone()) answer["groups"] = std::max(1, arguments.groups);
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   session.answer(session.with_processes(std::move(answer)), text);

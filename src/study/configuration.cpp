@@ -191,6 +191,19 @@ MeasuredSurface detail::read_measured(TomlTable& table, const std::filesystem::p
     if (*size) check_positive(table, key, **size);
   }
   surface.height_unit = table.text("height_unit").value_or("");
+  surface.transpose = table.flag("transpose").value_or(false);
+  if (const auto steps = table.values("pixel_size", Dimension::length); !steps.empty()) {
+    table.check(steps.size() <= 2, "pixel_size", "must be one length or two, [dx, dy]");
+    for (const double step : steps) check_positive(table, "pixel_size", step);
+    surface.pixel_size = {steps.front(), steps.back()};
+  }
+  surface.lateral_unit = table.text("lateral_unit").value_or("");
+  surface.despike = table.quantity("despike", Dimension::dimensionless);
+  surface.fill = table.flag("fill").value_or(false);
+  if (const auto sides = table.values("crop", Dimension::length); !sides.empty()) {
+    table.check(sides.size() == 4, "crop", "must be four lengths, [x0, y0, x1, y1]");
+    surface.crop = {sides[0], sides[1], sides[2], sides[3]};
+  }
   surface.detrend = enumerated<Detrend>(table, "detrend");
   return surface;
 }
@@ -386,6 +399,20 @@ StudyConfiguration read_study_configuration(const std::filesystem::path& file) {
   constexpr std::uint64_t most = 4 << 20;
   return parse_study_configuration(detail::InputFile(file).content(most), file.string(),
                                    file.parent_path());
+}
+
+ReadOptions MeasuredSurface::reading() const {
+  ReadOptions options;
+  options.transpose = transpose;
+  options.size_x = size_x;
+  options.size_y = size_y;
+  options.pixel_size = pixel_size;
+  options.lateral_unit = lateral_unit;
+  options.height_unit = height_unit;
+  options.despike = despike;
+  options.crop = crop;
+  options.undefined = fill ? Undefined::fill : Undefined::fill_few;
+  return options;
 }
 
 StudyConfiguration with_surface(StudyConfiguration configuration, MeasuredSurface surface) {

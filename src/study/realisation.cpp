@@ -327,10 +327,7 @@ Surface measured_surface(const MeasuredSurface& recipe, const Communicator& rank
                          std::vector<std::string>* remarks) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
-  ReadOptions options;
-  options.size_x = recipe.size_x;
-  options.size_y = recipe.size_y;
-  options.height_unit = recipe.height_unit;
+  ReadOptions options = recipe.reading();
   options.remarks = remarks;
   Surface surface = read_surface(recipe.file, options, ranks);
   collectively(ranks, [&] { surface.require_complete_rows("a study"); });
@@ -344,6 +341,34 @@ Surface study_surface(const StudyConfiguration& configuration, std::uint64_t see
     return generate(*recipe, seed, progress, ranks);
   return measured_surface(std::get<MeasuredSurface>(configuration.surfaces), ranks);
 }
+
+namespace {
+
+/// Leaves out the loads that no surface of that hardness carries, where they are a default.
+void require_below_hardness(const StudyConfiguration& configuration, StudyLoads& loads) {
+  const double hardness = configuration.known.hardness;
+  std::vector<double>& pressures = loads.pressures;
+  const auto text = [](double pressure) {
+    return format_quantity(pressure, Dimension::pressure, 3);
+  };
+  const auto below =
+      std::ranges::count_if(pressures, [&](double pressure) { return !(pressure > hardness / 2); });
+  constexpr std::ptrdiff_t least = 4;  // make a curve
+  if (configuration.pressures_below_hardness && below < std::ssize(pressures) && below >= least) {
+    loads.doubts.push_back(fmt::format(
+        "loads end at {}, {} of the {} by default: at half of the hardness of {}",
+        text(pressures[std::size_t(below) - 1]), below, pressures.size(), text(hardness)));
+    pressures.resize(std::size_t(below));
+  }
+  require(!(pressures.back() > hardness), "hardness", text(hardness),
+          fmt::format(
+              "is below the largest of the loads, {}; end them below it{}", text(pressures.back()),
+              loads.contact_scale > 0 ? fmt::format(", which is {:.2g} of E* times the rms slope",
+                                                    hardness / loads.contact_scale)
+                                      : ""));
+}
+
+}  // namespace
 
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
   StudyLoads loads{.pressures = configuration.pressures};
@@ -364,10 +389,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
   if (!doubt && !(configuration.relative_pressures && slope > 1))
     doubt = doubt_of_pressure(loads.pressures.back(), modulus);
   if (doubt) loads.doubts.push_back(*doubt);
-  const double hardness = configuration.known.hardness;
-  require(!(loads.pressures.back() > hardness), "hardness", hardness,
-          "Pa is below the largest pressure of the study; reduce the pressures or give the "
-          "hardness in Pa");
+  require_below_hardness(configuration, loads);
   require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
           "levels", 0,
           "levels state no error; use 4 or more, or leave out `relative_error` and the error of "

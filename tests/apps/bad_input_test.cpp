@@ -90,6 +90,48 @@ TEST_CASE("Each mistake of the table is answered in one line, and nothing is wri
   CHECK(mistakes > 300);
 }
 
+TEST_CASE("Files that are not what they seem are read with a warning or refused with what helps",
+          "[bad-input]") {
+  const ProgramTest test;
+  // A folder without salebra-import, with the shell's own programs.
+  std::string shell = "PATH=/usr/bin:/bin; ";
+  Names files;
+  int answers = 0;
+  std::ifstream table(SALEBRA_FILE_MISTAKES);
+  for (std::string line; std::getline(table, line);) {
+    if (line.empty() || line.starts_with('#')) continue;
+    const bool refused = line.find(" => ") != std::string::npos;
+    const std::string arrow = refused ? " => " : " ->";
+    const auto end = line.find(arrow);
+    if (end == std::string::npos) {
+      shell += line + "; ";
+      test.done("--version", shell);
+      files = test.files();
+      continue;
+    }
+    for (const std::string& command : alternatives(line.substr(0, end))) {
+      INFO(command);
+      const auto result = test.run(command, shell);
+      if (!refused && line.size() == end + arrow.size()) CHECK(result.err.empty());
+      for (auto at = end; at < line.size() && at != std::string::npos;) {
+        const auto next = line.find(arrow, at + arrow.size());
+        const std::string part =
+            line.substr(at + arrow.size(), next - std::min(next, at + arrow.size()));
+        if (refused)
+          check_refused(result, part);
+        else
+          CHECK_THAT(result.err, Contains(part.substr(std::min<std::size_t>(part.size(), 1))));
+        at = next;
+      }
+      if (!refused) CHECK(result.status == 0);
+      if (refused) CHECK(test.files() == files);
+      files = test.files();
+      ++answers;
+    }
+  }
+  CHECK(answers > 40);
+}
+
 TEST_CASE("A study file with a fault is refused with key and line, and nothing is written",
           "[bad-input]") {
   const ProgramTest test;

@@ -140,7 +140,7 @@ TEST_CASE("statistics refuses files that declare what cannot be", "[files][bad-i
       {"bomb.nc", std::string("CDF\2") + nul(7) + "\x0a" + "\xff\xff\xff\xff", "NetCDF"},
       {"bomb.sur", "DIGITAL SURF" + nul(500), "bits"},
       {"no.x3p", std::string("PK\3\4") + nul(60), "ZIP"},
-      {"utf16.txt", std::string("\xff\xfe#\0 \0001\0\n\0", 10), "UTF-16"},
+      {"utf16.txt", std::string("\xff\xfe#\0 \0001\0\n", 9), "UTF-16"},
       {"utf16-without-mark.txt", std::string("1\0 \0002\0\n\0", 8), "NUL"},
       {"ambiguous.txt", size + "1,5\n2,5\n", "line 3"},
       {"mixed.txt", size + "1;2\n3 4\n", "line 4"},

@@ -13,6 +13,7 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/spectrum.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/twin.hpp>
 #include <span>
@@ -88,14 +89,25 @@ constexpr void describe(auto&& visit, std::type_identity<GeneratedSurfaces>) {
 /// One surface from a file.
 struct MeasuredSurface {
   std::filesystem::path file;
-  std::optional<double> size_x, size_y;  ///< m, for files that do not state their size
-  std::optional<Detrend> detrend;        ///< empty: default_detrend() of the surface
-  std::string height_unit;               ///< such as "nm", for files that do not name one; empty: m
+  std::optional<double> size_x = {}, size_y = {};  ///< m, for files that do not state their size
+  std::optional<Detrend> detrend = {};             ///< empty: default_detrend() of the surface
+  std::string height_unit = {};  ///< such as "nm", for files that do not name one; empty: m
+  // As ReadOptions has them; few undefined points are filled without `fill`.
+  bool transpose = false;
+  std::optional<std::pair<double, double>> pixel_size = {};
+  std::string lateral_unit = {};
+  std::optional<double> despike = {};
+  std::optional<Rectangle> crop = {};
+  bool fill = false;
+
+  /// How read_surface() is to read it.
+  ReadOptions reading() const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<MeasuredSurface>) {
   using S = MeasuredSurface;
-  keep(visit, &S::file, &S::size_x, &S::size_y, &S::detrend, &S::height_unit);
+  keep(visit, &S::file, &S::size_x, &S::size_y, &S::detrend, &S::height_unit, &S::transpose,
+       &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill);
 }
 
 /// Parameters that take several values each; an empty list leaves the value of the surface table.
@@ -123,6 +135,9 @@ struct StudyConfiguration {
   std::vector<double>
       pressures;  ///< of the BEM sweep, increasing: Pa, or in units of E*h'_rms if relative
   bool relative_pressures = false;
+  /// Pressures above half of the hardness are left out, instead of being refused: half of the
+  /// surface would be flat. For pressures that the user did not choose.
+  bool pressures_below_hardness = false;
   double tolerance = 1e-8;  ///< e_c of each contact
   /// K_t of the boundary-element curve by a stick solve on each contact; false: (G*/E*)K. Moduli
   /// that no elastic body has leave only the latter.
@@ -163,7 +178,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
   using S = StudyConfiguration;
   keep(visit, &S::surfaces);
   visit(&S::material, Kept{"material", "elastic constants of the bodies"});
-  keep(visit, &S::pressures, &S::relative_pressures);
+  keep(visit, &S::pressures, &S::relative_pressures, &S::pressures_below_hardness);
   visit(&S::tolerance, Kept{"tolerance", "of each contact"});
   keep(visit, &S::stick, &S::window, &S::ensemble, &S::target_precision, &S::min_realisations);
   visit(&S::models, Kept{"models", "names of the contact models that are run on each surface"});

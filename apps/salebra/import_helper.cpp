@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of instruments by salebra-import, of import_helper.hpp.
+#include "import_helper.hpp"
+
+#include <cstring>
+#include <salebra/base/error.hpp>
+#include <sstream>
+
+#include "io/child_program.hpp"
+#include "io/surface_importer.hpp"
+
+namespace salebra::cli {
+namespace {
+
+constexpr const char* helper = "salebra-import";
+
+/// The lines of a kind, "salebra-import: note: FILE: …", without what precedes the text.
+std::vector<std::string> lines_of(const std::string& kind, const std::string& text,
+                                  const std::string& file) {
+  std::vector<std::string> found;
+  std::istringstream stream(text);
+  const std::string head = std::string(helper) + ": " + kind + ": " + file + ": ";
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with(head)) found.push_back(line.substr(head.size()));
+  return found;
+}
+
+std::vector<std::string> import_surface(const std::filesystem::path& from,
+                                        const std::filesystem::path& to,
+                                        const UnknownFormat& refusal) {
+  if (!detail::on_path(helper))
+    throw InvalidInput(
+        from.string(),
+        refusal.statement() + "; pip install 'salebra[formats]' adds the formats of instruments");
+  // No name of a file may be taken for an option.
+  const std::string file = std::filesystem::absolute(from).string();
+  const detail::ChildRun run = detail::run_child({helper, file, to.string()});
+  if (run.start_error != 0)
+    throw IoError(std::string(helper) + ": cannot be started (" + std::strerror(run.start_error) +
+                  ")");
+  if (run.signal == 0 && run.status == 0) return lines_of("note", run.errors, file);
+  const std::vector<std::string> errors = lines_of("error", run.errors, file);
+  const std::string reason = !errors.empty()   ? errors.front()
+                             : run.signal != 0 ? "was ended by signal " + std::to_string(run.signal)
+                                               : "failed with status " + std::to_string(run.status);
+  // What both say of a file is worth more than either.
+  throw InvalidInput(from.string(),
+                     refusal.statement() + "; " + std::string(helper) + ": " + reason);
+}
+
+}  // namespace
+
+void install_import_helper() { set_surface_importer(import_surface); }
+
+}  // namespace salebra::cli
