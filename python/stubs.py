@@ -19,4 +19,8 @@ def with_texts(line: str) -> str:
 made, stub = map(Path, sys.argv[1:])
 text = "".join(map(with_texts, made.read_text(encoding="utf-8").splitlines(keepends=True)))
 text = re.sub(r"^(class |@overload|def )", r"_Quantity = float | str  # a number in SI units, or a text with a unit\n\n\1", text, count=1, flags=re.MULTILINE)
+# Oscillations take the frequency in Hz too (_calls.py).
+text = re.sub(
+    r"(def __init__\(self, [^\n]*)(?<!_)angular_frequency: _Quantity(?: = [^,)]*)?", r"\1angular_frequency: _Quantity = ..., frequency: _Quantity = ...", text
+)
 stub.write_text(text, encoding="utf-8")

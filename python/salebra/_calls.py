@@ -13,6 +13,7 @@ import difflib
 import errno
 import functools
 import inspect
+import math
 import os
 import re
 import warnings
@@ -52,7 +53,7 @@ _LIKE = {
     "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
     "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
     "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius",
-    "duration": "time", "correlation_length": "rolloff", "force_amplitude": "force", "transverse": "displacement",
+    "frequency": "threshold_frequency", "pixel_size": "size_x", "crop": "size_x", "duration": "time", "correlation_length": "rolloff", "force_amplitude": "force", "transverse": "displacement",
 }  # fmt: skip
 # Arrays over the grid; every other array has one dimension.
 _FIELDS = {"heights", "initial_pressure", "contact", "pressure"}
@@ -347,6 +348,10 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
         except (_core.InvalidInput, _core.IoError) as error:
             _missing_file(error, whole, arguments, keywords)
             raise
+        if type(result) is list and result and isinstance(result[0], _core.SurfaceDamping):
+            from ._show import ResultList
+
+            result = ResultList(result)
         _doubt(name, result, arguments, keywords)
         _warn(name, whole, result)
         _remember(result, name, arguments, keywords)
@@ -388,6 +393,19 @@ def _metres(labelled: Any, argument: str) -> float:
     return _number(f"1 {units}", argument) if units else 1.0
 
 
+# Of which f may be given for ω = 2πf.
+_OSCILLATIONS = ("Drag", "EqualFrequency")
+
+
+def _of_frequency(keywords: dict[str, Any]) -> dict[str, Any]:
+    if "angular_frequency" in keywords:
+        raise refusal("frequency", "", "was given beside angular_frequency; give one of them")
+    rest = {key: value for key, value in keywords.items() if key != "frequency"}
+    given = keywords["frequency"]
+    frequency = _number(given, "frequency") if isinstance(given, str) else float(given)
+    return {**rest, "angular_frequency": 2 * math.pi * frequency}
+
+
 _constructors: dict[str, Callable[..., Any]] = {}
 
 
@@ -395,6 +413,8 @@ def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[s
     """Called by the extension where an object is made."""
     if name == "Surface":
         arguments, keywords = _of_labelled(arguments, keywords)
+    elif name in _OSCILLATIONS and "frequency" in keywords:
+        keywords = _of_frequency(keywords)
     _constructors[name](made, *arguments, **keywords)
     if name == "Surface":
         doubt = _core._doubt_of_heights(made)

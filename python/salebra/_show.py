@@ -142,3 +142,18 @@ def to_dataframe(result: Any) -> pandas.DataFrame:
     frame = pandas.DataFrame({name: np.array(value) for name, value in table.items()})
     frame.attrs["units"] = {name: meaning(type(result), name)[0] or "1" for name in table}
     return frame
+
+
+class ResultList(list[Any]):
+    """Results of one kind, one for each load."""
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A pandas.DataFrame with a row for each."""
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("to_dataframe needs pandas; install it") from error
+        numbers = [name for name, value, _, _ in _values(self[0]) if isinstance(value, (bool, int, float, str))]
+        frame = pandas.DataFrame({name: [getattr(one, name) for one in self] for name in numbers})
+        frame.attrs["units"] = {name: meaning(type(self[0]), name)[0] or "1" for name in numbers}
+        return frame

@@ -17,6 +17,11 @@ _METRES = {
 }  # fmt: skip
 
 
+def metres_in(unit: str) -> float | None:
+    """Metres in one of SurfaceTopography's units of length; None for any other."""
+    return _METRES.get(unit)
+
+
 def from_topography(topography: Any) -> Surface:
     """See :meth:`salebra.Surface.from_topography`."""
     if getattr(topography, "dim", None) != 2:

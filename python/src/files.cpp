@@ -2,6 +2,7 @@
 // Bindings of reading and writing surfaces and force curves.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <filesystem>
 #include <salebra/io/read_surface.hpp>
@@ -11,33 +12,69 @@
 #include "bindings.hpp"
 #include "interop/path.hpp"
 #include "interop/processes.hpp"
+#include "interop/reading.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
+#include "io/surface_importer.hpp"
 
 namespace salebra::python {
+namespace {
+
+/// What salebra-import does, without a process.
+std::vector<std::string> import_here(const std::filesystem::path& from,
+                                     const std::filesystem::path& to,
+                                     const UnknownFormat& refusal) {
+  const nb::gil_scoped_acquire held;
+  try {
+    return nb::cast<std::vector<std::string>>(
+        nb::module_::import_("salebra._importing").attr("imported")(from, to));
+  } catch (nb::python_error& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw InvalidInput(from.string(),
+                       refusal.statement() + "; " + nb::cast<std::string>(nb::str(error.value())));
+  }
+}
+
+}  // namespace
 
 void bind_files(nb::module_& m) {
+  set_surface_importer(import_here);
   m.def(
       "read_surface",
       [](const std::filesystem::path& file, std::optional<double> size_x,
          std::optional<double> size_y, std::optional<bool> periodic, const std::string& height_unit,
-         const ProcessesArgument& comm) {
+         bool transpose, const PixelSize& pixel_size, const std::string& lateral_unit,
+         std::optional<double> despike, const std::optional<std::vector<double>>& crop, bool fill,
+         bool profiles, const ProcessesArgument& comm) {
         const Communicator ranks = comm.ranks();
         std::vector<std::string> remarks;
-        Surface surface = unlocked([&] {
-          return read_surface(file, {size_x, size_y, periodic, height_unit, &remarks}, ranks);
-        });
+        ReadOptions options;
+        options.size_x = size_x;
+        options.size_y = size_y;
+        options.periodic = periodic;
+        options.height_unit = height_unit;
+        options.transpose = transpose;
+        options.pixel_size = pixel_size_of(pixel_size);
+        options.lateral_unit = lateral_unit;
+        options.despike = despike;
+        options.crop = rectangle_of(crop);
+        if (fill) options.undefined = Undefined::fill;
+        options.profiles = profiles;
+        options.remarks = &remarks;
+        Surface surface = unlocked([&] { return read_surface(file, options, ranks); });
         for (const std::string& line : remarks) warn_user(line);
         return new_surface(std::move(surface));
       },
       nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
       nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(), nb::arg("height_unit") = "",
-      nb::arg("comm") = nb::none(),
+      nb::arg("transpose") = false, nb::arg("pixel_size") = nb::none(),
+      nb::arg("lateral_unit") = "", nb::arg("despike") = nb::none(), nb::arg("crop") = nb::none(),
+      nb::arg("fill") = false, nb::arg("profiles") = false, nb::arg("comm") = nb::none(),
       R"(Reads the heights of a surface.
 
 What the file is follows from its first bytes, not from its name: HDF5, NPY, NetCDF in SurfaceTopography's layout, X3P, GWY, GSF,
-GXYZF, SUR, text matrices with the headers of Gwyddion and of instruments, XYZ. Other instrument formats:
-:meth:`Surface.from_topography`. Undefined points become NaN.
+GXYZF, SUR, text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. Formats of instruments
+are read by SurfaceTopography where it is installed (``pip install 'salebra[formats]'``). Undefined points become NaN.
 
 Parameters
 ----------
@@ -48,6 +85,20 @@ periodic : bool, optional
     In place of the file's.
 height_unit : str
     Such as "nm", for files that give none; empty: metres.
+transpose : bool
+    Exchange x and y of the file, before all that follows.
+pixel_size : float or (float, float), optional
+    Distance of the points along x and y in m, in place of sizes.
+lateral_unit : str
+    Such as "um", of XYZ points whose file gives none; empty: metres.
+despike : float, optional
+    Points so many robust standard deviations from their neighbours become undefined, see :meth:`Surface.despiked`.
+crop : (float, float, float, float), optional
+    x0, y0, x1, y1 of the part that is used, m; after `despike`.
+fill : bool
+    Fill undefined points at last, see :meth:`Surface.filled`.
+profiles : bool
+    Read a line profile too, as a surface of one row, for :func:`fit_profile`.
 comm : mpi4py.MPI.Intracomm, optional
     Processes over which the surface is spread, as in :func:`filtered_noise`. Of an HDF5 file each reads its rows; any other is read whole by
     the first one.
@@ -61,7 +112,7 @@ InvalidInput
 Warns
 -----
 UserWarning
-    Where a size differs from the file's, or the slopes are those of heights in another unit.
+    Where a size differs from the file's, the slopes are those of heights in another unit, or single points stand alone.
 )");
   m.def(
       "write_surface",

@@ -27,7 +27,8 @@ tangential_amplitude : float
 phase : float
     φ0, rad.
 angular_frequency : float
-    ω, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power and damping constant do.
+    ω, rad/s, or 0 where it is not known: the work per cycle does not depend on it, only power and damping constant do. Or
+    ``frequency``, ω/2π in Hz.
 )");
   keyword_constructor(equal, 3);
   auto drag = described_class<Drag>(
@@ -43,7 +44,7 @@ normal_amplitude : float
 drag_velocity : float
     v, m/s.
 angular_frequency : float
-    ω > 0, rad/s.
+    ω > 0, rad/s; or ``frequency``, ω/2π in Hz.
 )");
   keyword_constructor(drag, 3);
   auto two = described_class<TwoFrequencies>(

@@ -6,6 +6,7 @@
 
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/correlation.hpp>
+#include <salebra/surface/profile_fit.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -99,6 +100,17 @@ void bind_hurst(nb::module_& m) {
         ":class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
   described_class<IntervalEstimate>(m, "IntervalEstimate",
                                     "A value with its 95 % interval; NaN where there is none.");
+  described_class<ProfileFit>(
+      m, "ProfileFit",
+      "A line profile, and the isotropic surface of whose profiles it can be one.");
+  m.def(
+      "fit_profile",
+      [](const BoundSurface& profile) {
+        return unlocked([&] { return fit_profile(profile.surface); });
+      },
+      nb::arg("profile"),
+      "Rq, slope and the isotropic self-affine surface of a line profile, a surface of one row as "
+      ":func:`read_surface` with ``profiles=True`` gives it.");
   described_class<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.");
   m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"),
         "Hurst exponent, roll-off and shortest wavelength of a :class:`PowerSpectrum`.");

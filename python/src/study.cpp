@@ -21,6 +21,7 @@
 #include "interop/citations.hpp"
 #include "interop/described.hpp"
 #include "interop/path.hpp"
+#include "interop/reading.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 #include "results/describe.hpp"
@@ -62,12 +63,28 @@ InvalidInput
           "with_surface",
           [](const StudyConfiguration& self, const std::filesystem::path& file,
              std::optional<double> size_x, std::optional<double> size_y,
-             const std::string& height_unit) {
-            return with_surface(self, {file, size_x, size_y, {}, height_unit});
+             const std::string& height_unit, bool transpose, const PixelSize& pixel_size,
+             const std::string& lateral_unit, std::optional<double> despike,
+             const std::optional<std::vector<double>>& crop, bool fill) {
+            return with_surface(self, {file,
+                                       size_x,
+                                       size_y,
+                                       {},
+                                       height_unit,
+                                       transpose,
+                                       pixel_size_of(pixel_size),
+                                       lateral_unit,
+                                       despike,
+                                       rectangle_of(crop),
+                                       fill});
           },
           nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
-          nb::arg("size_y") = nb::none(), nb::arg("height_unit") = "",
-          "`file` in place of the surfaces of the configuration, which keeps everything else.");
+          nb::arg("size_y") = nb::none(), nb::arg("height_unit") = "", nb::arg("transpose") = false,
+          nb::arg("pixel_size") = nb::none(), nb::arg("lateral_unit") = "",
+          nb::arg("despike") = nb::none(), nb::arg("crop") = nb::none(), nb::arg("fill") = false,
+          "`file` in place of the surfaces of the configuration, which keeps everything else. The "
+          "others are those of :func:`read_surface`; few undefined points are filled without "
+          "`fill`.");
   m.def(
       "contact_models",
       [] {

@@ -2,16 +2,19 @@
 // Bindings of the surface class, its statistics, summits and areal parameters.
 #include "interop/surface.hpp"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <salebra/base/units.hpp>
 #include <salebra/surface/areal_parameters.hpp>
+#include <salebra/surface/crop.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/fill.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
+#include <salebra/surface/spikes.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "bindings.hpp"
@@ -151,6 +154,40 @@ Surface
 
 What is filled has no summits and takes power from short waves, so count `undefined_points` first.
 )")
+      .def(
+          "despiked",
+          [](const BoundSurface& self, double threshold) {
+            return new_surface(
+                unlocked([&] { return despiked(Surface(self.surface), threshold); }));
+          },
+          nb::arg("threshold") = 6.0,
+          R"(The surface with its spikes undefined: dust, and mistakes of the instrument.
+
+Parameters
+----------
+threshold : float
+    In robust standard deviations: of the neighbours of a point about their median, and at least of all points about the median of
+    their neighbours. Points beyond it are spikes where four at most lie beside each other; steps, scratches and summits remain.
+)")
+      .def(
+          "cropped",
+          [](const BoundSurface& self, double x0, double y0, double x1, double y1) {
+            return new_surface(unlocked([&] {
+              return cropped(self.surface, Rectangle{x0, y0, x1, y1});
+            }));
+          },
+          nb::arg("x0"), nb::arg("y0"), nb::arg("x1"), nb::arg("y1"),
+          "The part between two corners, m, moved to the nearest borders of cells. It is not "
+          "periodic.")
+      .def_prop_ro(
+          "largest_defined_part",
+          [](const BoundSurface& self) -> std::optional<std::array<double, 4>> {
+            const auto part = unlocked([&] { return largest_defined_part(self.surface); });
+            if (!part) return {};
+            return std::array{part->x0, part->y0, part->x1, part->y1};
+          },
+          "x0, y0, x1, y1 of the largest rectangle without undefined points, m, for "
+          ":meth:`cropped`; None where no point is defined.")
       .def(
           "with_periodic",
           [](const BoundSurface& self, bool periodic) {

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`salebra-import FILE OUT.h5`: a file of an instrument, read by SurfaceTopography, as a surface that salebra reads.
+
+The program calls it for files whose format it does not know. What the file does not state, its size or its unit, is not in OUT.h5
+either, and whoever reads that says with which option to give it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import datetime
+import json
+import os
+import sys
+import tempfile
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ._topography import metres_in
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+INSTALL = "pip install 'salebra[formats]'"
+
+
+class ImportRefusal(Exception):
+    """A file that is not read, with the reason in one line."""
+
+
+def _channel_of(reader: Any, wanted: str | None) -> Any:
+    heights = [channel for channel in reader.channels if getattr(channel, "is_height_channel", True)]
+    names = ", ".join(f"{channel.index} ({channel.name})" for channel in reader.channels)
+    if wanted is None:
+        default = reader.default_channel
+        return default if default in heights or not heights else heights[0]
+    for channel in reader.channels:
+        if wanted in (str(channel.index), channel.name):
+            return channel
+    raise ImportRefusal(f"has no channel {wanted}; it has {names}")
+
+
+def _opened(file: str) -> Any:
+    try:
+        from SurfaceTopography import open_topography
+        from SurfaceTopography.Exceptions import CannotDetectFileFormat
+    except ImportError as error:
+        raise ImportRefusal(f"is of no format that salebra knows; SurfaceTopography knows forty more: {INSTALL}") from error
+    try:
+        return open_topography(file)
+    except CannotDetectFileFormat as error:
+        raise ImportRefusal("is of no format that salebra or SurfaceTopography know; export it as text") from error
+
+
+def _attributes(file: str, reader: Any, channel: Any, topography: Any) -> dict[str, Any]:
+    import SurfaceTopography
+
+    info = topography.info if isinstance(topography.info, dict) else {}
+    known = {key: value for key, value in info.items() if key not in ("raw_metadata", "reader")}
+    try:
+        format_ = reader.format()
+    except (AttributeError, NotImplementedError):
+        format_ = type(reader).__name__
+    return {
+        "program": "salebra-import",
+        "libraries": f"SurfaceTopography {SurfaceTopography.__version__}",
+        "origin": os.path.basename(file),
+        "source_format": str(format_),
+        "channel": str(channel.name),
+        "information": json.dumps(known, default=str, sort_keys=True),
+        "created": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
+    }
+
+
+def _read(file: str, wanted: str | None) -> tuple[np.ndarray, np.ndarray | None, dict[str, Any], list[str]]:
+    """Heights, positions of a profile, attributes, and what the reader should know."""
+    reader = _opened(file)
+    channel = _channel_of(reader, wanted)
+    remarks = []
+    if wanted is None and len(reader.channels) > 1:
+        others = ", ".join(str(other.name) for other in reader.channels if other.index != channel.index)
+        remarks.append(f"channel {channel.name} of several; the others are {others}")
+    missing: dict[str, Any] = {}
+    if channel.physical_sizes is None or any(size is None for size in np.atleast_1d(channel.physical_sizes)):
+        missing["physical_sizes"] = (1.0,) * channel.dim
+    topography = reader.topography(channel_index=channel.index, **missing)
+    unit = topography.unit
+    if unit is not None and metres_in(str(unit)) is None:
+        raise ImportRefusal(f"has heights in '{unit}', which is no unit of length; name another channel by --channel")
+    factor = None if unit is None else metres_in(str(unit))
+    attributes = _attributes(file, reader, channel, topography)
+    heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=np.float64), np.nan)
+    positions = None
+    if topography.dim == 1:
+        # A profile without a length has its points one apart.
+        positions = np.asarray(topography.positions(), dtype=np.float64)
+        if "physical_sizes" in missing:
+            positions = None
+    if factor is not None:
+        # As SurfaceTopography's scaled heights times the unit.
+        heights = heights * factor if factor != 1.0 else heights
+        positions = positions * factor if positions is not None else None
+        attributes["units"] = "m"
+    sizes = topography.physical_sizes
+    if "physical_sizes" not in missing:
+        if factor is None:
+            remarks.append(f"its size of {' x '.join(f'{size:g}' for size in sizes)} is without a unit, and not used")
+            positions = None
+        else:
+            for name, size in zip(("size_x", "size_y"), sizes):
+                attributes[name] = float(size) * factor
+    if topography.dim == 2:
+        attributes["periodic"] = int(bool(topography.is_periodic))
+    return heights, positions, attributes, remarks
+
+
+def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *, channel: str | int | None = None) -> list[str]:
+    """Writes what `file` holds as HDF5, which appears whole or not at all. Returns remarks. Raises ImportRefusal."""
+    file, out = os.fspath(file), os.fspath(out)
+    if not os.path.isfile(file):
+        raise ImportRefusal("does not exist, or is no regular file; check the path")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        heights, positions, attributes, remarks = _read(file, None if channel is None else str(channel))
+    import h5py  # SurfaceTopography needs it too
+
+    folder = os.path.dirname(os.path.abspath(out))
+    descriptor, temporary = tempfile.mkstemp(dir=folder, prefix=".salebra-import-", suffix=".h5")
+    os.close(descriptor)
+    try:
+        with h5py.File(temporary, "w") as document:
+            document["heights"] = np.ascontiguousarray(heights)
+            if positions is not None:
+                document["x"] = positions
+            for name, value in attributes.items():
+                document.attrs[name] = value
+        os.replace(temporary, out)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+    return remarks
+
+
+def imported(file: str, out: str) -> list[str]:
+    """import_surface() for the extension, which takes a ValueError for a refusal."""
+    try:
+        return import_surface(file, out)
+    except ImportRefusal as refusal:
+        raise ValueError(str(refusal)) from None
+    except Exception as error:
+        raise ValueError(_failure(error)) from error
+
+
+def _failure(error: Exception) -> str:
+    return " ".join(f"SurfaceTopography cannot read it ({type(error).__name__}: {error})".split())[:500]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="salebra-import", description="A file of an instrument as an HDF5 file that salebra reads, by SurfaceTopography."
+    )
+    parser.add_argument("file", help="of one of SurfaceTopography's formats")
+    parser.add_argument("out", help="HDF5 file to write")
+    parser.add_argument("--channel", help="number or name; default the first with heights")
+    parser.add_argument("--overwrite", action="store_true", help="replace OUT")
+    given = parser.parse_args(arguments)
+
+    def say(kind: str, text: str) -> None:
+        print(f"salebra-import: {kind}: {' '.join(text.split())[:500]}", file=sys.stderr)
+
+    try:
+        if os.path.exists(given.out) and not given.overwrite:
+            say("error", f"{given.out}: exists; add --overwrite or name another file")
+            return 2
+        for remark in import_surface(given.file, given.out, channel=given.channel):
+            say("note", f"{given.file}: {remark}")
+    except ImportRefusal as refusal:
+        say("error", f"{given.file}: {refusal}")
+        return 2
+    except OSError as error:
+        say("error", f"{given.file}: {error}")
+        return 1
+    except Exception as error:  # a reader of SurfaceTopography may raise anything for a damaged file
+        say("error", f"{given.file}: {_failure(error)}")
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
