@@ -313,6 +313,25 @@ std::string points_text(Index points) {
   return points == 1 ? "1 point" : std::to_string(points) + " points";
 }
 
+/// Those that a flat body meets before the rest: they stand farther above their neighbours than
+/// three standard deviations of the heights, by the span of 98 % of them.
+std::vector<Spike> first_contacts(const Surface& surface, std::vector<Spike> spikes) {
+  if (spikes.empty()) return spikes;
+  std::vector<double> heights;
+  for (const double height : surface.heights.reshaped<Eigen::RowMajor>())
+    if (!std::isnan(height)) heights.push_back(height);
+  const auto quantile = [&](double share) {
+    const auto at = heights.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(heights.size() - 1));
+    std::ranges::nth_element(heights, at);
+    return *at;
+  };
+  constexpr double three_deviations = 3 / 4.65;
+  const double least = three_deviations * (quantile(0.99) - quantile(0.01));
+  std::erase_if(spikes, [&](const Spike& spike) { return !(spike.height > least); });
+  return spikes;
+}
+
 /// Says of spikes what they do, or that they are gone.
 std::string spikes_text(const std::vector<Spike>& spikes, bool removed) {
   Index above = 0;
@@ -371,7 +390,7 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
     remove_spikes(surface, spikes);
     if (!spikes.empty()) remark(spikes_text(spikes, true));
   } else if (options.remarks && !surface.periodic && surface.grid.ny > 1) {
-    remark(spikes_text(find_spikes(surface), false));
+    remark(spikes_text(first_contacts(surface, find_spikes(surface)), false));
   }
   Corner corner;
   if (options.crop) {
