@@ -22,7 +22,7 @@ using std::numbers::pi;
 
 constexpr double seen_above = 6;        ///< 2 ln of a likelihood ratio
 constexpr double one_sided = 1.353;     ///< half the 90 % quantile of χ² with one degree
-constexpr double refused_above = 1.8;   ///< misfit
+constexpr double refused_above = 2.2;   ///< misfit
 constexpr double bad_scan_above = 3.5;  ///< misfit of a scan, and over the median of its group
 constexpr double knots_per_decade = 5;
 using detail::unknown;

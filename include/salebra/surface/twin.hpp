@@ -185,7 +185,7 @@ struct SurfaceTwin {
   TwinParameter rms_height, rms_slope;
   Index bins = 0;
   double chi_square = 0;  ///< deviance of the fit over all bins
-  /// χ² over what is expected of it: 1 for the right law. Above 1.8 a law is refused.
+  /// χ² over what is expected of it: 1 for the right law. Above 2.2 a law is refused.
   double misfit = 0;
   double form_ratio = 0;     ///< 2 ln of the likelihood of the form over that of the other
   double rolloff_ratio = 0;  ///< the same over that of a roll-off 30 times the largest scan
@@ -236,7 +236,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
 /// cut-off for a tip, q_c a quarter of the Nyquist wave number. Its ratio to E_b is Gamma with m
 /// degrees, 1/m = 1/m_c + s²: m_c the independent modes, with the correlation of bins in them, s =
 /// 0.03 for what the law does not know, 0.5 about the cut-off and beyond. Of a tip, bins up to
-/// R·κ_rms(q) = 0.08 are used, κ_rms² = ⅜∫q⁴C d²q from the scans themselves. Priors: H flat in 0.02
+/// R·κ_rms(q) = 0.08 are used, κ_rms² = ⅜∫q⁴C d²q from the scans themselves, and s² grows by (0.75 R·κ_rms)². Priors: H flat in 0.02
 /// … 1.2, ln λ_r up to 30 times the largest scan, ln λ_s from a twentieth of the finest wavelength
 /// used, g normal as the calibrations say, ν with 0.5 (1.5 where the noise was found), ln σ with
 /// 0.05. Roll-off and cut-off are seen where twice the log likelihood ratio exceeds 6; else a limit
