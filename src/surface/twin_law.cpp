@@ -130,7 +130,7 @@ TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double 
   draw.short_cutoff = std::exp(parameters[static_cast<std::size_t>(law.cutoff())]);
   double height = 0, slope = 0;  // ∫C d²q and ∫q²C d²q in units of q0
   if (law.table()) {
-    draw.hurst = draw.rolloff = unknown;
+    draw.hurst = draw.rolloff = detail::unknown;
     for (const double knot : law.knots) draw.knots.push_back(law.reference * std::exp(knot));
     draw.log_psd.assign(parameters.begin(), parameters.end() - 1);
     const double start = std::log(lowest / law.reference);
