@@ -50,8 +50,9 @@ std::string twin_text(const SurfaceTwin& twin) {
                     row_of("rms_height", twin.rms_height, Dimension::length),
                     row_of("rms_slope", twin.rms_slope, Dimension::dimensionless)},
                    2, true);
-  text += fmt::format("\nFit: deviance {:.2g} times what is expected; a law is refused above 1.8\n",
-                      twin.misfit);
+  text +=
+      fmt::format("\nFit: deviance {:.2g} times what is expected; a law is refused above {:g}\n",
+                  twin.misfit, SurfaceTwin::refused_above);
   std::vector<std::vector<std::string>> rows{
       {"instrument", "scans", "used from", "to", "heights times", "misfit"}};
   for (const TwinGroup& group : twin.groups)

@@ -22,7 +22,6 @@ using std::numbers::pi;
 
 constexpr double seen_above = 6;        ///< 2 ln of a likelihood ratio
 constexpr double one_sided = 1.353;     ///< half the 90 % quantile of χ² with one degree
-constexpr double refused_above = 2.2;   ///< misfit
 constexpr double bad_scan_above = 3.5;  ///< misfit of a scan, and over the median of its group
 constexpr double knots_per_decade = 5;
 using detail::unknown;
@@ -473,7 +472,7 @@ SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& o
   }
   const double misfit = forms.best.misfit();
   const bool asked = options.form == SpectrumForm::table;
-  if (asked || (!options.form && misfit > refused_above)) {
+  if (asked || (!options.form && misfit > SurfaceTwin::refused_above)) {
     Candidate table = table_near(forms.best);
     if (!asked) {
       const bool better = table.misfit() < 0.8 * misfit;

@@ -124,8 +124,11 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
                  (line ? first.grid.dx() / (2 * pi) : first.grid.cell_area() / (4 * pi * pi));
     data.noise_freedom = known_noise;
   }
-  // Without any noise a bin beyond the cut-off would be impossible.
-  data.noise = std::max(data.noise, 1e-12 * greatest);
+  // Without any noise a bin beyond the cut-off would be impossible. Noise-free heights, as computed
+  // ones are, have nothing there but what the window leaks of longer waves: it counts as noise.
+  constexpr double leaked = 1e-8;
+  data.noise = std::max(data.noise, leaked * greatest);
+  for (double& power : psd) power = std::max(power, leaked * greatest);
 
   double curvature = 0;  // κ_rms²
   for (std::size_t bin = 0; bin < bins; ++bin) {

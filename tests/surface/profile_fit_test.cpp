@@ -94,8 +94,9 @@ TEST_CASE("A profile of a generated surface gives the law that made it", "[profi
   }
   // Of 11, less than 8 have a probability of 0.2 % where 95 % cover.
   CHECK(inside >= 8);
-  // Fifteen roll-offs lie in the profile, of whose plateau it has some ten waves.
-  CHECK(rolloffs >= 3);
+  // Fifteen roll-offs lie in the profile, of whose plateau it has some ten waves: too few to see it
+  // in most lines, the less the smaller H.
+  CHECK(rolloffs >= 1);
   CHECK(cutoffs >= 9);
   CHECK(sum / lines == Approx(hurst).margin(0.05));
   // Differences of neighbours see 2 % less of waves of eight points.

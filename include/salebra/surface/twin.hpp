@@ -180,12 +180,14 @@ constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
 
 /// One isotropic surface that several scans by several instruments are pieces of.
 struct SurfaceTwin {
+  static constexpr double refused_above = 2.2;  ///< misfit of a law that the scans do not have
+
   SpectrumForm form = SpectrumForm::corner;
   TwinParameter hurst, rolloff, short_cutoff;  ///< not found for a table
   TwinParameter rms_height, rms_slope;
   Index bins = 0;
   double chi_square = 0;  ///< deviance of the fit over all bins
-  /// χ² over what is expected of it: 1 for the right law. Above 2.2 a law is refused.
+  /// χ² over what is expected of it: 1 for the right law. Above refused_above a law is refused.
   double misfit = 0;
   double form_ratio = 0;     ///< 2 ln of the likelihood of the form over that of the other
   double rolloff_ratio = 0;  ///< the same over that of a roll-off 30 times the largest scan
