@@ -332,7 +332,7 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
         test.run(study + "--pressures " + loads_given + " -o t.h5"),
         "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
   check_refused(test.run(study + "--hardness 1kPa -o t.h5"),
-                "hardness: 1000 Pa is below the largest pressure");
+                "hardness: 1 kPa is below the largest of the loads");
   CHECK(!test.files().contains("t.h5"));
   std::string facts = study_text("seeds = [3]");
   facts.replace(facts.find("[material]\n"), 11, "[material]\nhardness = \"0Pa\"\n");
