@@ -385,11 +385,14 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
   const auto remark = [&](const std::string& text) {
     if (options.remarks && !text.empty()) options.remarks->push_back(file.string() + ": " + text);
   };
+  // Of fewer points no scatter of neighbours is known.
+  constexpr Index least_points = 8;
   if (options.despike) {
     const std::vector<Spike> spikes = find_spikes(surface, *options.despike);
     remove_spikes(surface, spikes);
     if (!spikes.empty()) remark(spikes_text(spikes, true));
-  } else if (options.remarks && !surface.periodic && surface.grid.ny > 1) {
+  } else if (options.remarks && !surface.periodic &&
+             std::min(surface.grid.nx, surface.grid.ny) >= least_points) {
     remark(spikes_text(first_contacts(surface, find_spikes(surface)), false));
   }
   Corner corner;
