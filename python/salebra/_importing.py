@@ -8,7 +8,9 @@ either, and whoever reads that says with which option to give it.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import datetime
+import io
 import json
 import os
 import sys
@@ -49,7 +51,9 @@ def _opened(file: str) -> Any:
     except ImportError as error:
         raise ImportRefusal(f"is of no format that salebra knows; SurfaceTopography knows forty more: {INSTALL}") from error
     try:
-        return open_topography(file)
+        # Readers that try a file in vain print what they met.
+        with contextlib.redirect_stderr(io.StringIO()), contextlib.redirect_stdout(io.StringIO()):
+            return open_topography(file)
     except CannotDetectFileFormat as error:
         raise ImportRefusal("is of no format that salebra or SurfaceTopography know; export it as text") from error
 
@@ -124,7 +128,7 @@ def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *,
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         heights, positions, attributes, remarks = _read(file, None if channel is None else str(channel))
-    import h5py  # SurfaceTopography needs it too
+    import h5py  # type: ignore[import-untyped]  # SurfaceTopography needs it too
 
     folder = os.path.dirname(os.path.abspath(out))
     descriptor, temporary = tempfile.mkstemp(dir=folder, prefix=".salebra-import-", suffix=".h5")

@@ -209,7 +209,7 @@ void complete_profile(const std::filesystem::path& file, const ReadOptions& opti
                       const LoadedSurface& loaded, Grid2D& grid) {
   if (!options.profiles)
     refuse(file, fmt::format("is a line profile of {} points, and a contact needs an area; "
-                             "`statistics` fits the isotropic surface to generate in its place",
+                             "statistics fits the isotropic surface to generate in its place",
                              loaded.heights.rows()));
   if (options.transpose || options.crop)
     refuse(file, "is a line profile, which has nothing to transpose or to crop");
