@@ -154,7 +154,6 @@ constexpr std::string_view chart =
     "  a measured surface       roughness and spectrum           statistics\n"
     "                           contact, force-gap curve         contact, fit\n"
     "                           damping                          study --surface\n"
-    "  scans of one part        its surface, its damping         twin, study --twin\n"
     "  a spectrum, no file      such surfaces, their damping     generate, study\n"
     "  a law, a curve           damping for any motion           damping\n"
     "  a sphere, cone, profile  losses, slip; simulation in 3-D  damping, oscillate\n"

@@ -187,6 +187,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"verify", ""},
       {"report", ""},
       {"init", ""},
+      {"twin", ""},
       {"completion", ""}};
   const std::string help = test.run("--help").out;
   int with_loss = 0;
@@ -327,8 +328,9 @@ TEST_CASE("A study prints the loss with slip, and refuses a hardness below its p
   CHECK(salebra::ResultReader(test.folder() / "slides.h5").numbers("answer/regime") ==
         std::vector<double>(loads, 2));
   for (const std::string loads_given : {"10MPa", "10MPa,20MPa,30MPa"})
-    check_refused(test.run(study + "--pressures " + loads_given + " -o t.h5"),
-                  "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
+    check_refused(
+        test.run(study + "--pressures " + loads_given + " -o t.h5"),
+        "values are too few; at least 4 make a curve. For one load: salebra damping --surface");
   check_refused(test.run(study + "--hardness 1kPa -o t.h5"),
                 "hardness: 1000 Pa is below the largest pressure");
   CHECK(!test.files().contains("t.h5"));

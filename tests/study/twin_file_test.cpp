@@ -55,7 +55,7 @@ TEST_CASE("A list of scans names each mistake with its line", "[twin]") {
                       Catch::Contains(message));
   };
   const std::string one = "[[measurement]]\nfile = \"a.h5\"\n";
-  refused("", "measurement: is missing; add a table [[measurement]] for each scan");
+  refused("# none\n", "measurement: is missing; add a table [[measurement]] for each scan");
   refused("[measurement]\nfile = \"a.h5\"\n", "must be tables; write [[measurement]]");
   refused("[[measurement]]\ninstrument = \"afm\"\n", "measurement.file: is missing");
   refused(one, "measurement.instrument: is missing; give optical, stylus or afm");
@@ -100,8 +100,10 @@ TEST_CASE("A twin of files is that of their heights, and its file holds its draw
         "[[measurement]]\nfile = \"" + name + "\"\ninstrument = \"ideal\"\ndetrend = \"none\"\n";
     scans.push_back(scan_spectrum(scan.heights, scan.grid, {}, 1, name));
   }
-  const SurfaceTwin twin = twin_of(read_twin_measurements(folder.with("t.toml", list)));
-  const SurfaceTwin direct = fit_twin(scans);
+  // Of periodic surfaces, which have no longer waves, the choice of a form would take a table.
+  const TwinOptions options{.form = SpectrumForm::corner};
+  const SurfaceTwin twin = twin_of(read_twin_measurements(folder.with("t.toml", list)), options);
+  const SurfaceTwin direct = fit_twin(scans, options);
   CHECK(twin.hurst.value == direct.hurst.value);
   CHECK(twin.rms_slope.low == direct.rms_slope.low);
   write_twin(folder.path / "twin.h5", twin, {});
@@ -172,9 +174,9 @@ TEST_CASE("A study tells what the scans leave open from what differs from place 
   surfaces.tables = {table(1), table(0.5), table(1), table(2), table(4)};
   const StudyResult open = run_study(study);
   // Four pairs of one law: the expected share is 0, with a wide scatter. Laws that differ by 8 in
-  // height: almost all.
-  CHECK(alike.scan_share() < 0.7);
-  CHECK(open.scan_share() > 0.9);
+  // height: most of it, though few spots carry such small surfaces.
+  CHECK(alike.scan_share() < 0.6);
+  CHECK(open.scan_share() > 0.75);
   CHECK(std::isnan(run_study(small_study()).scan_share()));
   const auto flagged = [](const StudyResult& result) {
     return std::ranges::any_of(result.flags, [](const auto& flag) { return flag.name == "twin"; });

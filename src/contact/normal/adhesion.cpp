@@ -119,7 +119,7 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
   // The zone grows with the square of the range and with the number of cells.
   require(zone >= least_zone || options.force_coarse, "range", adhesion.range,
           fmt::format("leaves {:.2g} cells in the process zone, and the cells decide what sticks; "
-                      "use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
+                      "use a range of {:.3g} m, cells of {:.3g} m, or force_coarse",
                       zone, adhesion.range * std::sqrt(doubtful_zone / zone),
                       std::max(surface.grid.dx(), surface.grid.dy()) * zone / doubtful_zone));
 }
