@@ -17,7 +17,7 @@ ROOT, PROGRAM, SCRATCH = (pathlib.Path(argument).resolve() for argument in sys.a
 # What cmake/SalebraFind.cmake and SalebraDependencies.cmake look for → what conda-forge and Spack call it; None: comes with the compiler, or is not for every recipe.
 NAMES = {
     "Threads": None, "OpenMP": None, "PkgConfig": "pkg-config|pkgconfig", "Eigen3": "eigen", "fmt": "fmt", "fftw3": "fftw", "fftw3f": "fftw",
-    "RANDOM123_INCLUDE_DIR": "random123", "GSL": "gsl", "HDF5": "hdf5", "libzip": "libzip", "pugixml": "pugixml",
+    "RANDOM123_INCLUDE_DIR": "random123", "GSL": "gsl", "HDF5": "hdf5", "libzip": "libzip", "ZLIB": "zlib|libzlib|zlib-api", "pugixml": "pugixml",
     "tomlplusplus": "tomlplusplus", "nlohmann_json": "nlohmann_json|nlohmann-json", "CLI11": "cli11",
     "MPI": None,  # for salebra-mpi alone, which only Spack's recipe makes
     "Catch2": None,  # for the tests alone
