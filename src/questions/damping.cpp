@@ -274,12 +274,13 @@ class SurfaceDamper {
 
   /// Without slip γω is a number of the amplitude alone, and is solved once.
   DamperConstant at(double amplitude, double angular_frequency) {
-    if (slips(question_)) return solve({amplitude, question_.drag_velocity, angular_frequency});
-    if (!(solved_amplitude_ == amplitude)) solved_ = solve({amplitude, 1e-6, 1});
+    if (slips(question_) && why_unknown(question_, angular_frequency).empty())
+      return with_slip({amplitude, question_.drag_velocity, angular_frequency});
+    if (!(solved_amplitude_ == amplitude)) solved_ = without_slip(amplitude);
     solved_amplitude_ = amplitude;
-    DamperConstant found = solved_;
-    found.value /= angular_frequency, found.error /= angular_frequency;
-    return found;
+    const double constant = solved_.value / angular_frequency;
+    if (slips(question_)) return {.without_slip = constant};
+    return {.value = constant, .error = solved_.error / angular_frequency};
   }
 
   void decay(double contact_stiffness) {
@@ -324,35 +325,35 @@ class SurfaceDamper {
   }
 
  private:
-  DamperConstant solve(const Drag& drag) {
-    const bool followed =
-        slips(question_) && why_unknown(question_, drag.angular_frequency).empty();
-    // Without slip W is in proportion to v², and any velocity serves.
-    const Drag solved{drag.normal_amplitude,
-                      std::isnan(drag.drag_velocity) ? 1e-6 : drag.drag_velocity,
-                      drag.angular_frequency};
+  DamperConstant with_slip(const Drag& drag) {
+    const SurfaceDamping load = solved(drag, options_);
+    const auto constant_of = [&](double work) { return closed_form::damping_constant(work, drag); };
+    const double work = load.relaxation_work + load.slip_work;
+    return stated({constant_of(work), constant_of(load.work_with_slip_error), load.slip_work / work,
+                   load.damping_constant},
+                  drag.normal_amplitude);
+  }
+
+  /// γω: W is in proportion to v², and any velocity serves.
+  DamperConstant without_slip(double amplitude) {
     SurfaceDampingOptions options = options_;
-    if (!followed) options.friction_coefficient = options.excursion = not_known;
-    const SurfaceDamping load =
-        surface_damping(*answer_.contact.surface, material_, solved, about_, options)[0];
-    const auto constant_of = [&](double work) {
-      return closed_form::damping_constant(work, solved);
-    };
-    DamperConstant found;
-    if (!slips(question_)) {
-      found = {.value = load.damping_constant, .error = load.damping_constant_error()};
-    } else {
-      if (followed)
-        found = {.value = constant_of(load.relaxation_work + load.slip_work),
-                 .error = constant_of(load.work_with_slip_error),
-                 .slip_share = load.slip_work / (load.relaxation_work + load.slip_work)};
-      found.without_slip = load.damping_constant;
-    }
-    if (found.error < std::abs(found.value) || std::isnan(found.value)) return found;
+    options.friction_coefficient = options.excursion = not_known;
+    const SurfaceDamping load = solved({amplitude, 1e-6, 1}, options);
+    return stated({.value = load.damping_constant, .error = load.damping_constant_error()},
+                  amplitude);
+  }
+
+  SurfaceDamping solved(const Drag& drag, const SurfaceDampingOptions& options) const {
+    return surface_damping(*answer_.contact.surface, material_, drag, about_, options)[0];
+  }
+
+  /// With its error where this is smaller.
+  DamperConstant stated(const DamperConstant& found, double amplitude) {
+    if (found.error < std::abs(found.value)) return found;
     answer_.doubts.push_back(fmt::format(
         "the error of the damping constant under {} exceeds it, and neither is given; a finer "
         "surface helps",
-        format_quantity(drag.normal_amplitude, Dimension::length)));
+        format_quantity(amplitude, Dimension::length)));
     return {.without_slip = found.without_slip};
   }
 

@@ -248,6 +248,56 @@ TEST_CASE("A slow motion that passes a contact spot in one normal cycle is told"
   CHECK(test.run(curve + "--drag-velocity 1mm/s").err.empty());
 }
 
+TEST_CASE("With friction a damper loses what slides, and says what it lacks", "[damper]") {
+  const ProgramTest test;
+  const std::string law =
+      "damping --law exponential --normal-force 10 --decay-length 44nm --poisson 0.3 "
+      "--normal-amplitude 1nm --frequency 20kHz ";
+  // A hundred times faster than levels stick for and over 10⁵ depths, all of it slides: the power
+  // is μFv, γ = μF/v, and there and back 2XμF is lost. Turning points store 1e-5 of it, the normal
+  // oscillation raises the mean force by (u_z/2l)² = 1.3e-4, and levels that open add 4e-4.
+  const std::string slides =
+      law + "--friction-coefficient 0.3 --drag-velocity 5mm/s --excursion 10mm ";
+  const auto damper = test.answer(slides + "--mass 1kg");
+  CHECK(damper["damping_constant"] == Approx(0.3 * 10 / 5e-3).epsilon(1e-3));
+  CHECK(damper["slip_share"] == Approx(1).epsilon(1e-3));
+  CHECK(damper["decay"]["damping_ratio"].get<double>() > 0);
+  const auto motion = test.answer(slides);
+  CHECK(motion["work_there_and_back"] == Approx(2 * 1e-2 * 0.3 * 10).epsilon(1e-3));
+  CHECK(motion["regime"] == "sliding");
+  CHECK_THAT(test.run(slides).out,
+             Contains("Regime: sliding: the mean friction") && Contains("`salebra sliding`"));
+  // Without the velocity no number of another regime stands in the place.
+  const auto without = test.answer(law + "--mass 1kg");
+  const auto lacks = test.run(law + "--friction-coefficient 0.3 --mass 1kg --json");
+  CHECK(lacks.json()["damping_constant"].is_null());
+  CHECK(lacks.json()["decay"]["damping_ratio"].is_null());
+  CHECK(lacks.json()["damping_constant_without_slip"] == without["damping_constant"]);
+  CHECK_THAT(lacks.err, Contains("--drag-velocity and the --excursion"));
+  check_refused(
+      test.run(law + "--friction-coefficient 0.3 --falling-slope 1 --drag-velocity 5mm/s"),
+      "--falling-slope");
+  // Of a surface γω without slip is a number of the amplitude, with friction or without.
+  test.done(
+      "generate --points 32 --size-x 1mm --hurst 0.8 --rolloff 0.5mm --short-cutoff 0.25mm "
+      "--rms-height 1um -o rough.h5");
+  const std::string surface =
+      "damping --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
+      "--normal-amplitude 10nm --frequency 10:20kHz:2 --quiet ";
+  const auto stuck = test.answer(surface),
+             open = test.answer(surface + "--friction-coefficient 0.3");
+  CHECK(open["damping_constant_without_slip"] == stuck["damping_constant"]);
+  CHECK(open["damping_constant"][0].is_null());
+  const auto slips = test.answer(
+      "damping --surface rough.h5 --pressure 1MPa --contact-modulus 1GPa --poisson 0.3 "
+      "--normal-amplitude 10nm --frequency 10kHz --quiet --mass 1g --spring-stiffness 1kN/m "
+      "--friction-coefficient 0.3 --drag-velocity 1um/s --excursion 100nm");
+  CHECK(slips["damping_constant"].get<double>() > stuck["damping_constant"][0].get<double>());
+  CHECK(slips["damping_constant_error"].get<double>() < slips["damping_constant"].get<double>());
+  CHECK(slips["damping_constant_without_slip"].get<double>() ==
+        Approx(stuck["damping_constant"][0].get<double>()).epsilon(0.02));
+}
+
 TEST_CASE("Damping of a surface is that of a study, with its error", "[damping]") {
   const ProgramTest test;
   test.done(

@@ -49,6 +49,17 @@ TEST_CASE("viscoelastic tells the losses of material and relaxation apart over f
   CHECK(answer["premises"]["slip_of_opening_levels"]["value"].size() == 3);
 }
 
+TEST_CASE("Slip under a viscoelastic contact is answered with what there is", "[viscoelastic]") {
+  const ProgramTest test;
+  // M = 0.01 * 5 nm/(0.8 * 2 um): levels slip, and no loss with slip is computed.
+  const auto run = test.run(
+      "viscoelastic --law sphere --radius 5mm --indentation 20um --contact-modulus 4MPa --poisson "
+      "0.3 --prony 3MPa:20ms --mode equal-frequency --normal-amplitude 5nm --tangential-amplitude "
+      "2um --phase 90deg --frequency 1,10 --friction-coefficient 0.01");
+  CHECK_THAT(run.out, Contains("a smaller motion; slip is not followed here"));
+  CHECK(run.out.find("use the loss with slip") == std::string::npos);
+}
+
 TEST_CASE("The table of viscoelastic begins with what varies", "[viscoelastic]") {
   const ProgramTest test;
   const std::string drag = cone + "--normal-amplitude 1um,2um --drag-velocity 1um/s --frequency 5 ";
