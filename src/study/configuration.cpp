@@ -345,15 +345,27 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
 
 }  // namespace
 
+namespace {
+
+std::unique_ptr<const IsotropicSpectrum> spectrum_at(const GeneratedSurfaces& surfaces,
+                                                     std::size_t place) {
+  if (surfaces.tables.empty()) return std::make_unique<SelfAffineSpectrum>(surfaces.spectrum);
+  const SpectrumTable& table = surfaces.tables[place];
+  return std::make_unique<TabulatedSpectrum>(table.wavenumber, table.psd);
+}
+
+}  // namespace
+
 std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of_all() const {
-  if (tables.empty()) return std::make_unique<SelfAffineSpectrum>(spectrum);
-  return std::make_unique<TabulatedSpectrum>(tables.front().wavenumber, tables.front().psd);
+  return spectrum_at(*this, 0);
 }
 
 std::unique_ptr<const IsotropicSpectrum> GeneratedSurfaces::spectrum_of(std::uint64_t seed) const {
-  if (tables.size() < 2) return spectrum_of_all();
-  const SpectrumTable& table = tables[1 + seed / 2 % (tables.size() - 1)];
-  return std::make_unique<TabulatedSpectrum>(table.wavenumber, table.psd);
+  return spectrum_at(*this, table_of(seed));
+}
+
+std::size_t GeneratedSurfaces::table_of(std::uint64_t seed) const {
+  return tables.size() < 2 ? 0 : 1 + seed / 2 % (tables.size() - 1);
 }
 
 bool StudyConfiguration::has(ContactModel model) const {

@@ -55,38 +55,38 @@ double quantile(std::vector<double>& values, double probability) {
 
 double EnsembleMean::relative_precision() const { return (high - low) / 2 / std::abs(mean); }
 
-EnsembleMean student_mean(const std::vector<double>& values) {
-  const std::vector<double> kept = known(values);
+namespace {
+
+/// The mean, and Student's interval about it of what scatters `divisor` times less than a value.
+EnsembleMean student(const std::vector<double>& kept, double divisor) {
   EnsembleMean estimate;
   if (kept.empty()) return estimate;
   const Moments moments = moments_of(kept);
   estimate.mean = moments.mean;
   if (kept.size() < 2) return estimate;
-  const double count = double(kept.size());
-  const double half = gsl_cdf_tdist_Pinv(0.975, count - 1) * moments.deviation / std::sqrt(count);
+  const double half =
+      gsl_cdf_tdist_Pinv(0.975, double(kept.size()) - 1) * moments.deviation / divisor;
   estimate.low = estimate.mean - half;
   estimate.high = estimate.mean + half;
   return estimate;
 }
 
+}  // namespace
+
+EnsembleMean student_mean(const std::vector<double>& values) {
+  const std::vector<double> kept = known(values);
+  return student(kept, std::sqrt(double(kept.size())));
+}
+
 EnsembleMean prediction(const std::vector<double>& values) {
   std::vector<double> kept = known(values);
-  EnsembleMean estimate;
-  if (kept.empty()) return estimate;
-  estimate.mean = moments_of(kept).mean;
-  if (kept.size() < 2) return estimate;
-  const bool positive = std::ranges::all_of(kept, [](double value) { return value > 0; });
-  if (positive)
-    for (double& value : kept) value = std::log(value);
-  const Moments moments = moments_of(kept);
-  const double count = double(kept.size());
-  const double half =
-      gsl_cdf_tdist_Pinv(0.975, count - 1) * moments.deviation * std::sqrt(1 + 1 / count);
-  estimate.low = moments.mean - half;
-  estimate.high = moments.mean + half;
-  if (positive)
-    for (double* limit : {&estimate.low, &estimate.high}) *limit = std::exp(*limit);
-  return estimate;
+  const double divisor = 1 / std::sqrt(1 + 1 / double(kept.size()));
+  if (!std::ranges::all_of(kept, [](double value) { return value > 0; }))
+    return student(kept, divisor);
+  const double mean = student(kept, divisor).mean;
+  for (double& value : kept) value = std::log(value);
+  const EnsembleMean logarithm = student(kept, divisor);
+  return {mean, std::exp(logarithm.low), std::exp(logarithm.high)};
 }
 
 Bootstrap::Bootstrap(int resamples, std::uint64_t seed) : resamples_(resamples), seed_(seed) {

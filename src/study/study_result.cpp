@@ -250,17 +250,18 @@ std::vector<EnsembleMean> StudyResult::convergence() const {
 
 double StudyResult::scan_share() const {
   if (!configuration.of_twin()) return ForceSample::unknown;
+  const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   double sum = 0, loads = 0;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
-    std::map<std::uint64_t, std::vector<double>> of_draw;  // ln W of the surfaces of one spectrum
+    std::map<std::size_t, std::vector<double>> of_table;  // ln W of the surfaces of one spectrum
     double first = 0, second = 0, count = 0, within = 0, pairs = 0;
     for (const Realisation& realisation : realisations) {
       const double work = realisation.of(ContactModel::bem).damping[k].work_per_cycle;
       if (!(work > 0)) continue;
-      of_draw[realisation.seed / 2].push_back(std::log(work));
+      of_table[surfaces.table_of(realisation.seed)].push_back(std::log(work));
       first += std::log(work), second += std::pow(std::log(work), 2), ++count;
     }
-    for (const auto& [draw, logarithms] : of_draw) {
+    for (const auto& [table, logarithms] : of_table) {
       if (logarithms.size() < 2) continue;
       within += std::pow(logarithms[0] - logarithms[1], 2) / 2;
       ++pairs;

@@ -79,6 +79,8 @@ struct GeneratedSurfaces {
   /// That of the best table, or the self-affine one.
   std::unique_ptr<const IsotropicSpectrum> spectrum_of_all() const;
   std::unique_ptr<const IsotropicSpectrum> spectrum_of(std::uint64_t seed) const;
+  /// Place among the tables of the one that a seed has; 0 where all have the same.
+  std::size_t table_of(std::uint64_t seed) const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<GeneratedSurfaces>) {
