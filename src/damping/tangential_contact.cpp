@@ -49,6 +49,7 @@ struct TangentialContact::State {
       : table(
             std::make_shared<const detail::StiffnessTable>(law, low, high, given.table_tolerance)),
         permanent_below(lowest_of_motion),
+        parts_below(!(law.force(lowest_of_motion) > 0)),
         permanent_stiffness(law.tangential_stiffness(lowest_of_motion)),
         slope_limit(given.friction_coefficient / stiffness_ratio),
         merge_tolerance(given.merge_tolerance),
@@ -59,8 +60,9 @@ struct TangentialContact::State {
   }
 
   double within_range(double level) const {
+    if (parts_below && level < permanent_below) return level;
     require(level >= permanent_below - slack && level <= table->highest() + slack, "indentation",
-            level, "leaves the range that the contact was made for");
+            level, "m leaves the range from lowest to highest that the contact was made for");
     return std::clamp(level, permanent_below, table->highest());
   }
 
@@ -256,6 +258,11 @@ struct TangentialContact::State {
   }
 
   void move(double new_indentation, double new_x) {
+    if (indentation < table->lowest() && new_indentation > table->lowest()) {
+      // Touches on the way.
+      x += (table->lowest() - indentation) / (new_indentation - indentation) * (new_x - x);
+      indentation = table->lowest();
+    }
     if (new_indentation < indentation) release(new_indentation, new_x);
     if (new_indentation > indentation) touch(new_indentation, new_x);
     if (std::isfinite(slope_limit)) {
@@ -271,7 +278,9 @@ struct TangentialContact::State {
   }
 
   std::shared_ptr<const detail::StiffnessTable> table;  // the same for all copies of a state
-  double permanent_below, permanent_stiffness, slope_limit, merge_tolerance, slack;
+  double permanent_below;
+  bool parts_below;
+  double permanent_stiffness, slope_limit, merge_tolerance, slack;
   std::vector<Piece> pieces;
   double indentation = 0, x = 0, origin = 0;  // x counts from the origin
   double dissipated = 0, permanent = 0, energy_at_start = 0;
@@ -299,8 +308,9 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
   const double ratio = law.stiffness_ratio(0.5 * (lowest + highest));
   double low = lowest;
   if (std::isfinite(options.friction_coefficient)) {
-    require(options.tangential_range >= 0, "tangential_range", options.tangential_range,
-            "must be >= 0");
+    require(options.tangential_range > 0 || options.friction_coefficient == 0, "tangential_range",
+            options.tangential_range,
+            "m must be > 0 where friction is finite: the largest distance of two positions x");
     // A level deeper than this is never stretched to its limit.
     const double reach = options.friction_coefficient > 0 ? 1.001 * options.tangential_range *
                                                                 ratio / options.friction_coefficient
@@ -325,6 +335,13 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
     }
   }
   state_ = std::make_unique<State>(law, low, highest, lowest, ratio, options);
+}
+
+TangentialContact::TangentialContact(const TangentialContact& other)
+    : state_(std::make_unique<State>(*other.state_)) {}
+
+TangentialContact& TangentialContact::operator=(const TangentialContact& other) {
+  return *this = TangentialContact(other);
 }
 
 TangentialContact::TangentialContact(TangentialContact&&) noexcept = default;

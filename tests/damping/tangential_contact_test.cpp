@@ -298,6 +298,46 @@ TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[
   CHECK(2 * fine.force - coarse.force == Approx(0).margin(5e-4));
 }
 
+TEST_CASE("A contact parts where its law bears nothing, and touches again where it then is",
+          "[tangential]") {
+  const PowerLaw law(1e9, 1.5, ratio);
+  for (const double friction : {0.3, double(INFINITY)}) {
+    const TangentialContactOptions options{.friction_coefficient = friction,
+                                           .tangential_range = 1e-7};
+    TangentialContact across(law, 0, 1e-7, options), along(across);
+    across.start(5e-8, 0), along.start(5e-8, 0);
+    // The same straight steps, across first touch and with a stop there.
+    across.move_to(-5e-8, 2e-8);
+    along.move_to(0, 1e-8);
+    CHECK(across.tangential_force() == 0);
+    CHECK(across.stored_energy() == 0);
+    CHECK(across.dissipated() == Approx(along.dissipated()).epsilon(1e-12));
+    across.move_to(-2e-8, 3e-8), along.move_to(0, 3.4e-8);
+    across.move_to(3e-8, 4e-8), along.move_to(3e-8, 4e-8);
+    across.move_to(3e-8, 3.9e-8), along.move_to(3e-8, 3.9e-8);
+    CHECK(across.tangential_force() > 0);
+    CHECK(across.tangential_force() == Approx(along.tangential_force()).epsilon(1e-12));
+    CHECK(across.dissipated() == Approx(along.dissipated()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("A copy of a contact is a state to come back to", "[tangential]") {
+  const ExponentialLaw law(10, 1e-7, ratio);
+  TangentialContact contact(law, -5e-8, 5e-8,
+                            {.friction_coefficient = 0.3, .tangential_range = 2e-7});
+  const auto path = wild_path(-5e-8, 5e-8, 5e-8, 60);
+  contact.start(0, 0);
+  for (int i = 0; i < 30; ++i) contact.move_to(path[i].indentation, path[i].x);
+  const TangentialContact saved = contact;
+  const auto go_on = [&] {
+    for (int i = 30; i < 60; ++i) contact.move_to(path[i].indentation, path[i].x);
+    return std::pair(contact.tangential_force(), contact.dissipated());
+  };
+  const auto first = go_on();
+  contact = saved;
+  CHECK(go_on() == first);
+}
+
 TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
   const PowerLaw law(1e9, 1.5, ratio);
   TangentialContact contact(law, 1e-7, 1e-6);
@@ -308,6 +348,8 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
   CHECK_THROWS_AS(contact.move_to(5e-7, INFINITY), InvalidInput);
   CHECK_THROWS_WITH(TangentialContact(law, 0, 1e-6, {.friction_coefficient = -0.1}),
                     Catch::Contains("friction"));
+  CHECK_THROWS_WITH(TangentialContact(law, 0, 1e-6, {.friction_coefficient = 0.1}),
+                    Catch::Contains("tangential_range"));
   CHECK_THROWS_AS(TangentialContact(law, 1e-6, 0), InvalidInput);
   ForceCurve curve;
   for (int i = 0; i <= 20; ++i)

@@ -17,8 +17,9 @@ struct TangentialContactOptions {
   double merge_tolerance = 0;
   /// Relative, of the table of K_t that the law is replaced by; 1e-14 … 1e-3.
   double table_tolerance = 1e-12;
-  /// m, largest |x − x'| between two positions of the motion, or infinity for slide(). Needed where
-  /// friction is finite, not used otherwise: it says how deep below the edge slip may reach.
+  /// m, largest |x − x'| between two positions of the motion, or infinity for slide(). Must be > 0
+  /// where friction is finite and > 0, and is not used otherwise: it says how deep below the edge
+  /// slip may reach.
   double tangential_range = 0;
 };
 
@@ -27,18 +28,23 @@ struct TangentialContactOptions {
 ///     F_x = ∫_{−∞}^{δ} K_t'(ζ)[x − x0(ζ)]dζ,
 /// x0(ζ): where the springs of indentation level ζ are anchored. A level is anchored where it
 /// touches. With finite friction its stretch obeys |x − x0| <= (μK/K_t)(δ − ζ), and its anchor
-/// slips along otherwise, K/K_t the law's in the middle of the motion; without, it is let go at once with all its stretch when δ falls through
-/// ζ. Exact for motion in straight steps, up to the table of K_t: x0 is piecewise linear in ζ, and
+/// slips along otherwise, K/K_t the law's in the middle of the motion; without, it is let go at once
+/// with all its stretch when δ falls through ζ. Exact for motion in straight steps, up to the table of K_t: x0 is piecewise linear in ζ, and
 /// the pieces form a stack (a memory of turning points) on which every step pushes at most two and
 /// removes those that it wipes out, so that a step costs O(1) on average and the memory does not
-/// grow with the number of cycles.
+/// grow with the number of cycles. A copy is a state to come back to, and copies share the table, so
+/// that a thousand equal contacts are copies of one. ContactElement has both directions at once, and
+/// derivatives.
 class TangentialContact {
  public:
-  /// The motion must stay within lowest <= δ <= highest. Throws InvalidInput where the law does not
-  /// cover it, and for options out of range.
+  /// The motion must stay within lowest <= δ <= highest, but that below a `lowest` without force
+  /// nothing touches. Throws InvalidInput where the law does not cover the range, and for options
+  /// out of range.
   TangentialContact(const ContactLaw& law, double lowest, double highest,
                     const TangentialContactOptions& options = {});
+  TangentialContact(const TangentialContact& other);
   TangentialContact(TangentialContact&&) noexcept;
+  TangentialContact& operator=(const TangentialContact& other);
   TangentialContact& operator=(TangentialContact&&) noexcept;
   ~TangentialContact();
 

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/damping/contact_element.hpp>
+#include <salebra/damping/tangential_contact.hpp>
+#include <vector>
+
+using namespace salebra;
+using std::numbers::pi;
+
+namespace {
+
+constexpr double ratio = 0.8;
+
+std::shared_ptr<const LawLevels> levels_of(const ContactLaw& law, double lowest, double highest,
+                                           double friction, int levels) {
+  return std::make_shared<const LawLevels>(
+      law, lowest, highest, LawLevelsOptions{.friction_coefficient = friction, .levels = levels});
+}
+
+double size_of(const ElementForces& forces) {
+  return std::hypot(forces.tangential[0], forces.tangential[1]);
+}
+
+// A random walk of turning points in δ, x, y.
+std::vector<std::array<double, 3>> walk(double low, double high, double reach, int count) {
+  std::mt19937_64 bits(11);
+  const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  std::vector<std::array<double, 3>> path;
+  for (int i = 0; i < count; ++i)
+    path.push_back(
+        {low + (high - low) * uniform(), reach * (2 * uniform() - 1), reach * (2 * uniform() - 1)});
+  return path;
+}
+
+// The largest difference of the force along x from that of a contact without levels, relative to
+// μF, over a path of turning points that both take in small steps.
+double error_of_levels(const ContactLaw& law, double low, double high, double friction,
+                       int levels) {
+  const double reach = 0.6 * (high - low);
+  TangentialContact exact(law, low, high,
+                          {.friction_coefficient = friction, .tangential_range = 2 * reach});
+  ContactElement element(levels_of(law, low, high, friction, levels));
+  const auto path = walk(low, high, reach, 30);
+  exact.start(path[0][0], 0), element.start(path[0][0], 0, 0);
+  double worst = 0;
+  std::array<double, 2> from{path[0][0], 0};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    constexpr int steps = 400;
+    for (int step = 1; step <= steps; ++step) {
+      const double part = static_cast<double>(step) / steps;
+      const double indentation = std::lerp(from[0], path[i][0], part);
+      const double x = std::lerp(from[1], path[i][1], part);
+      exact.move_to(indentation, x);
+      const ElementForces forces = element.move_to(indentation, x, 0);
+      worst = std::max(worst, std::abs(forces.tangential[0] - exact.tangential_force()) /
+                                  (friction * law.force(high)));
+    }
+    from = {path[i][0], path[i][1]};
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("The force of an element tends to that of a contact without levels") {
+  // Levels as wide as h leave an error of h in where slip ends and in what a level remembers, hence
+  // of first order at least; between 32 and 256 levels it falls by 8 or more.
+  const ExponentialLaw exponential(10, 1e-7, ratio);
+  const double coarse = error_of_levels(exponential, -5e-8, 5e-8, 0.3, 32);
+  const double fine = error_of_levels(exponential, -5e-8, 5e-8, 0.3, 256);
+  CAPTURE(coarse, fine);
+  CHECK(coarse < 0.02);
+  CHECK(fine < coarse / 8);
+  const PowerLaw sphere(1e9, 1.5, ratio);
+  CHECK(error_of_levels(sphere, 1e-8, 6e-8, 0.3, 256) < 2e-3);
+}
+
+TEST_CASE("The normal force of an element is that of the law to fourth order of its nodes") {
+  const ExponentialLaw law(10, 1e-7, ratio);
+  const auto error = [&](int levels) {
+    const LawLevels of(law, -2e-7, 2e-7, {.levels = levels});
+    double worst = 0;
+    for (double at = -2e-7; at < 2e-7; at += 1.7e-9)
+      worst = std::max(worst, std::abs(of.normal(at).force / law.force(at) - 1));
+    return worst;
+  };
+  // A cubic of width h errs by h⁴F''''/384; h = 4 l/16.
+  CHECK(error(32) < 1.1 * std::pow(0.25, 4) / 384);
+  CHECK(error(32) / error(64) == Approx(16).epsilon(0.1));
+}
+
+TEST_CASE("An element in full stick loses what the levels that it lets go held") {
+  // δ = w cos, x = X cos with the phase π/2 between them: γ of the exponential law in closed form.
+  // Here the loss of two laps of a rectangle in (δ, x), of which the law's own is K_t(high) −
+  // K_t(low) times X²/2 each time the body rises at 0 and falls at X.
+  const ExponentialLaw law(10, 1e-7, ratio);
+  const double low = -3e-8, high = 4e-8, travel = 5e-9;
+  ContactElement element(levels_of(law, low, high, INFINITY, 64));
+  element.start(low, 0, 0);
+  double work = 0;
+  const auto go = [&](double indentation, double x) {
+    const double before = element.state()[1],
+                 force = element.forces(indentation, before, 0).tangential[0];
+    const ElementForces end = element.move_to(indentation, x, 0);
+    work += 0.5 * (force + end.tangential[0]) * (x - before);
+  };
+  for (int lap = 0; lap < 2; ++lap) {
+    go(high, 0), go(high, travel), go(low, travel), go(low, 0);
+  }
+  const double held = law.tangential_stiffness(high) - law.tangential_stiffness(low);
+  // Straight sides are followed without an error, but for that of sums.
+  CHECK(work == Approx(2 * 0.5 * held * travel * travel).epsilon(1e-12));
+}
+
+TEST_CASE("An element under a constant load loses what Mindlin's bodies lose in partial slip") {
+  // W = 8μ²(E*/G*)lF[−(1 − q/2)ln(1 − q) − q], q = T/(μF): two half cycles between ±T.
+  const double load = 10, decay = 1e-7, friction = 0.3;
+  const ExponentialLaw law(load, decay, ratio);
+  const auto error = [&](double q, int levels) {
+    ContactElement element(levels_of(law, 0, 0, friction, levels));
+    element.start(0, 0, 0);
+    // Loading: T = μF(1 − exp(−x/x_c)), x_c = μ(E*/G*)l.
+    const double amplitude = -friction / ratio * decay * std::log1p(-q);
+    double work = 0, force = 0, x = 0;
+    const auto go = [&](double to) {
+      for (int step = 1, steps = 2000; step <= steps; ++step) {
+        const double next = x + (to - x) / (steps - step + 1);
+        const double now = element.move_to(0, next, 0).tangential[0];
+        work += 0.5 * (force + now) * (next - x);
+        x = next, force = now;
+      }
+    };
+    go(amplitude), go(-amplitude);
+    work = 0;
+    go(amplitude), go(-amplitude);
+    const double exact =
+        8 * friction * friction / ratio * decay * load * (-(1 - q / 2) * std::log1p(-q) - q);
+    return std::abs(work / exact - 1);
+  };
+  // The depth of slip is known to a level, which is narrow where slip begins: of second order.
+  for (const double q : {0.1, 0.5, 0.9}) {
+    CAPTURE(q);
+    CHECK(error(q, 64) < 0.015);
+    CHECK(error(q, 256) < 0.0015);
+  }
+}
+
+TEST_CASE("Sliding in any direction takes μF, against the motion") {
+  const PowerLaw law(1e9, 1.5, ratio);
+  ContactElement element(levels_of(law, 0, 5e-8, 0.2, 32));
+  element.start(3e-8, 0, 0);
+  for (const double angle : {0.3, 2.0, 4.5}) {
+    const std::vector<double> from = element.state();
+    const ElementForces forces =
+        element.move_to(4e-8, from[1] + 1e-5 * std::cos(angle), from[2] + 1e-5 * std::sin(angle));
+    // What springs were stretched by before, up to 1e-8 m, turns them by 1e-3 from the way of 1e-5 m
+    // and from each other, and their sum is shorter by half of the square.
+    CHECK(size_of(forces) == Approx(0.2 * forces.normal).epsilon(1e-6));
+    CHECK(std::atan2(forces.tangential[1], forces.tangential[0]) ==
+          Approx(angle > pi ? angle - 2 * pi : angle).margin(3e-3));
+  }
+}
+
+TEST_CASE("An element knows no direction") {
+  const ExponentialLaw law(10, 1e-7, ratio);
+  const auto levels = levels_of(law, -5e-8, 5e-8, 0.3, 32);
+  ContactElement straight(levels), turned(levels);
+  straight.start(0, 0, 0), turned.start(0, 0, 0);
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  for (const auto& [indentation, x, y] : walk(-5e-8, 5e-8, 3e-8, 200)) {
+    const ElementForces a = straight.move_to(indentation, x, y);
+    const ElementForces b = turned.move_to(indentation, c * x - s * y, s * x + c * y);
+    REQUIRE(b.normal == a.normal);
+    CHECK(b.tangential[0] == Approx(c * a.tangential[0] - s * a.tangential[1]).margin(1e-12 * 3));
+    CHECK(b.tangential[1] == Approx(s * a.tangential[0] + c * a.tangential[1]).margin(1e-12 * 3));
+  }
+}
+
+TEST_CASE("The stiffness of an element is the derivative of its forces") {
+  const ExponentialLaw exponential(10, 1e-7, ratio);
+  const PowerLaw sphere(1e9, 1.5, ratio);
+  for (const double friction : {0.3, double(INFINITY)})
+    for (const ContactLaw* law :
+         {static_cast<const ContactLaw*>(&exponential), static_cast<const ContactLaw*>(&sphere)}) {
+      ContactElement element(levels_of(*law, 1e-8, 9e-8, friction, 24));
+      element.start(2e-8, 0, 0);
+      int compared = 0;
+      for (const auto& end : walk(-1e-8, 9e-8, 4e-8, 300)) {
+        const ElementForces here = element.forces(end[0], end[1], end[2]);
+        for (std::size_t along = 0; along < 3; ++along) {
+          // Forces bend where a level begins to slip: both one-sided differences agree elsewhere.
+          constexpr double step = 1e-14;
+          std::array<double, 3> before = end, after = end;
+          before[along] -= step, after[along] += step;
+          const ElementForces left = element.forces(before[0], before[1], before[2]);
+          const ElementForces right = element.forces(after[0], after[1], after[2]);
+          for (std::size_t of = 0; of < 3; ++of) {
+            const auto part = [&](const ElementForces& forces) {
+              return of == 0 ? forces.normal : forces.tangential[of - 1];
+            };
+            const double backward = (part(here) - part(left)) / step;
+            const double forward = (part(right) - part(here)) / step;
+            // Round-off of forces of some N over the step, in N/m.
+            const double noise = 20 * 2.2e-16 * (std::abs(part(here)) + 1) / step;
+            if (std::abs(backward - forward) > 1e-3 * std::abs(forward) + noise) continue;
+            CHECK(here.stiffness[of][along] ==
+                  Approx(0.5 * (backward + forward)).epsilon(1e-3).margin(noise));
+            ++compared;
+          }
+        }
+        element.move_to(end[0], end[1], end[2]);
+      }
+      CHECK(compared > 2500);
+    }
+}
+
+TEST_CASE("A copy of an element and its numbers are states to come back to") {
+  const ExponentialLaw law(10, 1e-7, ratio);
+  const auto levels = levels_of(law, -5e-8, 5e-8, 0.3, 32);
+  ContactElement element(levels);
+  element.start(0, 0, 0);
+  const auto path = walk(-5e-8, 5e-8, 3e-8, 40);
+  for (int i = 0; i < 20; ++i) element.move_to(path[i][0], path[i][1], path[i][2]);
+  ContactElement copy = element, restored(levels);
+  restored.restore(element.state());
+  element.forces(9e-8, 1e-6, 0);  // a step that is not taken
+  for (int i = 20; i < 40; ++i) {
+    const auto expected = element.move_to(path[i][0], path[i][1], path[i][2]);
+    CHECK(copy.move_to(path[i][0], path[i][1], path[i][2]).tangential == expected.tangential);
+    CHECK(restored.move_to(path[i][0], path[i][1], path[i][2]).tangential == expected.tangential);
+  }
+  CHECK_THROWS_WITH(restored.restore(std::vector<double>{1.0, 2.0}),
+                    Catch::Contains("numbers are not those of these levels"));
+}
+
+TEST_CASE("An element that parts has no force, and forgets") {
+  for (const double friction : {0.3, double(INFINITY)}) {
+    const ExponentialLaw law(10, 1e-7, ratio);
+    ContactElement element(levels_of(law, -1e-7, 1e-7, friction, 32));
+    element.start(0, 0, 0);
+    CHECK(size_of(element.move_to(0, 1e-8, 2e-8)) > 0);
+    // 1e-6 of the highest force are 14 decay lengths below it, and the tangent one further.
+    const ElementForces apart = element.move_to(-2e-6, 5e-7, 0);
+    CHECK(apart.normal == 0);
+    CHECK(size_of(apart) == 0);
+    CHECK(apart.stiffness[0][0] == 0);
+    // What touches again where it stands is free of stress.
+    CHECK(size_of(element.move_to(0, 5e-7, 0)) < 1e-12);
+    // At first all springs stick, in the levels that are as wide as they slip in 1e-9 m.
+    CHECK(element.move_to(0, 5e-7 + 1e-9, 0).tangential[0] ==
+          Approx(law.tangential_stiffness(0) * 1e-9).epsilon(0.02));
+  }
+}
+
+TEST_CASE("Levels say what they cannot do") {
+  const ExponentialLaw law(10, 1e-7, ratio);
+  CHECK_THROWS_WITH(LawLevels(law, 0, 1e-8, {.friction_coefficient = -1}),
+                    Catch::Contains("friction_coefficient"));
+  CHECK_THROWS_WITH(LawLevels(law, 0, 1e-8, {.levels = 2}), Catch::Contains("levels"));
+  CHECK_THROWS_WITH(LawLevels(law, 1e-8, 0), Catch::Contains("lowest"));
+  CHECK_THROWS_WITH(LawLevels(PowerLaw(1e9, 1.5, ratio), -2e-8, -1e-8),
+                    Catch::Contains("nothing touches"));
+  ForceCurve falling{.model = "measured", .nominal_area = 1, .samples = {}};
+  for (const double at : {1e-8, 2e-8, 3e-8, 4e-8, 5e-8, 6e-8})
+    falling.samples.push_back({.indentation = at, .force = std::sqrt(at)});
+  CHECK_THROWS_WITH(LawLevels(TabulatedLaw(falling, ratio), 2e-8, 5e-8),
+                    Catch::Contains("smaller stiffness"));
+  CHECK_THROWS_WITH(ContactElement(nullptr), Catch::Contains("levels"));
+}
