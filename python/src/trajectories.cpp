@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of the tangential contact along a path and its damping.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/damping/contact_element.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 
@@ -26,7 +30,8 @@ void bind_tangential_contact(nb::module_& m) {
 
 .. math:: F_x = \int_{-\infty}^{\delta} K_t'(\zeta)\,[x - x_0(\zeta)]\,d\zeta
 
-Exact for motion in straight steps. The motion must stay within lowest <= δ <= highest.
+Exact for motion in straight steps. The motion must stay within lowest <= δ <= highest;
+below a ``lowest`` without force nothing touches.
 
 Parameters
 ----------
@@ -40,7 +45,7 @@ merge_tolerance : float
 table_tolerance : float
     Relative, of the table of K_t that stands for the law.
 tangential_range : float
-    Largest distance of two positions x of the motion, m; needed where friction is finite.
+    Largest distance of two positions x of the motion, m; > 0 where friction is finite and > 0.
 )")
       .def(
           "__init__",
@@ -55,6 +60,9 @@ tangential_range : float
           nb::arg("friction_coefficient") = infinite, nb::arg("merge_tolerance") = 0.0,
           nb::arg("table_tolerance") = 1e-12, nb::arg("tangential_range") = 0.0,
           nb::keep_alive<1, 2>())
+      .def(
+          "copy", [](const TangentialContact& self) { return TangentialContact(self); },
+          "A state to come back to. Copies share the table of K_t.")
       .def("start", &TangentialContact::start, nb::arg("indentation"), nb::arg("x"),
            "Puts the indenter down, all springs free of stress; sets the energies to 0.")
       .def("move_to", &TangentialContact::move_to, nb::arg("indentation"), nb::arg("x"),
@@ -78,6 +86,73 @@ tangential_range : float
       .def_prop_ro("permanent_stiffness", &TangentialContact::permanent_stiffness,
                    "K_t at `lowest`, N/m.")
       .def_prop_ro("memory", &TangentialContact::memory, "Pieces of history now held.");
+}
+
+void bind_contact_element(nb::module_& m) {
+  nb::class_<LawLevels>(
+      m, "LawLevels",
+      R"(A contact law as levels of springs with friction, shared by contact elements.
+
+Parameters
+----------
+law : ContactLaw
+lowest, highest : float
+    Indentations between which contacts will move with the accuracy asked for, m. Below, levels are
+    coarser; above, the force goes on along its tangent.
+friction_coefficient : float
+    μ >= 0; infinite: full stick.
+levels : int
+    8 … 4096; half of them lie between lowest and highest, half below.
+)")
+      .def(
+          "__init__",
+          [](LawLevels* self, const ContactLaw& law, double lowest, double highest,
+             double friction_coefficient, int levels) {
+            new (self) LawLevels(law, lowest, highest, {friction_coefficient, levels});
+          },
+          nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
+          nb::arg("friction_coefficient") = infinite, nb::arg("levels") = LawLevelsOptions().levels)
+      .def("__len__", &LawLevels::size)
+      .def_prop_ro("friction_coefficient", &LawLevels::friction_coefficient, "μ")
+      .def_prop_ro(
+          "nodes", [](const LawLevels& self) { return array_of(self.nodes()); },
+          nb::rv_policy::automatic, "Indentations at which levels end, m.");
+
+  nb::class_<ElementForces>(m, "ElementForces", "What a contact element answers to a step.")
+      .def_ro("normal", &ElementForces::normal, "F, N.")
+      .def_ro("tangential", &ElementForces::tangential,
+              "F_x and F_y, N: what holds the displaced body.")
+      .def_ro("stiffness", &ElementForces::stiffness,
+              "Derivatives of F, F_x, F_y, by rows, over indentation, x and y, N/m.");
+
+  nb::class_<ContactElement>(
+      m, "ContactElement",
+      R"(A contact as an element of another program, with both tangential directions.
+
+Springs are anchored where they touch, let go where they part, and slip along their own stretch; all of them
+slip at a tangential force of μF. A copy is a state to come back to, and copies share their levels.
+
+Parameters
+----------
+levels : LawLevels
+)")
+      .def(nb::init<std::shared_ptr<const LawLevels>>(), nb::arg("levels"))
+      .def(
+          "copy", [](const ContactElement& self) { return ContactElement(self); },
+          "A state to come back to.")
+      .def("start", &ContactElement::start, nb::arg("indentation"), nb::arg("x") = 0.0,
+           nb::arg("y") = 0.0, "Puts the body down, all springs free of stress.")
+      .def("forces", &ContactElement::forces, nb::arg("indentation"), nb::arg("x"),
+           nb::arg("y") = 0.0, "The forces at the end of a straight step, which is not taken.")
+      .def("move_to", &ContactElement::move_to, nb::arg("indentation"), nb::arg("x"),
+           nb::arg("y") = 0.0, "Takes a straight step, and returns the forces at its end.")
+      .def_prop_ro(
+          "state", [](const ContactElement& self) { return array_of(self.state()); },
+          nb::rv_policy::automatic,
+          "Indentation, x, y, and where each level is anchored, m: a copy, for restart files.")
+      .def(
+          "restore", [](ContactElement& self, const Values& state) { self.restore(state.values); },
+          nb::arg("state"), "Goes back to a state of an element with the same levels.");
 }
 
 void bind_damping_of_trajectory(nb::module_& m) {
@@ -107,6 +182,7 @@ void bind_damping_of_trajectory(nb::module_& m) {
 
 void bind_trajectories(nb::module_& m) {
   bind_tangential_contact(m);
+  bind_contact_element(m);
   bind_damping_of_trajectory(m);
 }
 

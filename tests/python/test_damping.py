@@ -335,6 +335,32 @@ def test_a_contact_as_a_force_element_follows_displacements_and_forces() -> None
         contact.move_to_force(0, -1.01 * friction * load)
 
 
+def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
+    ratio, load, decay_length, friction = 0.8, 2.0, 1e-7, 0.3
+    law = salebra.ExponentialLaw(load, decay_length, ratio)
+    levels = salebra.LawLevels(law, -5e-8, 5e-8, friction_coefficient=friction, levels=128)
+    element = salebra.ContactElement(levels)
+    element.start(0.0)
+    # First loading under constant normal force: T = μF[1 − exp(−gx/(μl))], g = G*/E*. Levels are a hundredth of it wide.
+    x = 3e-8
+    expected = friction * load * -math.expm1(-ratio * x / (friction * decay_length))
+    tried = element.forces(0.0, 0.6 * x, 0.8 * x)
+    assert math.hypot(*tried.tangential) == pytest.approx(expected, rel=1e-2)
+    assert tried.tangential[1] / tried.tangential[0] == pytest.approx(0.8 / 0.6)
+    assert tried.normal == pytest.approx(load, rel=1e-6)
+    assert np.shape(tried.stiffness) == (3, 3) and tried.stiffness[0][0] == pytest.approx(load / decay_length, rel=1e-4)
+    before, kept = element.state, element.copy()
+    taken = element.move_to(0.0, 0.6 * x, 0.8 * x)
+    assert taken.tangential == tried.tangential
+    assert kept.move_to(0.0, 0.6 * x, 0.8 * x).tangential == taken.tangential
+    assert len(before) == 3 + 2 * len(levels) and element.state[1] == 0.6 * x
+    element.restore(before)
+    assert element.move_to(0.0, 0.6 * x, 0.8 * x).tangential == taken.tangential
+    assert element.move_to(-1e-5, 0.0).normal == 0
+    with pytest.raises(salebra.InvalidInput, match="levels"):
+        salebra.LawLevels(law, 0.0, 1e-8, levels=1)
+
+
 def test_a_sphere_by_force_cell_by_cell_is_mindlins() -> None:
     grid = salebra.Grid2D(32, 32, 1e-3, 1e-3)
     material, radius, friction, indentation = salebra.Material(1e9, poisson=0.0), 8e-3, 0.4, 1.5e-5
