@@ -72,8 +72,8 @@ void bind_files(nb::module_& m) {
       nb::arg("fill") = false, nb::arg("profiles") = false, nb::arg("comm") = nb::none(),
       R"(Reads the heights of a surface.
 
-What the file is follows from its first bytes, not from its name: HDF5, NPY, NetCDF in SurfaceTopography's layout, X3P, GWY, GSF,
-GXYZF, SUR, text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. Formats of instruments
+What the file is follows from its first bytes, not from its name: HDF5, NPY, X3P, GWY, GSF, SUR,
+ text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. Formats of instruments
 are read by SurfaceTopography where it is installed (``pip install 'salebra[formats]'``). Undefined points become NaN.
 
 Parameters
@@ -125,7 +125,7 @@ UserWarning
 Parameters
 ----------
 file : str or os.PathLike
-    .h5, .hdf5, .npy (with a sidecar .json), .nc, .gwy, .gsf (float32), .txt, .asc or .xyz.
+    .h5, .hdf5, .npy (with a sidecar .json), .gwy, .gsf (float32), .txt, .asc or .xyz.
 surface : Surface
     One that is spread over processes goes into HDF5 files only, by a call of all processes.
 overwrite : bool

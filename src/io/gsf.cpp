@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 
 #include "atomic_file.hpp"
-#include "gwyddion_header.hpp"
 #include "loaded_surface.hpp"
 #include "stored_number.hpp"
 #include "surface_writers.hpp"
+#include "text_numbers.hpp"
 
 /// Gwyddion Simple Field: a text header "Key = value" ended by 1 to 4 NUL bytes that pad it to a
 /// multiple of four, then float32 values, little-endian, row after row from the top left; undefined
@@ -19,12 +21,32 @@ namespace {
 
 constexpr std::string_view gsf_magic = "Gwyddion Simple Field 1.0\n";
 
+/// The value of an entry that must be a number > 0.
+template <class Number>
+Number positive_entry(const std::filesystem::path& file, std::string_view key,
+                      std::string_view value) {
+  Number number{};
+  const auto [end, status] = std::from_chars(value.data(), value.data() + value.size(), number);
+  if (status != std::errc{} || end != value.data() + value.size() || !(number > 0) ||
+      !std::isfinite(static_cast<double>(number)))
+    refuse(file, "has the entry " + std::string(key) + " = '" + std::string(value.substr(0, 20)) +
+                     "' in its header, which is no number > 0");
+  return number;
+}
+
 }  // namespace
 
 LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content) {
   LoadedSurface surface;
   Index nx = 0, ny = 0;
-  const auto entry = [&](std::string_view key, std::string_view value) {
+  const std::size_t end = content.find('\0');
+  if (end == std::string_view::npos) refuse(file, "ends within its header; it is truncated");
+  Lines lines(content.substr(0, end));
+  for (std::string_view line; lines.next(line);) {
+    const auto equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string_view key = trimmed(line.substr(0, equals));
+    const std::string_view value = trimmed(line.substr(equals + 1));
     if (key == "XRes") nx = positive_entry<Index>(file, key, value);
     if (key == "YRes") ny = positive_entry<Index>(file, key, value);
     if (key == "XReal") surface.size_x = positive_entry<double>(file, key, value);
@@ -33,8 +55,8 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
     if (key == "XYUnits" && !value.empty() && value != "m")
       refuse(file,
              "has its size in '" + std::string(value.substr(0, 20)) + "', which is not metres");
-  };
-  const std::size_t data = read_gwyddion_header(file, content, 4, entry);
+  }
+  const std::size_t data = end + 4 - end % 4;
   if (nx == 0 || ny == 0) refuse(file, "lacks XRes or YRes in its GSF header");
   const std::uint64_t available = content.size() > data ? (content.size() - data) / 4 : 0;
   if (static_cast<std::uint64_t>(nx) > available / static_cast<std::uint64_t>(ny))

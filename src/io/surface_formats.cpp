@@ -7,10 +7,8 @@
 namespace salebra::detail {
 
 // Readers and writers of single formats. A format is its own source, a declaration and a row here.
-SurfaceFormatEntry::Read read_gsf, read_gwy, read_gxyzf, read_netcdf, read_npy, read_sur, read_text,
-    read_x3p;
-SurfaceFormatEntry::Write write_gsf, write_gwy, write_hdf5, write_netcdf, write_npy, write_text,
-    write_xyz;
+SurfaceFormatEntry::Read read_gsf, read_gwy, read_npy, read_sur, read_text, read_x3p;
+SurfaceFormatEntry::Write write_gsf, write_gwy, write_hdf5, write_npy, write_text, write_xyz;
 
 const std::vector<SurfaceFormatEntry>& surface_format_table() {
   static const std::vector<SurfaceFormatEntry> table{
@@ -28,19 +26,6 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
         "NaN",
         "kept",
         "attributes of the root"}},
-      {"netcdf",
-       {"CDF\1", "CDF\2", "CDF\5"},
-       read_netcdf,
-       write_netcdf,
-       {"NetCDF, SurfaceTopography's layout",
-        {".nc"},
-        "CDF-1, 2, 5",
-        "CDF-2",
-        "exact",
-        "exact",
-        "NaN and `mask`",
-        "kept",
-        "attribute `json`"}},
       {"npy",
        {"\x93NUMPY"},
        read_npy,
@@ -85,11 +70,6 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
         "NaN",
         "lost",
         "lost"}},
-      {"gxyzf",
-       {"Gwyddion XYZ Field 1.0\n"},
-       read_gxyzf,
-       nullptr,
-       {"Gwyddion XYZ Field", {".gxyzf"}, "one channel", "", "", "", "no point", "", ""}},
       {"sur",
        {"DIGITAL SURF"},
        read_sur,

@@ -70,11 +70,11 @@ void require_points(const std::filesystem::path& file, const Surface& surface) {
   if (grid.nx < 2 || grid.ny < 2)
     throw InvalidInput(
         file.string(),
-        "would hold a single line of points, which has no step across; write .h5 or .nc");
+        "would hold a single line of points, which has no step across; write .h5 or .npy");
   if (2 * surface.undefined_points() > grid.points())
     throw InvalidInput(file.string(),
                        "would hold points on less than half of the grid, which then is not "
-                       "recognised; write .h5 or .nc");
+                       "recognised; write .h5 or .npy");
 }
 
 }  // namespace

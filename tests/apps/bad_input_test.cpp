@@ -260,7 +260,7 @@ TEST_CASE("Input that is allowed and most likely a slip is computed with a warni
       "um.txt: rms slope 1.04e+05 is above 1: heights in \u00b5m? rms slope would be 0.1; see "
       "--height-unit";
   for (const std::string command :
-       {"statistics um.txt", "convert um.txt um.nc",
+       {"statistics um.txt", "convert um.txt um.npy",
         "contact um.txt --pressure 1GPa --contact-modulus 115GPa",
         "contact um.txt --pressure 1GPa,2GPa --contact-modulus 115GPa",
         "contact --model gw_moments um.txt --pressure 1MPa,2MPa --contact-modulus 115GPa"})

@@ -23,7 +23,7 @@ TEST_CASE("Measured surfaces have the statistics of the reference", "[read]") {
   const auto reference = nlohmann::json::parse(std::ifstream(measured / "reference.json"));
   for (const char* name :
        {"matrix-2.txt", "matrix-3.txt", "gwyddion-export-english.txt", "gwyddion-export-german.txt",
-        "txt_example.txt", "xyz-1.txt", "xyz-2.txt", "nc-1.nc", "sur-2.sur", "x3p-2.x3p"}) {
+        "txt_example.txt", "xyz-1.txt", "xyz-2.txt", "sur-2.sur", "x3p-2.x3p"}) {
     INFO(name);
     const nlohmann::json& expected = reference.at(name);
     const auto number = [&](const char* key) { return expected.at(key).get<double>(); };
@@ -240,66 +240,6 @@ TEST_CASE("NPY arrays of every kind are read alike", "[read]") {
   refused(std::string("\x93NUMPY\1\0\xff\xff{", 11), "truncated");
 }
 
-TEST_CASE("NetCDF of other programs is read with its axes, unit, fill value and period", "[read]") {
-  const Scratch scratch;
-  const auto big_endian = [](std::uint64_t value, int bytes) {
-    std::string text;
-    for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
-      text += static_cast<char>(value >> shift & 0xff);
-    return text;
-  };
-  const auto word = [&](std::size_t value) { return big_endian(value, 4); };
-  const auto number = [&](double value) {
-    return big_endian(std::bit_cast<std::uint64_t>(value), 8);
-  };
-  const auto name = [&](const std::string& text) {
-    return word(text.size()) + text + std::string((4 - text.size() % 4) % 4, '\0');
-  };
-  const auto note = [&](const std::string& key, double value) {
-    return name(key) + word(6) + word(1) + number(value);
-  };
-  struct Axis {
-    std::string name;
-    std::size_t points;
-    double length;
-    std::size_t periodic;
-  };
-  // CDF-1 as Unidata's specification has it: heights(first, second), float64, and an empty variable
-  // for each axis.
-  const auto file_of = [&](const Axis& first, const Axis& second, const std::string& unit,
-                           const std::vector<double>& values) {
-    std::string header = std::string("CDF\1", 4) + word(0) + word(10) + word(2);
-    for (const Axis& axis : {first, second}) header += name(axis.name) + word(axis.points);
-    header += word(0) + word(0) + word(11) + word(3);
-    std::size_t place = 0;
-    for (const Axis& axis : {first, second})
-      header += name(axis.name) + word(1) + word(place++) + word(12) + word(2) +
-                note("length", axis.length) + name("periodic") + word(4) + word(1) +
-                word(axis.periodic) + word(6) + word(0) + word(0);
-    header += name("heights") + word(2) + word(0) + word(1) + word(12) + word(2) + name("unit") +
-              word(2) + name(unit) + note("_FillValue", -9999) + word(6) + word(8 * values.size());
-    header += word(header.size() + 4);
-    for (const double value : values) header += number(value);
-    return scratch.file("other.nc", header);
-  };
-  // Two rows y of three points x each.
-  const Axis x{"x", 3, 3e-6, 1}, y{"y", 2, 8e-6, 1};
-  const std::vector<double> values{1, 2, 3, 4, -9999, 6};
-  const Surface surface = read_surface(file_of(y, x, "A", values));
-  CHECK(surface.grid == Grid2D{3, 2, 3e-6, 8e-6});
-  CHECK(surface.heights(2, 0) == Approx(3e-10).epsilon(1e-12));
-  CHECK(surface.heights(0, 1) == Approx(4e-10).epsilon(1e-12));
-  CHECK(std::isnan(surface.heights(1, 1)));
-  CHECK(surface.undefined_points() == 1);
-  CHECK(surface.periodic);
-  const Surface by_x = read_surface(file_of({"x", 2, 3e-6, 1}, {"y", 3, 8e-6, 1}, "nm", values));
-  CHECK(by_x.grid.nx == 2);
-  CHECK(by_x.heights(1, 0) == Approx(4e-9).epsilon(1e-12));
-  // Periodic along one axis only is not periodic.
-  CHECK_FALSE(read_surface(file_of(y, {"x", 3, 3e-6, 0}, "m", values)).periodic);
-  CHECK_FALSE(read_surface(file_of({"y", 2, 8e-6, 0}, x, "m", values)).periodic);
-}
-
 TEST_CASE("A unit that the file states comes before one that the user names", "[read]") {
   const Scratch scratch;
   const std::string size = "# Width: 2 um\n# Height: 2 um\n", heights = "1 2\n3 4\n";
@@ -309,10 +249,10 @@ TEST_CASE("A unit that the file states comes before one that the user names", "[
   CHECK(read_surface(bare, {.height_unit = "um"}).heights(0, 0) == Approx(1e-6));
 }
 
-TEST_CASE("A NetCDF or GSF header that promises more than the file holds is refused", "[read]") {
+TEST_CASE("A GSF header that promises more than the file holds is refused", "[read]") {
   const Scratch scratch;
   Surface surface{{6, 4, 1, 1}, Field::Random(6, 4), true, "test"};
-  const std::string name = GENERATE("surface.nc", "surface.gsf");
+  const std::string name = "surface.gsf";
   write_surface(scratch / name, surface);
   std::ifstream stream(scratch / name, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(stream), {}};

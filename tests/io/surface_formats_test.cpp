@@ -113,24 +113,6 @@ TEST_CASE("A file of Gwyddion: the first channel of heights, its mask, its size"
   CHECK(surface.undefined_points() == 1);
 }
 
-TEST_CASE("Points of a Gwyddion XYZ Field lie on their grid in any order", "[formats]") {
-  const Scratch scratch;
-  std::string content =
-      "Gwyddion XYZ Field 1.0\nNChannels = 1\nNPoints = 5\nXYUnits = um\nZUnits1 = nm\n";
-  content.append(8 - content.size() % 8, '\0');
-  // Three by two points; (2 µm, 1 µm) is missing.
-  for (const double value : {1., 0., 2., 0., 0., 1., 2., 0., 3., 1., 1., 5., 0., 1., 4.})
-    content += raw(value);
-  const Surface surface = read_surface(scratch.file("points.gxyzf", content));
-  CHECK(surface.grid == Grid2D{3, 2, 3e-6, 2e-6});
-  CHECK(surface.heights(0, 0) == Approx(1e-9));
-  CHECK(surface.heights(1, 0) == Approx(2e-9));
-  CHECK(surface.heights(2, 0) == Approx(3e-9));
-  CHECK(surface.heights(0, 1) == Approx(4e-9));
-  CHECK(surface.heights(1, 1) == Approx(5e-9));
-  CHECK(std::isnan(surface.heights(2, 1)));
-}
-
 TEST_CASE("A file of Gwyddion without units is in metres, or as the user says", "[formats]") {
   const Scratch scratch;
   const auto file = scratch.file("bare.gwy", gwy(channel("/0/data", "", hills)));

@@ -52,7 +52,7 @@ def read_by_peer(file, heights, sizes):
         return *heights_of(topography), notes["periodic"]
     topography = SurfaceTopography.read_topography(file)
     assert topography.unit == "m", topography.unit
-    return *heights_of(topography), topography.is_periodic if file.suffix == ".nc" else None
+    return *heights_of(topography), None
 
 
 def compare(what, found, expected, size_found, size_expected, tolerance):
@@ -84,18 +84,18 @@ def both_ways(folder, name, heights, sizes, periodic):
     pathlib.Path(f"{source}.json").write_text(
         json.dumps({"size_x": sizes[0], "size_y": sizes[1], "units": "m", "periodic": periodic}))
     complete = not np.isnan(heights).any()
-    for suffix in [".nc", ".npy", ".txt", ".gsf", ".h5", ".xyz"]:
+    for suffix in [".npy", ".txt", ".gsf", ".h5", ".xyz"]:
         file = folder / f"{name}-by-salebra{suffix}"
         salebra("convert", source, file)
         found, size, flag = read_by_peer(file, heights, sizes)
-        tolerance = 6e-8 if suffix == ".gsf" else 0 if suffix in (".nc", ".npy", ".h5") else 1e-15
+        tolerance = 6e-8 if suffix == ".gsf" else 0 if suffix in (".npy", ".h5") else 1e-15
         compare(f"{name}{suffix} by salebra, read by the other", found, heights, size, sizes, tolerance)
         if flag is not None and flag != periodic:
             failures.append(f"{name}{suffix}: periodic is {flag} instead of {periodic}")
 
     masked = np.ma.masked_invalid(heights)
     topography = SurfaceTopography.Topography(masked if not complete else heights, sizes, unit="m", periodic=periodic)
-    written = {".nc": topography.to_netcdf}
+    written = {}
     for kind in "DFLI":
         written[f"-{kind}.x3p"] = lambda file, kind=kind: topography.to_x3p(file, dtype=kind)
     if complete:
@@ -103,7 +103,7 @@ def both_ways(folder, name, heights, sizes, periodic):
     span = np.nanmax(heights) - np.nanmin(heights)
     # Rounding to float32, to 2^32 and to 2^16 steps of the span.
     tolerances = {"-F.x3p": 6e-8, "-L.x3p": 2**-32 * span / np.nanmax(np.abs(heights)) + 1e-15,
-                  "-I.x3p": 2**-16 * span / np.nanmax(np.abs(heights)), ".txt": 1e-15, "-D.x3p": 0, ".nc": 0}
+                  "-I.x3p": 2**-16 * span / np.nanmax(np.abs(heights)), ".txt": 1e-15, "-D.x3p": 0}
     for suffix, write in written.items():
         file = folder / f"{name}-by-other{suffix}"
         write(str(file))
@@ -111,13 +111,10 @@ def both_ways(folder, name, heights, sizes, periodic):
         salebra("convert", file, back)
         notes = json.loads(pathlib.Path(f"{back}.json").read_text())
         size = (notes["size_x"], notes["size_y"])
-        # SurfaceTopography writes the length of an axis of NetCDF in single precision, steps of X3P with 16 digits.
-        rounded = {".nc": 6e-8}.get(suffix, 1e-15)
-        expected_size = size if all(abs(a / b - 1) <= rounded for a, b in zip(size, sizes)) else sizes
+        # SurfaceTopography writes steps of X3P with 16 digits.
+        expected_size = size if all(abs(a / b - 1) <= 1e-15 for a, b in zip(size, sizes)) else sizes
         compare(f"{name}{suffix} by the other, read by salebra", np.load(back), heights, size, expected_size,
                 tolerances[suffix])
-        if suffix == ".nc" and notes["periodic"] != periodic:
-            failures.append(f"{name}{suffix}: periodic is {notes['periodic']} instead of {periodic}")
 
 
 with tempfile.TemporaryDirectory() as scratch:
@@ -130,14 +127,13 @@ with tempfile.TemporaryDirectory() as scratch:
     holes[0, 1] = holes[5, 2] = holes[6, 3] = np.nan
     both_ways(folder, "holes", holes, (3e-6, 2e-6), False)
 
-    for name in ["matrix-3.txt", "x3p-2.x3p", "sur-2.sur", "nc-1.nc"]:
+    for name in ["matrix-3.txt", "x3p-2.x3p", "sur-2.sur"]:
         by_other, sizes = heights_of(SurfaceTopography.read_topography(measured / name))
-        for suffix in [".nc", ".npy"]:
-            file = folder / (name + suffix)
-            salebra("convert", measured / name, file)
-            found, size, _ = read_by_peer(file, by_other, sizes)
-            # Both sides multiply by the unit, salebra after it and SurfaceTopography before.
-            compare(f"{name} -> {suffix}, read by both", found, by_other, size, sizes, 4e-16)
+        file = folder / (name + ".npy")
+        salebra("convert", measured / name, file)
+        found, size, _ = read_by_peer(file, by_other, sizes)
+        # Both sides multiply by the unit, salebra after it and SurfaceTopography before.
+        compare(f"{name} -> .npy, read by both", found, by_other, size, sizes, 4e-16)
 
 print("\n".join(lines))
 print(f"{len(lines)} comparisons by SurfaceTopography {SurfaceTopography.__version__}, {len(failures)} failed")

@@ -47,12 +47,9 @@ struct ReadOptions {
 ///           attributes size_x, size_y (m), periodic, units
 ///   NPY     two-dimensional real array [nx, ny], versions 1 to 3, any byte order, C or Fortran
 ///           order; size and unit from the sidecar FILE.json where there is one
-///   NetCDF  classic (CDF-1, 2, 5) in SurfaceTopography's layout: heights(x, y) with unit, x and y
-///           with length, periodic, unit; a mask
 ///   X3P     ISO 25178-72, one surface on a grid; scales, directions of axes and mask
 ///   GWY     Gwyddion: the first channel whose unit is a length, less the points of its mask
 ///   GSF     Gwyddion Simple Field
-///   GXYZF   Gwyddion XYZ Field of one channel whose points form a regular grid
 ///   SUR     Digital Surf, one surface of 16 or 32 bits
 ///   text    a matrix whose columns run along x and whose rows along y: heights(ix, iy) is the
 ///           value in column ix of row iy. Headers of Gwyddion and of instruments, in English and

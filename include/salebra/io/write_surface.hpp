@@ -13,8 +13,6 @@ namespace salebra {
 ///               periodic, units, origin; provenance at the root
 ///   .npy        float64 [nx, ny], little-endian, and beside it FILE.json with size_x, size_y,
 ///               periodic, units, checksum, provenance
-///   .nc         NetCDF CDF-2 in SurfaceTopography's layout, with size_x, …, provenance in the
-///               attribute json; up to 4 GiB
 ///   .gwy        Gwyddion: one channel, undefined points as its mask, provenance in /0/meta; up to
 ///               4 GiB. Whether it is periodic is lost
 ///   .gsf        Gwyddion Simple Field: heights rounded to float32. Whether it is periodic is lost
