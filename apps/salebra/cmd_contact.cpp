@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
+#include <salebra/contact/normal/distributions.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/questions/contact.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/configuration.hpp>
 
 #include "answers.hpp"
@@ -44,7 +47,8 @@ bool reaches_edge(const Surface& surface, const Field& pressure) {
 }
 
 void write_contact(const ContactArguments& arguments, const Session& session, const Grid2D& grid,
-                   const NormalContactState& state) {
+                   const NormalContactState& state, const std::vector<CurveColumn>& beside,
+                   const ContactDistributions& distributions) {
   const FieldType type = arguments.field_type == "float" ? FieldType::float32 : FieldType::float64;
   const bool has_pressure = arguments.fields != "none";
   const bool has_gap = has_pressure && arguments.fields != "pressure";
@@ -59,6 +63,15 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
     for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
       group.attribute(std::string(quantity.name), number(state));
     });
+    for (const auto& [quantity, values] : beside)
+      group.attribute(std::string(quantity.name), values.front());
+    if (arguments.distributions) {
+      QuantityGroup densities(file->group("distributions"));
+      densities.coordinate("contact_pressure", distributions.contact_pressure);
+      densities.dataset("pressure_density", distributions.pressure_density, {"contact_pressure"});
+      densities.coordinate("gap", distributions.gap);
+      densities.dataset("gap_density", distributions.gap_density, {"gap"});
+    }
   });
   file->commit();
 }
@@ -123,10 +136,6 @@ void press_once(const ContactArguments& arguments, Session& session) {
         "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
         "or take a larger piece of the surface");
 
-  if (state.converged() && session.has_output()) {
-    write_contact(arguments, session, surface.grid, state);
-  }
-  if (state.converged() && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
   std::optional<FirstLoading> first_loading;
   if (arguments.hardness && state.converged()) {
     const ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
@@ -140,25 +149,57 @@ void press_once(const ContactArguments& arguments, Session& session) {
   answer.add(json_of(state));
   answer["seconds"] = elapsed.count();
   add_first_loading(answer, first_loading);
-  if (arguments.stiffness && state.converged()) {
+  std::vector<CurveColumn> beside;
+  if (arguments.wants_stiffness() && state.converged()) {
+    const double area = surface.grid.area();
     const ForceSample sample =
         force_sample(state, surface, material, {.contact = options, .stick = arguments.stick});
-    const Json columns = json_of(sample, surface.grid.area());
+    const Json columns = json_of(sample, area);
     for (const char* name :
          {"normal_stiffness", "normal_stiffness_per_area", "tangential_stiffness"})
-      if (name[0] != 't' || std::isfinite(material.tangential_modulus))
+      if (name[0] != 't' || std::isfinite(material.tangential_modulus)) {
         answer[name] = columns[name];
+        beside.push_back({find_quantity(name), {columns[name].number()}});
+      }
+    const std::vector<Conductances> found{arguments.conductances_of(sample, area)};
+    answer.add(conductances_json(found[0], arguments.conduction));
+    std::ranges::move(columns_beside(found), std::back_inserter(beside));
     if (session.stopped()) {
       arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
       throw Interrupted("contact: interrupted; the stiffness was not computed");
     }
   }
+  FlowFactors flow;
+  if (arguments.flow_factors && state.converged()) {
+    flow = flow_of(state, surface.grid, session.progress());
+    if (flow.termination == Termination::interrupted)
+      throw Interrupted("contact: interrupted; the flow factors were not computed");
+    answer.add(json_of(flow));
+    std::ranges::move(columns_beside(std::vector{flow}), std::back_inserter(beside));
+  }
+  ContactDistributions distributions;
+  if (arguments.distributions && state.converged()) {
+    distributions = contact_distributions(state, surface.grid, *arguments.distributions);
+    answer["distributions"] = lists_of(distributions);
+  }
+  if (state.converged() && session.has_output())
+    write_contact(arguments, session, surface.grid, state, beside, distributions);
+  if (state.converged() && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
   session.answer(answer);
   if (!state.converged())
     throw NotConverged(fmt::format("contact: residual {:.3g} after {} iterations {}",
                                    state.residual, state.iterations,
                                    in_options(message(state.termination))));
+  if (!flow.converged()) throw NotConverged(flow_failure);
   arguments.checkpoint.remove(session);
+}
+
+FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress) {
+  FlowFactors flow = flow_factors(state, grid, {.on_progress = progress});
+  if (!flow.converged())
+    flow.pressure_flow_factor_x = flow.pressure_flow_factor_y = flow.effective_gap =
+        FlowFactors::unknown;
+  return flow;
 }
 
 std::size_t ContactArguments::positions() const {
@@ -177,6 +218,12 @@ std::vector<double> ContactArguments::pressures_on(double area) const {
   for (const double newtons : at.force) pressures.push_back(newtons / area);
   std::ranges::sort(pressures);
   return pressures;
+}
+
+Conductances ContactArguments::conductances_of(const ForceSample& sample,
+                                               double nominal_area) const {
+  return conductances(sample.normal_stiffness / nominal_area, material.material().contact_modulus,
+                      conduction);
 }
 
 NormalContactOptions ContactArguments::contact_options(Session& session) const {
@@ -205,6 +252,7 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
     missing.insert(missing.begin(), "--pressure (or --normal-force, --mean-gap, --indentation)");
   if (bem && !arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
   require_options(missing, "a contact");
+  arguments.conduction.validate();
   if (!bem) {
     for (const std::string& group : {boundary_elements, once, often})
       command.require_none_of(
@@ -213,11 +261,14 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
   }
   for (const std::string& group : {summits, parameters})
     command.require_none_of(group, "is of summits; give --model gw_moments or gw_deterministic");
-  for (const auto& [given, option] :
-       {std::pair(arguments.hardness.has_value(), "--hardness"), {session.has_plot(), "--plot"}})
+  for (const auto& [given, option] : {std::pair(arguments.hardness.has_value(), "--hardness"),
+                                      {session.has_plot(), "--plot"},
+                                      {arguments.flow_factors, "--flow-factors"}})
     if (given) session.require_one_process(option);
   if (arguments.hardness) require_positive(*arguments.hardness, "--hardness");
-  require_that(arguments.stiffness || !arguments.stick, "--stick",
+  require_that(!arguments.flow_factors || arguments.boundary == "periodic", "--flow-factors",
+               "are of a gap that repeats itself; leave out --boundary free");
+  require_that(arguments.wants_stiffness() || !arguments.stick, "--stick",
                "given without --stiffness; give both");
   if (positions > 1) {
     command.require_none_of(once, fmt::format("is of one position, and {} are given", positions));
@@ -240,7 +291,7 @@ void run(const ContactArguments& arguments, Session& session) {
   check(arguments, positions, session);
   if (arguments.model != "bem") return press_summits(arguments, session);
   arguments.material.material();
-  if (!arguments.stiffness && arguments.material.contact_modulus &&
+  if (!arguments.wants_stiffness() && arguments.material.contact_modulus &&
       !arguments.material.poisson.empty())
     session.warn("--poisson: has no effect without --stiffness, which K_t needs");
   if (arguments.dry_run.dry_run) return estimate_contacts(arguments, session);
@@ -271,6 +322,7 @@ void add_contact_command(Program& program) {
              "of them or each by itself; default bem");
   arguments->at.add_to(command, "Position (several pressures or forces give a curve)");
   arguments->material.add_to(command);
+  add_conduction(command, arguments->conduction);
 
   command.under(boundary_elements);
   command.add_flag("--stiffness", arguments->stiffness,
@@ -278,6 +330,9 @@ void add_contact_command(Program& program) {
                    "known; null in full contact of a periodic surface, where both are infinite");
   command.add_flag("--stick", arguments->stick,
                    "with --stiffness: K_t by a stick solve on each contact");
+  command.add_flag("--flow-factors", arguments->flow_factors,
+                   "also how a fluid passes the gap: whether the gap percolates, its pressure flow "
+                   "factors, and the effective gap; null where nothing flows");
   add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
   add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
                "of the softer body: cells saturate there and sink in. One position ends the first "
@@ -302,6 +357,12 @@ void add_contact_command(Program& program) {
                   "changes no result")
       ->file(FileUse::input);
   arguments->checkpoint.add_to(command);
+  command
+      .add_option("--distributions", arguments->distributions,
+                  "densities of contact pressure and of gap in so many bins of equal width; 100 "
+                  "without a number")
+      ->value_without("100")
+      ->range(1, 100000);
   add_choice(command, "--fields", arguments->fields, {"none", "pressure", "all"},
              "of the output: none leaves its numbers; default all");
   add_choice(command, "--field-type", arguments->field_type, {"double", "float"},

@@ -192,6 +192,32 @@ std::string accuracy(const StudyResult& result) {
   return text.empty() ? "" : "Accuracy\n" + text;
 }
 
+/// Conductances and flow of each load with their intervals, as far as the study asks for them.
+std::string transport_table(const StudyResult& result, const StudyAnswer& answer) {
+  std::vector<std::pair<std::string, std::vector<EnsembleMean>>> columns{
+      {"h, W/(m² K)", answer.thermal_conductance}, {"C, S/m²", answer.electrical_conductance}};
+  if (result.configuration.flow_factors)
+    columns.insert(columns.end(), {{"flow x", result.flow(&FlowFactors::pressure_flow_factor_x)},
+                                   {"flow y", result.flow(&FlowFactors::pressure_flow_factor_y)}});
+  std::erase_if(columns, [](const auto& column) { return column.second.empty(); });
+  if (columns.empty()) return "";
+  const bool sample = result.realisations.size() > 1;
+  std::vector<std::vector<std::string>> rows(result.pressures.size() + 1);
+  rows[0] = {"nominal p"};
+  for (std::size_t k = 0; k < result.pressures.size(); ++k)
+    rows[k + 1] = {format_quantity(result.pressures[k], Dimension::pressure, 3)};
+  for (const auto& [name, means] : columns) {
+    rows[0].push_back(name);
+    if (sample) rows[0].push_back("95 % interval");
+    for (std::size_t k = 0; k < means.size(); ++k) {
+      rows[k + 1].push_back(std::isnan(means[k].mean) ? "n/a"
+                                                      : fmt::format("{:.3g}", means[k].mean));
+      if (sample) rows[k + 1].push_back(interval(means[k], Dimension::dimensionless, 3));
+    }
+  }
+  return "\nThrough the contacts\n" + to_table(rows);
+}
+
 std::string study_text(const StudyResult& result, const StudyAnswer& answer) {
   const auto count = result.realisations.size();
   const double friction = result.configuration.known.friction_coefficient;
@@ -207,7 +233,8 @@ std::string study_text(const StudyResult& result, const StudyAnswer& answer) {
       flowed ? ",\nas the first loading left it" : "", motion_text(result.configuration),
       std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
   return text + answer_table(result, answer) + notes(result, answer) + "\n" +
-         premises_of(answer, result).text() + accuracy(result) + law_line(result);
+         premises_of(answer, result).text() + accuracy(result) + law_line(result) +
+         transport_table(result, answer);
 }
 
 /// What --verbose adds: all models, how the law bends, how the mean settled.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/contact/sweep.hpp>  // processes that share a surface have this face alone
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "contact_checkpoint.hpp"
 #include "options.hpp"
+#include "results/columns.hpp"
 
 /// What `contact` was given, and its answers for one position, for several, and by the theory of
 /// Greenwood and Williamson.
@@ -24,6 +26,9 @@ struct ContactArguments {
 
   std::string boundary = "periodic", precision = "mixed";
   bool stiffness = false, stick = false;
+  bool flow_factors = false;
+  std::optional<int> distributions;  ///< bins
+  Conduction conduction;
   std::optional<double> tolerance, hardness;
   int max_iterations = NormalContactOptions().max_iterations;
   int groups = 0;  ///< 0: as many as memory holds
@@ -40,6 +45,9 @@ struct ContactArguments {
   /// p, Pa, of pressures and forces, from the lowest; empty for other positions.
   std::vector<double> pressures_on(double area) const;
   NormalContactOptions contact_options(Session& session) const;
+  bool wants_stiffness() const { return stiffness || conduction.given(); }
+  /// Of a sample of the curve, per nominal area.
+  Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
 };
 
 /// The state of the surface at one position, by boundary elements.
@@ -48,6 +56,24 @@ void press_once(const ContactArguments& arguments, Session& session);
 void press_often(const ContactArguments& arguments, Session& session);
 /// The force curve of summits, those of the surface or of parameters.
 void press_summits(const ContactArguments& arguments, Session& session);
+
+/// One or several conductances, without those that were not asked about.
+template <class Found>
+Json conductances_json(const Found& found, const Conduction& asked) {
+  Json object = json_of(found);
+  if (asked.conductivity.empty()) object.erase("thermal_conductance");
+  if (asked.resistivity.empty()) object.erase("electrical_conductance");
+  return object;
+}
+inline constexpr const char* flow_failure =
+    "contact: the flow factors did not converge; use fewer points";
+/// The flow factors of a converged state; those that did not converge are unknown.
+FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress);
+/// Writes the curve and answers, with the conductances where they were asked about.
+/// answer: has the `curve`, and what the command says beside it.
+/// flow: of each sample; empty: not asked
+void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
+                  Session& session, const std::vector<FlowFactors>& flow = {});
 
 /// A list for each column of ForceSample, without separation and stiffnesses per area where no
 /// sample has them.

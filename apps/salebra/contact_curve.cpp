@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/memory.hpp"
@@ -35,7 +36,7 @@ SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& out
     work.loads.push_back(pressure / unit);
   // A gap or an indentation does not tell the load: contact on a tenth of the cells is assumed.
   if (work.loads.empty()) work.loads = {0.05};
-  work.normal_stiffness = arguments.stiffness;
+  work.normal_stiffness = arguments.wants_stiffness();
   work.tangential_stiffness = arguments.stick;
   work.boundary = *value_of<Boundary>(arguments.boundary);
   work.groups = groups_of(arguments, work, session);
@@ -54,6 +55,29 @@ Json to_json(const ForceCurve& curve) {
   return object;
 }
 
+void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
+                  Session& session, const std::vector<FlowFactors>& flow) {
+  std::vector<CurveColumn> beside;
+  if (arguments.conduction.given()) {
+    std::vector<Conductances> found;
+    for (const ForceSample& sample : curve.samples)
+      found.push_back(arguments.conductances_of(sample, curve.nominal_area));
+    answer["curve"].add(conductances_json(found, arguments.conduction));
+    beside = columns_beside(found);
+  }
+  if (!flow.empty()) {
+    answer["curve"].add(json_of(flow));
+    std::ranges::move(columns_beside(flow), std::back_inserter(beside));
+  }
+  collectively(session.ranks(), [&] {
+    if (session.has_output() && session.ranks().is_root())
+      write_force_curve(session.output(), curve, session.provenance(), session.write_options(),
+                        beside);
+  });
+  if (session.has_plot()) session.plot(curve_figure(curve));
+  session.answer(answer);
+}
+
 void estimate_contacts(const ContactArguments& arguments, Session& session) {
   const SurfaceOutline outline = arguments.surface.outline(session);
   answer_dry_run(work_of(arguments, outline, session), outline.origin, session);
@@ -70,7 +94,7 @@ void press_often(const ContactArguments& arguments, Session& session) {
   const int groups = contact_groups(arguments, session);
   SweepOptions options;
   options.contact = arguments.contact_options(session);
-  options.stiffness = arguments.stiffness;
+  options.stiffness = arguments.wants_stiffness();
   options.stick = arguments.stick;
   options.groups = Groups(session.ranks(), groups);
   Surface surface = arguments.surface.read(session, options.groups->own());
@@ -78,22 +102,23 @@ void press_often(const ContactArguments& arguments, Session& session) {
   session.doubt(doubt_of_pressure(pressures.back(), material.contact_modulus));
   const std::optional<FirstLoading> first_loading = load_first(
       surface, arguments.hardness, material.contact_modulus, pressures.back(), options.contact);
+  std::vector<FlowFactors> flow(arguments.flow_factors ? pressures.size() : 0);
+  if (arguments.flow_factors)
+    options.on_state = [&](std::size_t k, const NormalContactState& state) {
+      flow[k] = flow_of(state, surface.grid, {});
+    };
   const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
-  collectively(session.ranks(), [&] {
-    if (session.has_output() && session.ranks().is_root())
-      write_force_curve(session.output(), curve, session.provenance(), session.write_options());
-  });
-  if (session.has_plot()) session.plot(curve_figure(curve));
   Json answer = {{"curve", to_json(curve)}};
   if (!session.ranks().alone()) answer["groups"] = groups;
   add_first_loading(answer, first_loading);
-  session.answer(answer);
+  answer_curve(arguments, curve, std::move(answer), session, flow);
   const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);
   if (lost > 0)
     throw NotConverged(
         fmt::format("contact: {} of {} pressures did not converge; allow a larger --tolerance",
                     lost, curve.samples.size()));
+  if (!std::ranges::all_of(flow, &FlowFactors::converged)) throw NotConverged(flow_failure);
 }
 
 }  // namespace salebra::cli

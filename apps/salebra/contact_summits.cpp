@@ -3,12 +3,10 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>  // a theory that has one face
-#include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
 
 #include "contact_command.hpp"
-#include "curve_figure.hpp"
 #include "results/columns.hpp"
 
 namespace salebra::cli {
@@ -83,12 +81,10 @@ void press_summits(const ContactArguments& arguments, Session& session) {
                                      ? of_surface(arguments, material, session)
                                      : of_parameters(arguments, material);
   const ForceCurve curve = curve_of(arguments, *model);
-  if (session.has_output())
-    write_force_curve(session.output(), curve, session.provenance(), session.write_options());
-  if (session.has_plot()) session.plot(curve_figure(curve));
   Json parameters = json_of(ensemble);
   parameters["distribution"] = word_of(ensemble.distribution);
-  session.answer(Json{{"parameters", parameters}, {"curve", to_json(curve)}});
+  answer_curve(arguments, curve, Json{{"parameters", parameters}, {"curve", to_json(curve)}},
+               session);
 }
 
 }  // namespace salebra::cli

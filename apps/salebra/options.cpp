@@ -10,6 +10,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>  // the bodies are known to options alone
+#include <salebra/contact/normal/conductance.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/questions/contact.hpp>
 #include <salebra/study/realisation.hpp>
@@ -88,6 +89,14 @@ void MaterialOptions::add_to(Command& app) {
                "E*, instead of --young");
   add_quantity(app, "--tangential-modulus", tangential_modulus, Dimension::pressure,
                "G*, with --contact-modulus");
+}
+
+void add_conduction(Command& app, Conduction& bodies) {
+  const Heading under(app, "Conductance");
+  add_values(app, "--conductivity", bodies.conductivity, Dimension::thermal_conductivity,
+             "thermal, K1[,K2], one for both bodies: also thermal_conductance per nominal area");
+  add_values(app, "--resistivity", bodies.resistivity, Dimension::resistivity,
+             "electrical, R1[,R2], one for both: also electrical_conductance per nominal area");
 }
 
 std::vector<std::string> MaterialOptions::missing(bool tangential) const {

@@ -17,6 +17,7 @@
 #include "session.hpp"
 
 namespace salebra {
+struct Conduction;
 struct FirstLoading;
 struct Standings;
 }  // namespace salebra
@@ -88,6 +89,9 @@ struct MaterialOptions {
   /// β/(πE*), 1/Pa, of the two bodies of --young, else of the material.
   double coupling_constant() const;
 };
+
+/// --conductivity and --resistivity.
+void add_conduction(Command& app, Conduction& bodies);
 
 /// "filtered noise" or "random phase".
 std::string_view title_of(GenerationMethod method);

@@ -68,6 +68,7 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
                   "the scans allow")
       ->file(FileUse::input);
   material.add_to(command);
+  add_conduction(command, conduction);
   motion.add_to(command);
   premises.add_to(command);
   add_values(command, "--pressures", pressures, Dimension::pressure,
@@ -88,6 +89,8 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
   command.add_flag("--no-stick", no_stick,
                    "K_t = (G*/E*)K in place of a stick solve on each contact: faster, exact at nu "
                    "= 0 without coupling");
+  command.add_flag("--flow-factors", flow_factors,
+                   "also those of the gap of each contact of the boundary elements");
   dry_run.add_to(command, over_processes);
   if (over_processes)
     add_groups(command, groups,
@@ -273,6 +276,10 @@ StudyConfiguration StudyArguments::study() const {
   }
   if (const auto seam = value_of<SeamCheck>(seam_error)) study.seam = seam;
   if (no_stick) study.stick = false;
+  if (flow_factors) study.flow_factors = true;
+  conduction.validate();
+  if (!conduction.conductivity.empty()) study.conduction.conductivity = conduction.conductivity;
+  if (!conduction.resistivity.empty()) study.conduction.resistivity = conduction.resistivity;
   const ContactFacts facts = premises.facts({});
   for (double ContactFacts::*fact : {&ContactFacts::friction_coefficient, &ContactFacts::hardness,
                                      &ContactFacts::density, &ContactFacts::excursion})
@@ -749,14 +756,36 @@ PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result) 
           .slip_followed = answer.slips()};
 }
 
+namespace {
+
+constexpr const char* transport_names[] = {"thermal_conductance", "electrical_conductance"};
+
+void add_transport(Json& answer, const StudyResult& result, const StudyAnswer& found) {
+  const Json all = answer_json(found);
+  if (result.configuration.conduction.given()) answer["conductance"]["pressure"] = result.pressures;
+  for (const char* name : transport_names)
+    if (all.contains(name)) answer["conductance"][name] = all[name];
+  if (!result.configuration.flow_factors) return;
+  Json& flow = answer["flow_factors"];
+  flow["pressure"] = result.pressures;
+  for (const auto& [name, percolates] : {std::pair("percolates_x", &FlowFactors::percolates_x),
+                                         {"percolates_y", &FlowFactors::percolates_y}})
+    flow[name] = to_json(result.flow([&](const FlowFactors& one) { return one.*percolates; }));
+  flow.add(columns_json<FlowFactors>([&](const auto& number) { return result.flow(number); }));
+}
+
+}  // namespace
+
 Json damping_json(const StudyAnswer& answer) {
   Json object = answer_json(answer);
   object["relaxation_share"] = answer.relaxation_share;
   object["slip_share"] = answer.slip_share;
+  for (const char* name : transport_names) object.erase(name);
   return object;
 }
 
 void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found) {
+  add_transport(answer, result, found);
   answer["realisations"] = result.realisations.size();
   Json& flags = answer["flags"] = Json::object();
   for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;

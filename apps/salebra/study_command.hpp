@@ -22,13 +22,14 @@ struct StudyArguments {
   std::string twin, configuration;
   SurfaceOptions surface;
   MaterialOptions material;
+  Conduction conduction;
   MotionOptions motion;
   PremiseOptions premises;
   std::vector<double> pressures;
   std::optional<double> precision, relative_error;
   std::optional<int> levels;
   std::string seam_error;
-  bool no_stick = false;
+  bool no_stick = false, flow_factors = false;
   bool resume = false;
   DryRunOptions dry_run;
   std::optional<double> shard_seconds;
@@ -87,8 +88,8 @@ std::string ensemble_remarks(const StudyResult& result);
 PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result);
 /// γ and work of the motion as described, with the shares of slip.
 Json damping_json(const StudyAnswer& answer);
-/// Adds how many surfaces there are, what is wrong with them, their first loading where a hardness
-/// is known, and the premises.
+/// Adds conductances and flow factors where the study asks for them, how many surfaces there are,
+/// what is wrong with them, their first loading where a hardness is known, and the premises.
 void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found);
 
 }  // namespace salebra::cli

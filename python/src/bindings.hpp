@@ -14,6 +14,8 @@ void bind_surface(nanobind::module_& module);
 void bind_statistics(nanobind::module_& module);
 void bind_files(nanobind::module_& module);
 void bind_contact(nanobind::module_& module);
+void bind_transport(nanobind::module_& module);
+void bind_adhesion(nanobind::module_& module);
 void bind_curve(nanobind::module_& module);
 void bind_stick(nanobind::module_& module);
 void bind_greenwood_williamson(nanobind::module_& module);

@@ -14,6 +14,7 @@ NB_MODULE(_core, m) {
   bind_shapes(m);
   bind_statistics(m);
   bind_contact(m);
+  bind_transport(m);
   bind_curve(m);
   bind_files(m);
   bind_law(m);
@@ -21,6 +22,7 @@ NB_MODULE(_core, m) {
   bind_greenwood_williamson(m);
   bind_theories(m);
   bind_mdr(m);
+  bind_adhesion(m);
   bind_motion(m);
   bind_premises(m);
   bind_damping(m);

@@ -87,7 +87,19 @@ constexpr std::array spellings{
     Spelling{Dimension::time, "", "min", "", 60, 0},
     Spelling{Dimension::time, "", "h", "", 3600, 0},
     Spelling{energy, "", "J", ""},
+    Spelling{energy_per_area, "", "J", "/m^2"},
+    Spelling{energy_per_area, "", "J", "/m2"},
+    Spelling{energy_per_area, "", "J", "/m\u00b2"},
+    Spelling{energy_per_area, "", "N", "/m"},
     Spelling{power, "", "W", ""},
+    Spelling{resistivity, "", "ohm", " m"},
+    Spelling{resistivity, "", "ohm", "m"},
+    Spelling{resistivity, "", "ohm", " cm", 1e-2},
+    Spelling{resistivity, "", "\u03a9", " m"},
+    Spelling{resistivity, "", "\u03a9", "m"},
+    Spelling{thermal_conductivity, "", "W", "/(m K)"},
+    Spelling{thermal_conductivity, "", "W", "/mK"},
+    Spelling{thermal_conductivity, "", "W", "/m/K"},
 };
 
 struct About {
@@ -105,6 +117,7 @@ constexpr std::array abouts{
     About{inverse_length, "1/m", "1/um", false},
     About{inverse_length_squared, "1/m^2", "1/um2", false},
     About{pressure, "Pa", "115GPa", true},
+    About{inverse_pressure, "1/Pa", "1e-9", false},
     About{force, "N", "1mN", true},
     About{stiffness, "N/m", "1kN/m", true},
     About{stiffness_per_area, "Pa/m", "1GPa/um", false},
@@ -119,8 +132,12 @@ constexpr std::array abouts{
     About{velocity, "m/s", "1mm/s", true},
     About{Dimension::time, "s", "1ms", true},
     About{energy, "J", "1nJ", true},
-    About{energy_per_area, "J/m^2", "1", false},
+    About{energy_per_area, "J/m^2", "50mJ/m2", false},
     About{Dimension::power, "W", "1uW", true},
+    About{resistivity, "ohm m", "17nohm m", true},
+    About{thermal_conductivity, "W/(m K)", "400W/mK", false},
+    About{conductance_per_area, "S/m^2", "1e10", false},
+    About{Dimension::thermal_conductance, "W/(m^2 K)", "1e5", false},
 };
 
 const About& about(Dimension dimension) {

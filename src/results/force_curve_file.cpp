@@ -22,7 +22,8 @@ bool complete(const std::vector<double>& values) {
 
 }  // namespace
 
-void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
+void write_force_curve(ResultGroup& group, const ForceCurve& curve,
+                       const std::vector<CurveColumn>& beside) {
   std::string coordinate;
   for (const auto& [meaning, member] : detail::curve_quantities()) {
     const std::vector<double> values = curve.column(member);
@@ -43,6 +44,9 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve) {
     group.dataset(name, values, {coordinate}, units, long_name);
   }
   require(!coordinate.empty(), "curve", curve.samples.size(), "samples hold no known quantity");
+  for (const auto& [quantity, values] : beside)
+    group.dataset(std::string(quantity.name), values, {coordinate},
+                  std::string(si_unit(quantity.dimension)), std::string(quantity.long_name));
   std::vector<bool> converged;
   for (const ForceSample& sample : curve.samples) converged.push_back(sample.converged);
   for_each_column<ForceSample>([&](const auto&, const Quantity& quantity) {
@@ -101,17 +105,18 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
 }
 
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
-                       const Provenance& provenance, const WriteOptions& options) {
+                       const Provenance& provenance, const WriteOptions& options,
+                       const std::vector<CurveColumn>& beside) {
   require_curve_name(file);
   const std::string extension = file.extension().string();
   if (extension == ".h5" || extension == ".hdf5") {
     ResultFile results(file, provenance, options);
     ResultGroup group = results.group("curve");
-    write_force_curve(group, curve);
+    write_force_curve(group, curve, beside);
     results.commit();
   } else {
     detail::AtomicFile output(file, options);
-    output.write(detail::text_of(curve, provenance));
+    output.write(detail::text_of(curve, beside, provenance));
     output.commit();
   }
 }

@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/adhesive_cycle.hpp>
+#include <salebra/contact/normal/conductance.hpp>
+#include <salebra/contact/normal/distributions.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/level_quadrature.hpp>
@@ -44,7 +48,8 @@ const Column* entry_of(std::string_view name) {
       LossWithSlip, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider,
       SliderMotion, SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap,
       RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy,
-      NonGaussianSurface>(name);
+      NonGaussianSurface, Conductances, ContactDistributions, FlowFactors, AdhesionOfState,
+      AdhesiveCycle>(name);
 }
 
 }  // namespace

@@ -165,27 +165,29 @@ ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view c
   return curve;
 }
 
-std::string text_of(const ForceCurve& curve, const Provenance& provenance) {
+std::string text_of(const ForceCurve& curve, const std::vector<CurveColumn>& beside,
+                    const Provenance& provenance) {
   std::string text = fmt::format("# program: salebra {}\n# created: {}\n", version(),
                                  provenance.created.empty() ? utc_now() : provenance.created);
   if (!provenance.command_line.empty()) text += "# command_line: " + provenance.command_line + "\n";
   if (!curve.model.empty()) text += "# model: " + curve.model + "\n";
   if (curve.nominal_area > 0) text += fmt::format("# nominal_area: {} m^2\n", curve.nominal_area);
   if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
-  std::vector<CurveQuantity> known = curve_quantities();
-  std::erase_if(known, [&](const CurveQuantity& item) {
-    return std::ranges::all_of(
-        curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*item.member); });
-  });
-  for (const auto& [quantity, member] : known)
-    text += fmt::format("{} [{}],", quantity.name, si_unit(quantity.dimension));
+  std::vector<CurveColumn> columns;
+  for (const auto& [quantity, member] : curve_quantities())
+    if (CurveColumn column{quantity, curve.column(member)};
+        !std::ranges::all_of(column.values, [](double value) { return std::isnan(value); }))
+      columns.push_back(std::move(column));
+  columns.insert(columns.end(), beside.begin(), beside.end());
+  for (const CurveColumn& column : columns)
+    text += fmt::format("{} [{}],", column.quantity.name, si_unit(column.quantity.dimension));
   text += "converged\n";
-  for (const ForceSample& sample : curve.samples) {
-    for (const auto& [quantity, member] : known) {
-      const double value = sample.*member;
+  for (std::size_t row = 0; row < curve.samples.size(); ++row) {
+    for (const CurveColumn& column : columns) {
+      const double value = column.values[row];
       text += std::isnan(value) ? "nan," : fmt::format("{},", value);
     }
-    text += sample.converged ? "1\n" : "0\n";
+    text += curve.samples[row].converged ? "1\n" : "0\n";
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/io/provenance.hpp>
+#include <salebra/results/force_curve_file.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,7 @@ inline std::vector<CurveQuantity> curve_quantities() {
 }
 
 ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view content);
-std::string text_of(const ForceCurve& curve, const Provenance& provenance);
+std::string text_of(const ForceCurve& curve, const std::vector<CurveColumn>& beside,
+                    const Provenance& provenance);
 
 }  // namespace salebra::detail

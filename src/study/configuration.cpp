@@ -249,6 +249,13 @@ Material read_material(TomlTable table, ContactFacts& known) {
   });
 }
 
+void read_conduction(TomlTable table, StudyConfiguration& configuration) {
+  configuration.conduction = {table.values("conductivity", Dimension::thermal_conductivity),
+                              table.values("resistivity", Dimension::resistivity)};
+  table.located([&] { configuration.conduction.validate(); });
+  table.require_no_other_keys();
+}
+
 void read_contact(TomlTable table, StudyConfiguration& configuration) {
   const bool relative = table.has("relative_pressures");
   table.check(!relative || !table.has("pressures"), "pressures",
@@ -271,6 +278,7 @@ void read_contact(TomlTable table, StudyConfiguration& configuration) {
   }
   if (const auto stick = table.choice("tangential_stiffness", {"stick", "proportional"}))
     configuration.stick = *stick == 0;
+  configuration.flow_factors = table.flag("flow_factors").value_or(false);
   table.require_no_other_keys();
 }
 
@@ -382,7 +390,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   TomlTable root = TomlTable::parse(text, name);
   // Report a misspelt table as such, not as missing.
   for (const char* table :
-       {"surface", "ensemble", "material", "contact", "fit", "damping", "compare"})
+       {"surface", "ensemble", "material", "conduction", "contact", "fit", "damping", "compare"})
     root.table(table);
   root.require_no_other_keys();
   StudyConfiguration configuration;
@@ -400,6 +408,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   }
   if (ensemble) ensemble->located([&] { parameter_combinations(configuration); });
   configuration.material = read_material(root.required_table("material"), configuration.known);
+  if (auto conduction = root.table("conduction")) read_conduction(*conduction, configuration);
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);
   read_damping(root.required_table("damping"), configuration);

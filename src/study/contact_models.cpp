@@ -16,6 +16,7 @@
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
+#include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/surface/spectrum.hpp>
@@ -50,10 +51,14 @@ ModelResult boundary_elements(ModelWork& work) {
   sweep.contact.on_progress = work.progress;
   sweep.stick = stick_solves(work.configuration);
   realisation.spots.resize(work.pressures.size());
+  if (work.configuration.flow_factors) realisation.flow.resize(work.pressures.size());
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
     realisation.spots[k] = spot_statistics(
         contact_spots(state.contact_pressure, surface.grid, Boundary::periodic, surface.ranks),
         surface.grid);
+    if (work.configuration.flow_factors)
+      if (const FlowFactors flow = flow_factors(state, surface.grid); flow.converged())
+        realisation.flow[k] = flow;
     if (realisation.picture.empty()) return;
     const std::scoped_lock lock(picture_guard);
     realisation.picture.add_contact(std::int16_t(k), state, surface);

@@ -15,7 +15,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 10\n";
+constexpr std::string_view magic = "salebra realisation 11\n";
 
 /// Checksum of a file; 0 where there is none.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
@@ -42,11 +42,11 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
   }
   // The first of several surfaces states the error of all.
   bytes += bytes_of(point.material, point.pressures, point.relative_pressures, point.tolerance,
-                    point.stick, point.window, point.models, point.known.hardness,
-                    point.known.friction_coefficient, point.known.excursion, point.motion,
-                    point.damping.hold, point.damping.amplitude, point.damping.tolerance,
-                    point.levels, point.relative_error, point.seam, seeds_of(point).size() == 1,
-                    seed == seeds_of(point).front());
+                    point.stick, point.flow_factors, point.window, point.models,
+                    point.known.hardness, point.known.friction_coefficient, point.known.excursion,
+                    point.motion, point.damping.hold, point.damping.amplitude,
+                    point.damping.tolerance, point.levels, point.relative_error, point.seam,
+                    seeds_of(point).size() == 1, seed == seeds_of(point).front());
   return Checksum(bytes).value();
 }
 
@@ -55,7 +55,8 @@ std::uint64_t study_key(const std::vector<StudyConfiguration>& points) {
   for (const StudyConfiguration& point : points) {
     for (const std::uint64_t seed : seeds_of(point))
       bytes += bytes_of(realisation_key(point, seed));
-    bytes += bytes_of(point.target_precision, point.min_realisations, point.known.density);
+    bytes += bytes_of(point.target_precision, point.min_realisations, point.known.density,
+                      point.conduction);
   }
   return Checksum(bytes).value();
 }

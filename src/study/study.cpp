@@ -80,6 +80,7 @@ void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
       "process each, or one process";
   require(std::isnan(point.known.hardness), "hardness", point.known.hardness, why);
   require(!(point.relative_error > 0), "relative_error", point.relative_error, why);
+  require(!point.flow_factors, "flow_factors", true, why);
   require(!point.has(ContactModel::gw_interacting), "models",
           contact_models()[std::size_t(ContactModel::gw_interacting)].name, why);
 }

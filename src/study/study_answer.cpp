@@ -78,13 +78,16 @@ StudyAnswer answer_of(const StudyResult& result) {
   const StudyConfiguration& configuration = result.configuration;
   const std::size_t count = result.pressures.size();
   const std::vector<StatedMean> without_slip = result.stated_damping();
-  StudyAnswer answer{.pressures = result.pressures,
-                     .damping_constant = without_slip,
-                     .damping_constant_without_slip = without_slip,
-                     .relaxation_share = std::vector<double>(count, ContactFacts::unknown),
-                     .slip_share = std::vector<double>(count, ContactFacts::unknown),
-                     .slip_followed = !std::isnan(configuration.known.friction_coefficient),
-                     .premises = std::vector<Premises>(count)};
+  StudyAnswer answer{
+      .pressures = result.pressures,
+      .damping_constant = without_slip,
+      .damping_constant_without_slip = without_slip,
+      .relaxation_share = std::vector<double>(count, ContactFacts::unknown),
+      .slip_share = std::vector<double>(count, ContactFacts::unknown),
+      .thermal_conductance = result.conductance(&Conductances::thermal_conductance),
+      .electrical_conductance = result.conductance(&Conductances::electrical_conductance),
+      .slip_followed = !std::isnan(configuration.known.friction_coefficient),
+      .premises = std::vector<Premises>(count)};
   const auto* drag = std::get_if<Drag>(&configuration.motion);
   if (drag != nullptr && answer.slip_followed && std::isnan(configuration.known.excursion))
     answer.needs = "excursion";

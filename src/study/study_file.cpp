@@ -252,9 +252,10 @@ void write_damping(Table table, const StudyResult& result) {
 void write_answer(Table table, const StudyResult& result, const StudyAnswer& answer) {
   table.pressures(result);
   for_each_column<StudyAnswer>([&](const auto& access, const Quantity& quantity) {
-    const std::vector<StatedMean>& stated = access(answer);
-    table.put(std::string(quantity.name), quantity, Means(stated.begin(), stated.end()),
-              {"pressure"});
+    const auto& means = access(answer);
+    if (!means.empty())
+      table.put(std::string(quantity.name), quantity, Means(means.begin(), means.end()),
+                {"pressure"});
   });
   std::vector<double> errors, regimes;
   for (const StatedMean& stated : answer.damping_constant) errors.push_back(stated.error);
@@ -329,6 +330,18 @@ void write_spots(Table table, const StudyResult& result) {
   });
 }
 
+void write_flow(Table table, const StudyResult& result) {
+  table.realisations(result);
+  table.pressures(result);
+  std::vector<const FlowFactors*> items;
+  for (const Realisation& realisation : result.realisations)
+    for (const FlowFactors& flow : realisation.flow) items.push_back(&flow);
+  table.columns(
+      items, {"realisation", "pressure"},
+      [&](const NumberOf<FlowFactors>& number, std::string_view) { return result.flow(number); },
+      {"pressure"});
+}
+
 /// Every model beside the boundary elements on the same surfaces.
 void write_comparison(Table table, const StudyResult& result) {
   table.models(result);
@@ -389,6 +402,7 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_answer(table("answer"), result, answer);
   write_premises(output.group(where + "premises"), result, answer);
   write_spots(table("spots"), result);
+  if (result.configuration.flow_factors) write_flow(table("flow"), result);
   write_comparison(table("comparison"), result);
   if (result.realisations.size() >= 2) write_convergence(table("convergence"), result);
   const SurfacePicture& picture = result.realisations.front().picture;

@@ -118,6 +118,22 @@ std::vector<EnsembleMean> StudyResult::spots(const NumberOf<SpotStatistics>& num
   return at_pressures([&](const Realisation& r, std::size_t k) { return number(r.spots[k]); });
 }
 
+std::vector<EnsembleMean> StudyResult::flow(const NumberOf<FlowFactors>& number) const {
+  return at_pressures([&](const Realisation& r, std::size_t k) {
+    const bool known = k < r.flow.size() && !std::isnan(r.flow[k].mean_gap);
+    return known ? number(r.flow[k]) : FlowFactors::unknown;
+  });
+}
+
+std::vector<EnsembleMean> StudyResult::conductance(double Conductances::*kind) const {
+  const double modulus = configuration.material.contact_modulus;
+  if (std::isnan(conductances(1, modulus, configuration.conduction).*kind)) return {};
+  return curve([&](const ForceSample& sample) {
+    return conductances(sample.normal_stiffness / grid.area(), modulus, configuration.conduction).*
+           kind;
+  });
+}
+
 std::vector<EnsembleMean> StudyResult::over_bem(const NumberOf<ForceSample>& number,
                                                 ContactModel model) const {
   return at_pressures([&](const Realisation& r, std::size_t k) {

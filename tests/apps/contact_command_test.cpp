@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/distributions.hpp>
+#include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
@@ -225,6 +227,95 @@ TEST_CASE("The stiffness of full contact is infinite: valid JSON without a numbe
   CHECK(curve["normal_stiffness"][1].is_null());
   CHECK(curve["tangential_stiffness"][1].is_null());
   CHECK(curve["converged"][1] == true);
+}
+
+TEST_CASE("The conductance of contacts follows from their stiffness, in answers and files",
+          "[contact][conductance]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa ";
+  const std::string bodies = "--conductivity 50W/mK,400 --resistivity '2 uohm cm' ";
+  // 2/[E*(1/κ_1 + 1/κ_2)] and 2/[E*(ρ + ρ)] of 2e-8 Ω m.
+  const double thermal = 2 / (10e9 * (1.0 / 50 + 1.0 / 400)), electrical = 1 / (10e9 * 2e-8);
+  const std::string hardness = GENERATE("", "--hardness 600MPa ");
+  const auto one =
+      test.answer(press + bodies + hardness + "--pressure 20MPa --fields none -o one.h5");
+  const double stiffness = one["normal_stiffness_per_area"];
+  CHECK(stiffness > 0);
+  CHECK(one["thermal_conductance"] == Approx(thermal * stiffness).epsilon(1e-12));
+  CHECK(one["electrical_conductance"] == Approx(electrical * stiffness).epsilon(1e-12));
+  const ResultReader file(test.folder() / "one.h5");
+  for (const char* name : {"thermal_conductance", "electrical_conductance", "normal_stiffness"})
+    CHECK(file.number_attribute("contact", name) == one[name].get<double>());
+
+  const auto curve = test.answer(press + bodies + hardness + "--pressure 20MPa,200MPa -o curve.h5");
+  const ResultReader columns(test.folder() / "curve.h5");
+  for (const char* name : {"thermal_conductance", "electrical_conductance"}) {
+    const double factor = name[0] == 't' ? thermal : electrical;
+    CHECK(columns.numbers("curve/" + std::string(name)) ==
+          curve["curve"][name].get<std::vector<double>>());
+    for (const int k : {0, 1})
+      CHECK(curve["curve"][name][k] ==
+            Approx(factor * curve["curve"]["normal_stiffness_per_area"][k].get<double>())
+                .epsilon(1e-12));
+  }
+  CHECK(read_force_curve(test.folder() / "curve.h5").samples.size() == 2);
+}
+
+TEST_CASE("A contact without gaps conducts as its stiffness says, without a number",
+          "[contact][conductance]") {
+  const ProgramTest test;
+  make_rough(test);
+  const auto closed = test.answer(
+      "contact rough.h5 --contact-modulus 10GPa --pressure 100GPa --resistivity 2e-8");
+  CHECK(closed["electrical_conductance"].is_null());
+  CHECK_FALSE(closed.contains("thermal_conductance"));
+  const auto summits = test.answer(
+      "contact rough.h5 --model gw_moments --contact-modulus 10GPa --pressure 20MPa,30MPa "
+      "--conductivity 1 -o summits.csv");
+  CHECK(summits["curve"]["thermal_conductance"][1] ==
+        Approx(1e-10 * summits["curve"]["normal_stiffness_per_area"][1].get<double>()));
+  CHECK_THAT(test.read("summits.csv"), Contains("thermal_conductance [W/(m^2 K)]"));
+}
+
+TEST_CASE("Flow factors and densities of a contact are those of its fields", "[contact][flow]") {
+  const ProgramTest test;
+  make_rough(test);
+  const std::string press = "contact rough.h5 --contact-modulus 10GPa --flow-factors ";
+  const auto one = test.answer(press + "--pressure 10MPa --distributions 20 -o one.h5");
+  const ResultReader file(test.folder() / "one.h5");
+  NormalContactState state;
+  state.contact_pressure = file.field("contact/contact_pressure");
+  state.gap = file.field("contact/gap");
+  const Grid2D grid{64, 64, 4e-6, 4e-6};
+  const FlowFactors flow = flow_factors(state, grid);
+  REQUIRE(flow.percolates_x);
+  CHECK(one["percolates_x"] == true);
+  for (const auto& [name, value] :
+       {std::pair("pressure_flow_factor_x", flow.pressure_flow_factor_x),
+        {"pressure_flow_factor_y", flow.pressure_flow_factor_y},
+        {"effective_gap", flow.effective_gap},
+        {"bruggeman_flow_factor", flow.bruggeman_flow_factor}}) {
+    CHECK(one[name] == Approx(value).epsilon(1e-12));
+    CHECK(file.number_attribute("contact", name) == one[name].get<double>());
+  }
+  const ContactDistributions found = contact_distributions(state, grid, 20);
+  CHECK(one["distributions"]["gap_density"].get<std::vector<double>>() == found.gap_density);
+  CHECK(file.numbers("distributions/pressure_density") == found.pressure_density);
+  CHECK(file.numbers("distributions/contact_pressure") == found.contact_pressure);
+
+  // Most of the area touches at the second pressure: there is no way through.
+  const auto curve = test.answer(press + "--pressure 10MPa,200MPa -o curve.h5")["curve"];
+  CHECK(curve["pressure_flow_factor_x"][0] ==
+        Approx(one["pressure_flow_factor_x"].get<double>()).epsilon(1e-9));
+  CHECK(curve["contact_area_fraction"][1] > 0.6);
+  CHECK(curve["percolates_x"] == nlohmann::json{true, false});
+  CHECK(curve["percolates_y"][1] == false);
+  for (const char* name : {"pressure_flow_factor_x", "effective_gap", "bruggeman_flow_factor"})
+    CHECK(curve[name][1].is_null());
+  const ResultReader columns(test.folder() / "curve.h5");
+  CHECK(columns.numbers("curve/percolates_x") == std::vector<double>{1, 0});
+  CHECK(std::isnan(columns.numbers("curve/pressure_flow_factor_x")[1]));
 }
 
 TEST_CASE("A contact that does not converge is not presented as a result", "[contact]") {

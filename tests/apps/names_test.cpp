@@ -50,6 +50,7 @@ const std::map<std::string, Meanings> groups{
     {"damping", meanings_of<DampingPoint, DeviationRange>()},
     {"answer", meanings_of<DampingPoint, LossWithSlip, StudyAnswer>()},
     {"spots", meanings_of<SpotStatistics>()},
+    {"flow", meanings_of<FlowFactors>()},
     {"convergence", meanings_of<ModelResult>()},
     {"comparison", meanings_of<ForceSample, DampingPoint>()},
     {"ensemble", meanings_of<SelfAffineParameters, Grid2D, ModelResult>()}};

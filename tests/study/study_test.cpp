@@ -17,6 +17,7 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_answer.hpp>
 #include <salebra/study/study_file.hpp>
@@ -311,4 +312,64 @@ TEST_CASE(
         Approx(study_loads(law).contact_scale).epsilon(1e-9));
   CHECK_THROWS_WITH(parse_study_configuration(surface + contact_text(), "x.toml", folder),
                     Catch::Contains(name));  // it is gone
+}
+
+TEST_CASE("Conductances of a study are its stiffness times a constant, and so are their intervals",
+          "[study]") {
+  StudyConfiguration configuration =
+      small_study("[conduction]\nconductivity = [\"50W/mK\", 400]\nresistivity = 2e-8\n");
+  configuration.levels = 0;
+  const StudyResult result = run_study(configuration);
+  const StudyAnswer answer = answer_of(result);
+  const auto stiffness = result.curve(&ForceSample::normal_stiffness);
+  const double modulus = configuration.material.contact_modulus, area = result.grid.area();
+  REQUIRE(answer.thermal_conductance.size() == result.pressures.size());
+  for (std::size_t k = 0; k < stiffness.size(); ++k) {
+    const double thermal = thermal_conductance(1 / area, modulus, 50, 400),
+                 electrical = electrical_conductance(1 / area, modulus, 2e-8, 2e-8);
+    for (double EnsembleMean::*part :
+         {&EnsembleMean::mean, &EnsembleMean::low, &EnsembleMean::high}) {
+      CHECK(answer.thermal_conductance[k].*part == Approx(thermal * stiffness[k].*part));
+      CHECK(answer.electrical_conductance[k].*part == Approx(electrical * stiffness[k].*part));
+    }
+  }
+  // What the bodies conduct changes nothing of the surfaces, but the result.
+  StudyConfiguration other = configuration;
+  other.conduction = {};
+  CHECK(StudyParts::keys(other) == StudyParts::keys(configuration));
+  CHECK(answer_of({.configuration = other, .grid = result.grid, .pressures = result.pressures,
+                   .realisations = result.realisations})
+            .thermal_conductance.empty());
+}
+
+TEST_CASE("A study has the flow through the gap of each contact where it is asked for",
+          "[study][flow]") {
+  StudyConfiguration configuration = small_study();
+  configuration.levels = 0;
+  CHECK(std::isnan(
+      run_study(configuration).flow(&FlowFactors::pressure_flow_factor_x).front().mean));
+  const auto keys = StudyParts::keys(configuration);
+  configuration.flow_factors = true;
+  CHECK(StudyParts::keys(configuration) != keys);
+  const StudyResult result = run_study(configuration);
+  const Realisation& first = result.realisations.front();
+  const Surface surface = study_surface(configuration, first.seed);
+  NormalContactOptions options;
+  options.tolerance = configuration.tolerance;
+  for (const std::size_t k : {std::size_t(0), result.pressures.size() - 1}) {
+    const FlowFactors flow = flow_factors(
+        press(surface, configuration.material.contact_modulus, {.pressure = result.pressures[k]},
+              options),
+        surface.grid);
+    CHECK(first.flow[k].percolates_x == flow.percolates_x);
+    if (flow.percolates_x)
+      CHECK(first.flow[k].pressure_flow_factor_x == Approx(flow.pressure_flow_factor_x));
+  }
+  // Light contact lets pass the flow on all surfaces, less and less of it.
+  const auto factors = result.flow(&FlowFactors::pressure_flow_factor_x);
+  const auto part = result.flow([](const FlowFactors& one) { return one.percolates_x; });
+  CHECK(part[0].mean == 1);
+  CHECK(part.back().mean <= 1);
+  CHECK(factors[0].mean < 1);
+  CHECK(factors[5].mean < factors[0].mean);
 }

@@ -18,6 +18,7 @@ enum class Dimension {
   inverse_length,          ///< 1/m; curvature of a surface
   inverse_length_squared,  ///< m⁻²; spectral moment 4 and the inverse of an area
   pressure,                ///< Pa
+  inverse_pressure,        ///< 1/Pa
   force,                   ///< N
   stiffness,               ///< N/m
   stiffness_per_area,      ///< Pa/m; printed in GPa/µm
@@ -34,6 +35,10 @@ enum class Dimension {
   energy,                  ///< J
   energy_per_area,         ///< J/m²
   power,                   ///< W
+  resistivity,             ///< Ω m
+  thermal_conductivity,    ///< W/(m K)
+  conductance_per_area,    ///< S/m²
+  thermal_conductance,     ///< W/(m² K), per area
 };
 
 /// The SI unit as written into files: "m", "rad/s", "1/m^2", …; "1" for numbers without a

@@ -8,6 +8,7 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/conductance.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
@@ -159,6 +160,9 @@ struct StudyConfiguration {
   bool has(ContactModel model) const;
   /// Whether surfaces are drawn from a surface twin.
   bool of_twin() const;
+  /// For the conductance of the contacts. It is no part of what is computed of a surface.
+  Conduction conduction = {};
+  bool flow_factors = false;  ///< of each contact of the boundary elements
   Oscillation motion;
   DampingOptions damping;
   /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness
@@ -188,7 +192,8 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
       &S::compared_models,
       Kept{"compared_models",
            "those that the program's command `compare` runs: all, unless the study file chooses"});
-  keep(visit, &S::motion, &S::damping, &S::known, &S::levels, &S::relative_error, &S::seam);
+  keep(visit, &S::conduction, &S::flow_factors, &S::motion, &S::damping, &S::known, &S::levels,
+       &S::relative_error, &S::seam);
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 

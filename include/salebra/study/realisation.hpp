@@ -10,6 +10,7 @@
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/moments.hpp>
@@ -303,6 +304,9 @@ struct Realisation {
   std::vector<ModelResult>
       models;  ///< those of the configuration, in the order of contact_models()
   std::vector<SpotStatistics> spots;  ///< for each pressure
+  /// For each pressure, where the configuration asks for them; unknown where the contact or the flow
+  /// did not converge.
+  std::vector<FlowFactors> flow;
   double corrected_area_slope = ForceSample::
       unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
   SurfacePicture
@@ -333,6 +337,7 @@ constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
   visit(&S::ensemble, Kept{"ensemble", "summits of the Greenwood-Williamson theory"});
   visit(&S::models, Kept{"models", "what each contact model says"});
   visit(&S::spots, Kept{"spots", "contact spots of boundary elements at each pressure"});
+  visit(&S::flow, Kept{"flow", "flow through the gap at each pressure"});
   visit(&S::corrected_area_slope,
         Quantity{"corrected_area_slope", dimensionless,
                  "slope of A/A0, corrected by the perimeter, over p/(E* rms slope)"});

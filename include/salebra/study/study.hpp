@@ -157,6 +157,12 @@ struct StudyResult {
   /// first order in the scatter.
   std::vector<EnsembleMean> deviation(ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> spots(const NumberOf<SpotStatistics>& number) const;
+  /// Over the surfaces whose gap lets pass a flow, where the number is one of the flow. The mean of
+  /// FlowFactors::percolates_x is the part of the surfaces that do.
+  std::vector<EnsembleMean> flow(const NumberOf<FlowFactors>& number) const;
+  /// Those that the configuration asks about, of the boundary elements' K; empty: not asked. Each is
+  /// K times a constant, and so is its interval.
+  std::vector<EnsembleMean> conductance(double Conductances::*kind) const;
   /// A quantity of a model over that of the boundary elements on the same surface.
   std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
   /// A route to the loss of a model over the theorem on the boundary-element curve of the same

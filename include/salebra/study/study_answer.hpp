@@ -24,6 +24,9 @@ struct StudyAnswer {
   /// Parts of the work by levels that open and close, and by slip of those that stay closed; unknown
   /// where slip is not followed.
   std::vector<double> relaxation_share = {}, slip_share = {};
+  /// Of the boundary elements per nominal area, W/(m² K) and S/m²; empty where the configuration does
+  /// not ask.
+  std::vector<EnsembleMean> thermal_conductance = {}, electrical_conductance = {};
   bool slip_followed = false;  ///< the coefficient of friction is known
   std::string needs = {};      ///< the fact that decides and is missing: "excursion"; empty: none
   std::vector<Premises> premises = {};
@@ -42,6 +45,11 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
   visit(&S::damping_constant_without_slip, quantity::damping_constant_without_slip);
   visit(&S::relaxation_share, Kept{"relaxation_share", "parts by levels that open and close"});
   visit(&S::slip_share, Kept{"slip_share", "parts by slip in permanent contact"});
+  visit(&S::thermal_conductance, Quantity{"thermal_conductance", Dimension::thermal_conductance,
+                                          "thermal conductance over nominal area"});
+  visit(&S::electrical_conductance,
+        Quantity{"electrical_conductance", Dimension::conductance_per_area,
+                 "electrical conductance over nominal area"});
   visit(&S::slip_followed, Kept{"slip_followed", "whether the coefficient of friction is known"});
   visit(&S::needs, Kept{"needs", "the fact that decides and is missing"});
   visit(&S::premises, Kept{"premises", "premises at each pressure"});

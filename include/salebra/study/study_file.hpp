@@ -20,6 +20,7 @@ namespace salebra {
 ///                limits (model, pressure)
 ///   spots        contact spots of the boundary elements (realisation, pressure), by size (…,
 ///                min_cells)
+///   flow         flow factors of the gaps (realisation, pressure), where they were asked for
 ///   comparison   each model over the boundary elements on the same surfaces, means with limits
 ///                (model, pressure)
 ///   convergence  mean l/h_rms over the first surfaces, with limits (surfaces)

@@ -102,9 +102,9 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
                     const AdhesiveContactOptions& options) {
   surface.require_complete_rows("a contact calculation");
   require_positive(contact_modulus, "contact_modulus");
-  require(adhesion.work >= 0 && std::isfinite(adhesion.work), "work", adhesion.work,
+  require(adhesion.work >= 0 && std::isfinite(adhesion.work), "work_of_adhesion", adhesion.work,
           "must be >= 0 and finite, J/m²; 0: no adhesion");
-  require_positive(adhesion.range, "range");
+  require_positive(adhesion.range, "adhesion_range");
   require(std::isinf(options.contact.hardness), "hardness", options.contact.hardness,
           "is not known to adhesion; leave it out");
   require(options.tolerance >= 1e-10 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
@@ -117,9 +117,9 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
             "start_tension", start->size(), "cells must fill the grid with finite tensions >= 0");
   const double zone = cells_in_process_zone(adhesion, surface.grid, contact_modulus);
   // The zone grows with the square of the range and with the number of cells.
-  require(zone >= least_zone || options.force_coarse, "range", adhesion.range,
+  require(zone >= least_zone || options.force_coarse, "adhesion_range", adhesion.range,
           fmt::format("leaves {:.2g} cells in the process zone, and the cells decide what sticks; "
-                      "use a range of {:.3g} m, cells of {:.3g} m, or force_coarse",
+                      "use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
                       zone, adhesion.range * std::sqrt(doubtful_zone / zone),
                       std::max(surface.grid.dx(), surface.grid.dy()) * zone / doubtful_zone));
 }

@@ -36,4 +36,21 @@ double thermal_conductance(double normal_stiffness, double contact_modulus, doub
                         "conductivity");
 }
 
+void Conduction::validate() const { conductances(0, 1, *this); }
+
+Conductances conductances(double normal_stiffness_per_area, double contact_modulus,
+                          const Conduction& conduction) {
+  Conductances found;
+  const auto ask = [&](const char* name, const std::vector<double>& bodies, auto conductance) {
+    require(bodies.size() <= 2, name, bodies.size(),
+            "values are too many; give one for both bodies, or one for each");
+    return bodies.empty() ? Conductances().thermal_conductance
+                          : conductance(normal_stiffness_per_area, contact_modulus, bodies.front(),
+                                        bodies.back());
+  };
+  found.thermal_conductance = ask("conductivity", conduction.conductivity, thermal_conductance);
+  found.electrical_conductance = ask("resistivity", conduction.resistivity, electrical_conductance);
+  return found;
+}
+
 }  // namespace salebra

@@ -486,10 +486,10 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
     return "";
   };
   const Target load{.pressure = 0.01};
-  CHECK(message(load, {.work = -1, .range = 1}, {}).find("work") == 0);
-  CHECK(message(load, {.work = 1, .range = 0}, {}).find("range") == 0);
+  CHECK(message(load, {.work = -1, .range = 1}, {}).find("work_of_adhesion") == 0);
+  CHECK(message(load, {.work = 1, .range = 0}, {}).find("adhesion_range") == 0);
   const std::string coarse = message(load, {.work = 1, .range = 0.5}, {});
-  CHECK(coarse.find("range") == 0);
+  CHECK(coarse.find("adhesion_range") == 0);
   CHECK(coarse.find("force_coarse") != std::string::npos);
   CHECK(coarse.find('\n') == std::string::npos);
   CHECK(message(load, {.work = 1, .range = 1}, {.force_coarse = true}).empty());

@@ -33,7 +33,7 @@ TEST_CASE("Densities of pressure and gap add up to the contact and to what is ou
   const NormalContactState state = press(rough_surface(grid), 1e9, {.pressure = 5e6});
   const int bins = GENERATE(1, 7, 200);
   const ContactDistributions found = contact_distributions(state, grid, bins);
-  REQUIRE(found.pressure.size() == static_cast<std::size_t>(bins));
+  REQUIRE(found.contact_pressure.size() == static_cast<std::size_t>(bins));
   REQUIRE(found.gap_density.size() == static_cast<std::size_t>(bins));
   CHECK(integral(found.pressure_density, found.pressure_width) ==
         Approx(state.contact_area_fraction).epsilon(1e-12));
@@ -41,11 +41,11 @@ TEST_CASE("Densities of pressure and gap add up to the contact and to what is ou
         Approx(1 - state.contact_area_fraction).epsilon(1e-12));
   // A value lies within half a bin of the middle of its own, so does the mean of them.
   CHECK(
-      first_moment(found.pressure, found.pressure_density, found.pressure_width) ==
+      first_moment(found.contact_pressure, found.pressure_density, found.pressure_width) ==
       Approx(state.mean_pressure).margin(0.5 * found.pressure_width * state.contact_area_fraction));
   CHECK(first_moment(found.gap, found.gap_density, found.gap_width) ==
         Approx(state.mean_gap).margin(0.5 * found.gap_width));
-  CHECK(found.pressure.back() + 0.5 * found.pressure_width ==
+  CHECK(found.contact_pressure.back() + 0.5 * found.pressure_width ==
         Approx(state.contact_pressure.maxCoeff()));
 }
 
@@ -66,7 +66,7 @@ TEST_CASE("The pressures of a sphere are distributed as Hertz has it", "[distrib
   for (std::size_t bin = 1; bin < 5; ++bin)
     CHECK(found.pressure_density[bin] ==
           Approx(2 * std::numbers::pi * std::pow(contact_radius / peak, 2) / grid.area() *
-                 found.pressure[bin])
+                 found.contact_pressure[bin])
               .epsilon(0.03));
 }
 

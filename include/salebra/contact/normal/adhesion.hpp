@@ -36,6 +36,13 @@ struct Adhesion {
   bool operator==(const Adhesion&) const = default;
 };
 
+constexpr void describe(auto&& visit, std::type_identity<Adhesion>) {
+  using S = Adhesion;
+  visit(&S::potential, Kept{"potential", "'exponential', 'maugis' or 'van_der_waals'"});
+  visit(&S::work, Kept{"work", "work of adhesion w", Dimension::energy_per_area});
+  visit(&S::range, Kept{"range", "range of the potential", Dimension::length});
+}
+
 /// Cells in the zone beside a contact in which surfaces that part are held, E*w/(φ'(0)² · the
 /// longer side of a cell); infinite for w = 0. Below 1.4 of them the cells, not the surfaces, decide
 /// where contacts begin and end.
@@ -60,11 +67,8 @@ struct AdhesiveContactOptions {
   bool force_coarse = false;  ///< solves with less than 1.4 cells in the process zone as well
 };
 
-/// An adhesive contact. The contact pressure p is that of the cells that touch; between all cells
-/// acts the tension t, and mean pressure and force are those of p − t. `residual` is that of the
-/// last ordinary contact, counts are of all of them. Unless converged, the numbers must not be used
-/// as the answer.
-struct AdhesiveContactState : NormalContactState {
+/// What adhesion adds to the state of a contact.
+struct AdhesionOfState {
   Field tension;               ///< t, as contact_pressure, Pa, >= 0
   double tension_force = 0;    ///< ∫t dA, N
   double adhesive_energy = 0;  ///< ∫φ(g) dA, J
@@ -77,10 +81,9 @@ struct AdhesiveContactState : NormalContactState {
   bool detached = false;
 };
 
-constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) {
+constexpr void describe(auto&& visit, std::type_identity<AdhesionOfState>) {
   using enum Dimension;
-  using S = AdhesiveContactState;
-  describe(visit, std::type_identity<NormalContactState>{});
+  using S = AdhesionOfState;
   visit(&S::tension, Kept{"tension", "adhesive tension", Dimension::pressure});
   visit(&S::tension_force,
         Quantity{"tension_force", Dimension::force, "force by which adhesion pulls"});
@@ -94,6 +97,17 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
   visit(&S::outer_iterations,
         Quantity{"outer_iterations", dimensionless, "contacts solved for an adhesive one"});
   visit(&S::detached, Quantity{"detached", dimensionless, "whether the load parts the surfaces"});
+}
+
+/// An adhesive contact. The contact pressure p is that of the cells that touch; between all cells
+/// acts the tension t, and mean pressure and force are those of p − t. `residual` is that of the
+/// last ordinary contact, counts are of all of them. Unless converged, the numbers must not be used
+/// as the answer.
+struct AdhesiveContactState : NormalContactState, AdhesionOfState {};
+
+constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) {
+  describe(visit, std::type_identity<NormalContactState>{});
+  describe(visit, std::type_identity<AdhesionOfState>{});
 }
 
 /// Adhesive contact of a rigid rough surface with an elastic half-space: a minimum of

@@ -11,7 +11,7 @@ namespace salebra {
 /// largest value; a value between two bins counts to the upper one, the largest to the last.
 struct ContactDistributions {
   /// P(p) over the nominal area: cells in contact alone, ∫P dp = A/A0, the rest being at p = 0.
-  std::vector<double> pressure;          ///< middle of the bin, Pa
+  std::vector<double> contact_pressure;  ///< middle of the bin, Pa
   std::vector<double> pressure_density;  ///< part of all cells in the bin over its width, 1/Pa
   double pressure_width = 0;             ///< of a bin, Pa
   /// P(g) over the nominal area: cells out of contact alone, ∫P dg = 1 − A/A0.
@@ -23,13 +23,14 @@ struct ContactDistributions {
 constexpr void describe(auto&& visit, std::type_identity<ContactDistributions>) {
   using enum Dimension;
   using S = ContactDistributions;
-  visit(&S::pressure, Kept{"pressure", "middle of the bin", Dimension::pressure});
-  visit(&S::pressure_density,
-        Kept{"pressure_density", "part of all cells in the bin over its width, 1/Pa"});
+  visit(&S::contact_pressure,
+        Quantity{"contact_pressure", Dimension::pressure, "contact pressure"});
+  visit(&S::pressure_density, Quantity{"pressure_density", inverse_pressure,
+                                       "density of contact pressures over the nominal area"});
   visit(&S::pressure_width, Kept{"pressure_width", "width of a bin", Dimension::pressure});
-  visit(&S::gap, Kept{"gap", "middle of the bin", length});
+  visit(&S::gap, Quantity{"gap", length, "gap of the deformed surfaces"});
   visit(&S::gap_density,
-        Kept{"gap_density", "part of all cells in the bin over its width", inverse_length});
+        Quantity{"gap_density", inverse_length, "density of gaps over the nominal area"});
   visit(&S::gap_width, Kept{"gap_width", "width of a bin", length});
 }
 

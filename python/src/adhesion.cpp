@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of adhesive contacts: of surfaces, their cycles, and of axisymmetric indenters.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <memory>
+#include <salebra/contact/mdr/adhesive_indenter.hpp>
+#include <salebra/contact/normal/adhesive_cycle.hpp>
+#include <salebra/contact/sweep.hpp>
+
+#include "bindings.hpp"
+#include "interop/choice.hpp"
+#include "interop/citations.hpp"
+#include "interop/contact.hpp"
+#include "interop/described.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+/// A NormalContactState to everything that takes one.
+struct BoundAdhesiveContact : BoundContact, AdhesionOfState {};
+
+constexpr void describe(auto&& visit, std::type_identity<BoundAdhesiveContact>) {
+  describe(visit, std::type_identity<BoundContact>{});
+  describe(visit, std::type_identity<AdhesionOfState>{});
+}
+
+/// The branches as curves, whose stiffnesses are not computed.
+struct BoundCycle {
+  ForceCurve loading, unloading;
+  double pull_off_pressure = 0, adhesion_work_per_cycle = 0, adhesion_work_error = 0;
+  bool converged = false;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<BoundCycle>) {
+  using enum Dimension;
+  using S = BoundCycle;
+  visit(&S::loading, Kept{"loading", "force curve from the outermost position to the closest"});
+  visit(&S::unloading, Kept{"unloading", "force curve from the closest position outward"});
+  visit(&S::pull_off_pressure,
+        Kept{"pull_off_pressure", "mean tension at which the surfaces come off", pressure});
+  visit(&S::adhesion_work_per_cycle,
+        Kept{"adhesion_work_per_cycle", "energy that adhesion loses in a cycle", energy});
+  visit(&S::adhesion_work_error,
+        Kept{"adhesion_work_error", "change of the work without every other position", energy});
+  visit(&S::converged, Kept{"converged", "False: do not use the numbers"});
+}
+
+void bind_states(nb::module_& m) {
+  described_class<Adhesion>(m, "Adhesion", R"(Energy per area of two surfaces at a gap, −w at g = 0.
+
+.. math:: \phi = -w e^{-g/\rho}, \qquad -w(1 - g/\rho)\ \text{below}\ \rho, \qquad -\frac{w}{(1+g/\rho)^2}
+
+of ``"exponential"``, ``"maugis"`` and ``"van_der_waals"`` with a hard wall.
+
+Parameters
+----------
+work : float
+    w >= 0, J/m².
+range : float
+    ρ > 0, m.
+potential : {"exponential", "maugis", "van_der_waals"}
+)")
+      .def(
+          "__init__",
+          [](Adhesion* self, double work, double range,
+             const Choice<AdhesionPotential>& potential) {
+            new (self) Adhesion{potential.value("potential"), work, range};
+          },
+          nb::arg("work"), nb::arg("range"), nb::arg("potential") = "exponential")
+      .def("energy", &Adhesion::energy, nb::arg("gap"), "φ(g), J/m².")
+      .def("tension", &Adhesion::tension, nb::arg("gap"), "φ'(g), Pa.")
+      .def("largest_tension", &Adhesion::largest_tension, "φ'(0), Pa.");
+
+  nb::class_<BoundAdhesiveContact, BoundContact> state(
+      m, "AdhesiveContactState", R"(Result of an adhesive contact; its fields are views, not copies.
+
+`contact_pressure` is that of the cells that touch, `tension` acts between all cells, and mean pressure and force are those of their
+difference. Unless `converged`, the numbers must not be used as the answer.
+)");
+  auto bound = nb::borrow<nb::class_<BoundAdhesiveContact>>(state);
+  describe([&](auto member, const auto& line) { described_property(bound, member, line); },
+           std::type_identity<AdhesionOfState>{});
+  value_methods(bound);
+}
+
+void bind_press(nb::module_& m) {
+  m.def(
+      "press_adhesive",
+      [](const BoundSurface& surface, const MaterialArgument& material, const Adhesion& adhesion,
+         std::optional<double> pressure, std::optional<double> mean_gap,
+         std::optional<double> indentation, std::optional<double> force, double tolerance,
+         int max_outer_iterations, const Choice<Boundary>& boundary,
+         const BoundAdhesiveContact* start, bool force_coarse, const ProgressArgument& progress) {
+        const double contact_modulus = material.material().contact_modulus;
+        AdhesiveContactOptions options{.tolerance = tolerance,
+                                       .max_outer_iterations = max_outer_iterations,
+                                       .contact = {.boundary = boundary.value("boundary")},
+                                       .start_tension = start ? &start->tension : nullptr,
+                                       .force_coarse = force_coarse};
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.contact.on_progress = std::move(told);
+              auto state =
+                  press_adhesive(surface.surface, contact_modulus,
+                                 {pressure, mean_gap, indentation, force}, adhesion, options);
+              return new BoundAdhesiveContact{
+                  {std::move(static_cast<NormalContactState&>(state)), surface.surface.grid,
+                   contact_modulus, options.contact.boundary},
+                  std::move(static_cast<AdhesionOfState&>(state))};
+            },
+            surface.surface.ranks);
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("adhesion"), nb::kw_only(),
+      nb::arg("pressure") = nb::none(), nb::arg("mean_gap") = nb::none(),
+      nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
+      nb::arg("tolerance") = AdhesiveContactOptions().tolerance,
+      nb::arg("max_outer_iterations") = AdhesiveContactOptions().max_outer_iterations,
+      nb::arg("boundary") = "periodic", nb::arg("start") = nb::none(),
+      nb::arg("force_coarse") = false, nb::arg("progress") = false,
+      R"(Adhesive contact of a rigid rough surface with an elastic half-space.
+
+.. math:: \min_{g\ge0}\ \tfrac12\langle(g+h)\,k(g+h)\rangle + \langle\phi(g)\rangle + P\langle g\rangle
+
+by ordinary contacts, each of which lowers this energy. Exactly one of pressure, mean_gap, indentation and force is given; a pressure
+or force may pull. Solutions are local minima: they depend on the start.
+
+Parameters
+----------
+surface : Surface
+material : Material or float
+    Or E* > 0 alone, Pa.
+adhesion : Adhesion
+pressure, mean_gap, indentation, force : float, optional
+    Pa, m, m, N.
+tolerance : float
+    Of the residual of the tension, 1e-10 … 1e-1.
+max_outer_iterations : int
+    Ordinary contacts.
+boundary : {"periodic", "free"}
+start : AdhesiveContactState, optional
+    State whose branch is followed, for loading and unloading.
+force_coarse : bool
+    Solves with less than 1.4 cells in the process zone as well.
+progress : bool or callable
+
+Returns
+-------
+AdhesiveContactState
+    Unless `converged`, its numbers must not be used as the answer; `detached` where the load parts the surfaces.
+)");
+
+  described_class<BoundCycle>(m, "AdhesiveCycle",
+                              "Loading and unloading of an adhesive contact, step by step.");
+  m.def(
+      "adhesive_cycle",
+      [](const BoundSurface& surface, const MaterialArgument& material, const Adhesion& adhesion,
+         const std::optional<Values>& pressures, const std::optional<Values>& mean_gaps,
+         const std::optional<Values>& indentations, bool unload, double tolerance,
+         int max_outer_iterations, const Choice<Boundary>& boundary, bool force_coarse,
+         const ProgressArgument& progress) {
+        require_that(pressures.has_value() + mean_gaps.has_value() + indentations.has_value() == 1,
+                     "positions",
+                     "exactly one of `pressures`, `mean_gaps` and `indentations` must be given");
+        std::vector<Target> positions;
+        const auto add = [&](const std::optional<Values>& values, auto member) {
+          if (values)
+            for (const double value : values->values) {
+              Target target;
+              target.*member = value;
+              positions.push_back(target);
+            }
+        };
+        add(pressures, &Target::pressure);
+        add(mean_gaps, &Target::mean_gap);
+        add(indentations, &Target::indentation);
+        const Material of_bodies = material.material();
+        AdhesiveCycleOptions options{
+            .contact = {.tolerance = tolerance,
+                        .max_outer_iterations = max_outer_iterations,
+                        .contact = {.boundary = boundary.value("boundary")},
+                        .force_coarse = force_coarse},
+            .unload = unload};
+        return interruptible(
+            progress,
+            [&](Progress told) {
+              options.contact.contact.on_progress = std::move(told);
+              const AdhesiveCycle cycle = adhesive_cycle(surface.surface, of_bodies.contact_modulus,
+                                                         positions, adhesion, options);
+              const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
+                ForceCurve curve{.model = "bem", .nominal_area = surface.surface.grid.area()};
+                for (const AdhesiveContactState& state : branch)
+                  curve.samples.push_back(
+                      force_sample(state, surface.surface, of_bodies,
+                                   {.contact = options.contact.contact, .stiffness = false}));
+                return curve;
+              };
+              return BoundCycle{curve_of(cycle.loading),   curve_of(cycle.unloading),
+                                cycle.pull_off_pressure,   cycle.adhesion_work_per_cycle,
+                                cycle.adhesion_work_error, cycle.converged()};
+            },
+            surface.surface.ranks);
+      },
+      nb::arg("surface"), nb::arg("material"), nb::arg("adhesion"), nb::kw_only(),
+      nb::arg("pressures") = nb::none(), nb::arg("mean_gaps") = nb::none(),
+      nb::arg("indentations") = nb::none(), nb::arg("unload") = true,
+      nb::arg("tolerance") = AdhesiveContactOptions().tolerance,
+      nb::arg("max_outer_iterations") = AdhesiveContactOptions().max_outer_iterations,
+      nb::arg("boundary") = "periodic", nb::arg("force_coarse") = false,
+      nb::arg("progress") = false,
+      R"(Presses a surface from position to position and draws it off again, each contact from the one before.
+
+Parameters
+----------
+surface : Surface
+material : Material or float
+adhesion : Adhesion
+pressures, mean_gaps, indentations : array_like, optional
+    One of them, from the loosest position to the closest, Pa or m. Under pressures the pull-off is bracketed to 2 %; at gaps the force
+    passes its minimum, and the cycle has its work.
+unload : bool
+    False: loading alone.
+tolerance, max_outer_iterations, boundary, force_coarse, progress
+    As for :func:`press_adhesive`.
+)");
+}
+
+void bind_indenters(nb::module_& m) {
+  described_class<AdhesivePoint>(m, "AdhesivePoint", "One equilibrium of an adhesive indenter.");
+  m.def("jkr_contact", &jkr_contact, nb::arg("profile"), nb::arg("contact_modulus"),
+        nb::arg("work"), nb::arg("contact_radius"),
+        R"(JKR, adhesion of no range, of any profile by its image.
+
+.. math:: \delta = g(a) - \sqrt{2\pi wa/E^*}, \qquad F = 2E^*\left[a\delta - \int_0^a g\,dx\right]
+
+References
+----------
+Johnson et al. (1971), doi:10.1098/rspa.1971.0141.
+)");
+  m.def("jkr_pull_off", &jkr_pull_off, nb::arg("profile"), nb::arg("contact_modulus"),
+        nb::arg("work"), "The state of the least force; −(3/2)πwR of a paraboloid.");
+  m.def(
+      "dmt_contact", &dmt_contact, nb::arg("radius"), nb::arg("contact_modulus"), nb::arg("work"),
+      nb::arg("contact_radius"),
+      "DMT, adhesion outside a contact that it does not deform: F = 4E*a³/(3R) − 2πwR, δ = a²/R.");
+  nb::class_<MaugisDugdale>(m, "MaugisDugdale",
+                            "A paraboloid under a tension w/ρ as far as the gap is below ρ, after "
+                            "Maugis (1992), doi:10.1016/0021-9797(92)90285-T.")
+      .def(nb::init<double, double, double, double>(), nb::arg("radius"),
+           nb::arg("contact_modulus"), nb::arg("work"), nb::arg("range"))
+      .def("contact", &MaugisDugdale::contact, nb::arg("contact_radius"),
+           "The state at a contact radius >= 0, m.")
+      .def("pull_off", &MaugisDugdale::pull_off, "The state of the least force.")
+      .def_prop_ro("transition_parameter", &MaugisDugdale::transition_parameter,
+                   "λ, 1.16 times Tabor's parameter.");
+  m.def("tabor_parameter", &tabor_parameter, nb::arg("radius"), nb::arg("contact_modulus"),
+        nb::arg("work"), nb::arg("range"), "μ = (R w²/(E*² ρ³))^(1/3).");
+  m.def(
+      "suggested_adhesion_model",
+      [](double parameter) { return std::string(word_of(suggested_model(parameter))); },
+      nb::arg("tabor_parameter"),
+      "\"dmt\" below 0.1, \"jkr\" above 5, \"maugis_dugdale\" between.");
+}
+
+}  // namespace
+
+void bind_adhesion(nb::module_& m) {
+  bind_states(m);
+  bind_press(m);
+  bind_indenters(m);
+}
+
+}  // namespace salebra::python

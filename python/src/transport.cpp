@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bindings of what passes a contact: conductance, flow factors, densities of pressure and gap.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/vector.h>
+
+#include <salebra/contact/normal/conductance.hpp>
+#include <salebra/contact/normal/distributions.hpp>
+#include <salebra/contact/normal/flow_factors.hpp>
+
+#include "bindings.hpp"
+#include "interop/citations.hpp"
+#include "interop/contact.hpp"
+#include "interop/described.hpp"
+#include "interop/running.hpp"
+#include "interop/surface.hpp"
+
+namespace salebra::python {
+namespace {
+
+void bind_conductance(nb::module_& m) {
+  const auto define = [&m](const char* name, auto conductance, const char* first,
+                           const char* second, const char* signature, const char* text) {
+    m.def(
+        name,
+        [conductance](const Numbers& normal_stiffness, const MaterialArgument& material,
+                      double of_first, std::optional<double> of_second) {
+          cite({"barber2003"});
+          const double modulus = material.material().contact_modulus;
+          return for_each_number(normal_stiffness, [&](double stiffness) {
+            return conductance(stiffness, modulus, of_first, of_second.value_or(of_first));
+          });
+        },
+        nb::arg("normal_stiffness"), nb::arg("material"), nb::arg(first),
+        nb::arg(second) = nb::none(), nb::sig(signature), text);
+  };
+  define(
+      "electrical_conductance", &electrical_conductance, "resistivity_1", "resistivity_2",
+      "def electrical_conductance(normal_stiffness: numpy.typing.ArrayLike, material: Material "
+      "| float, resistivity_1: float, resistivity_2: float | None = None) -> typing.Any",
+      R"(Electrical conductance of a contact from its normal stiffness, S; S/m² of a stiffness per area.
+
+.. math:: C = \frac{2K}{E^*(\rho_1+\rho_2)}
+
+Exact for every set of contact spots, which no sum over spots is. Resistivities in Ω m, one for both bodies or one for each.
+
+References
+----------
+Barber (2003), doi:10.1098/rspa.2002.1038.
+)");
+  define(
+      "thermal_conductance", &thermal_conductance, "conductivity_1", "conductivity_2",
+      "def thermal_conductance(normal_stiffness: numpy.typing.ArrayLike, material: Material | "
+      "float, conductivity_1: float, conductivity_2: float | None = None) -> typing.Any",
+      R"(Thermal conductance of the solid spots of a contact from its normal stiffness, W/K; W/(m² K) of a stiffness per area.
+
+.. math:: \frac{2K}{E^*(1/\kappa_1+1/\kappa_2)}
+
+Conductivities in W/(m K), one for both bodies or one for each. Radiation and what fills the gap are left out.
+
+References
+----------
+Barber (2003), doi:10.1098/rspa.2002.1038.
+)");
+}
+
+void bind_flow(nb::module_& m) {
+  described_class<FlowFactors>(m, "FlowFactors",
+                               "How a viscous fluid passes a gap between rough surfaces; factors "
+                               "are NaN where nothing flows.");
+  m.def(
+      "flow_factors",
+      [](const BoundContact& state, double tolerance, int max_iterations,
+         const ProgressArgument& progress) {
+        cite({"patir_cheng1978"});
+        require_that(state.boundary == Boundary::periodic, "state",
+                     "has a free boundary, and flow factors are of a gap that repeats itself");
+        return interruptible(progress, [&](Progress told) {
+          return flow_factors(state, state.grid, {tolerance, max_iterations, std::move(told)});
+        });
+      },
+      nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = FlowOptions().tolerance,
+      nb::arg("max_iterations") = FlowOptions().max_iterations, nb::arg("progress") = false,
+      R"(Percolation and pressure flow factors of the gap of a periodic contact, by Reynolds' equation.
+
+.. math:: \nabla\cdot(g^3\nabla p) = 0,\ \langle\nabla p\rangle = e_x, \qquad
+          \phi_x = \frac{\langle g^3\,\partial p/\partial x\rangle}{\langle g\rangle^3}
+
+The mean gap is that of all cells, those in contact included.
+
+References
+----------
+Patir and Cheng (1978), doi:10.1115/1.3453103.
+)");
+  described_class<ContactDistributions>(
+      m, "ContactDistributions",
+      "Densities of contact pressure and gap over the nominal area, in bins of equal width.");
+  m.def(
+      "contact_distributions",
+      [](const BoundContact& state, int bins) {
+        return unlocked([&] { return contact_distributions(state, state.grid, bins); });
+      },
+      nb::arg("state"), nb::arg("bins") = 100,
+      "Densities of pressure (cells in contact) and of gap (the others), from 0 to the largest "
+      "value. Their integrals add up to 1.");
+}
+
+}  // namespace
+
+void bind_transport(nb::module_& m) {
+  bind_conductance(m);
+  bind_flow(m);
+}
+
+}  // namespace salebra::python

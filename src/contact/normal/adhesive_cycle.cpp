@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loading and unloading of adhesive contacts, each from the state before.
+#include <algorithm>
+#include <cmath>
+#include <salebra/base/error.hpp>
+#include <salebra/contact/normal/adhesive_cycle.hpp>
+
+namespace salebra {
+namespace {
+
+// The branches of a cycle meet where their forces differ by less than this part of the largest.
+constexpr double meets = 1e-3;
+constexpr int bisections = 6;  // of a pull that doubled: to 2 %
+
+class CycleRun {
+ public:
+  CycleRun(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
+           const AdhesiveCycleOptions& options)
+      : surface_(surface), modulus_(contact_modulus), adhesion_(adhesion), options_(options) {
+    if (options.contact.start_tension) tension_ = *options.contact.start_tension;
+  }
+
+  /// False where the run ends here.
+  bool go_to(const Target& target, bool unloading, std::vector<AdhesiveContactState>& branch) {
+    AdhesiveContactState state = solve(target);
+    const bool converged = state.converged();
+    if (converged && !state.detached) follow(state);
+    keep(std::move(state), unloading, branch);
+    return converged;
+  }
+
+  /// The largest pull that the contact bears, Pa. Its states are of larger and larger pulls.
+  double pull_off(double first, std::vector<AdhesiveContactState>& branch) {
+    double held = 0, parts = 0, pull = 0;
+    for (int halvings = 0; halvings <= bisections;) {
+      AdhesiveContactState state = solve({.pressure = -pull});
+      if (!state.converged()) {
+        keep(std::move(state), true, branch);
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+      if (state.detached) {
+        parts = pull;
+        if (pull == 0) return 0;
+      } else {
+        held = pull;
+        follow(state);
+        keep(std::move(state), true, branch);
+      }
+      halvings += parts > 0;
+      pull = parts > 0 ? (held + parts) / 2 : std::max(first, 2 * pull);
+    }
+    return held;
+  }
+
+ private:
+  AdhesiveContactState solve(const Target& target) const {
+    AdhesiveContactOptions contact = options_.contact;
+    contact.start_tension = tension_.size() > 0 ? &tension_ : nullptr;
+    return press_adhesive(surface_, modulus_, target, adhesion_, contact);
+  }
+  void follow(const AdhesiveContactState& state) { tension_ = state.tension; }
+  void keep(AdhesiveContactState state, bool unloading,
+            std::vector<AdhesiveContactState>& branch) const {
+    if (state.converged() && options_.on_state) options_.on_state(unloading, state);
+    state.contact_pressure = state.gap = state.tension = Field();
+    branch.push_back(std::move(state));
+  }
+
+  const Surface& surface_;
+  const double modulus_;
+  const Adhesion& adhesion_;
+  const AdhesiveCycleOptions& options_;
+  Field tension_;
+};
+
+/// ∫F dδ over every stride-th state and the last.
+double work_along(const std::vector<AdhesiveContactState>& branch, std::size_t stride) {
+  double work = 0;
+  for (std::size_t k = 0; k + 1 < branch.size();) {
+    const std::size_t next = std::min(k + stride, branch.size() - 1);
+    work += (branch[k].force + branch[next].force) / 2 *
+            (branch[next].indentation - branch[k].indentation);
+    k = next;
+  }
+  return work;
+}
+
+void measure(AdhesiveCycle& cycle) {
+  const auto force = [](const AdhesiveContactState& state) { return std::abs(state.force); };
+  double largest = force(std::ranges::max(cycle.loading, {}, force));
+  largest = std::max(largest, force(std::ranges::max(cycle.unloading, {}, force)));
+  const double open = cycle.loading.front().force - cycle.unloading.back().force;
+  if (std::abs(open) > meets * largest) return;
+  const auto work = [&](std::size_t stride) {
+    return work_along(cycle.loading, stride) + work_along(cycle.unloading, stride);
+  };
+  cycle.adhesion_work_per_cycle = work(1);
+  cycle.adhesion_work_error = std::abs(work(1) - work(2));
+}
+
+}  // namespace
+
+bool AdhesiveCycle::converged() const {
+  const auto all = [](const auto& branch) {
+    return std::ranges::all_of(branch, &AdhesiveContactState::converged);
+  };
+  return all(loading) && all(unloading);
+}
+
+AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
+                             const std::vector<Target>& positions, const Adhesion& adhesion,
+                             const AdhesiveCycleOptions& options) {
+  require_that(!positions.empty(), "positions", "none given; name at least one");
+  AdhesiveCycle cycle;
+  CycleRun run(surface, contact_modulus, adhesion, options);
+  for (const Target& target : positions)
+    if (!run.go_to(target, false, cycle.loading)) return cycle;
+  if (!options.unload) return cycle;
+  cycle.unloading.push_back(cycle.loading.back());
+  for (auto target = positions.rbegin() + 1; target != positions.rend(); ++target)
+    if (!run.go_to(*target, true, cycle.unloading)) return cycle;
+  const Target& loosest = positions.front();
+  if (loosest.pressure || loosest.force) {
+    const double load = loosest.pressure.value_or(loosest.force.value_or(0) / surface.grid.area());
+    cycle.pull_off_pressure = run.pull_off(
+        std::max(std::abs(load) / 4, 1e-3 * adhesion.largest_tension()), cycle.unloading);
+    return cycle;
+  }
+  for (const AdhesiveContactState& state : cycle.unloading)
+    cycle.pull_off_pressure =
+        std::fmax(cycle.pull_off_pressure, std::max(0.0, -state.mean_pressure));
+  measure(cycle);
+  return cycle;
+}
+
+}  // namespace salebra
