@@ -47,7 +47,7 @@ bool reaches_edge(const Surface& surface, const Field& pressure) {
 }
 
 void write_contact(const ContactArguments& arguments, const Session& session, const Grid2D& grid,
-                   const NormalContactState& state, const std::vector<CurveColumn>& beside,
+                   const AdhesiveContactState& state, const std::vector<CurveColumn>& beside,
                    const ContactDistributions& distributions) {
   const FieldType type = arguments.field_type == "float" ? FieldType::float32 : FieldType::float64;
   const bool has_pressure = arguments.fields != "none";
@@ -59,6 +59,8 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
     if (has_pressure) group.axes(grid);
     if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
     if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
+    if (has_gap && arguments.adhesive())
+      group.plain().dataset("tension", state.tension, "x", "y", "Pa", "adhesive tension", type);
     group.attribute("pressure", state.mean_pressure);
     for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
       group.attribute(std::string(quantity.name), number(state));
@@ -122,8 +124,15 @@ void press_once(const ContactArguments& arguments, Session& session) {
   }
   arguments.checkpoint.add_to(options, session, surface.grid);
   const auto start = std::chrono::steady_clock::now();
-  const NormalContactState state =
-      press(surface, contact_modulus, target_of(arguments, surface), options);
+  AdhesiveContactState state;
+  if (arguments.adhesive()) {
+    state = press_adhesive(surface, contact_modulus, target_of(arguments, surface),
+                           arguments.adhesion(), arguments.adhesive_options(session));
+    session.doubt(doubt_of_process_zone(arguments.adhesion(), surface.grid, contact_modulus));
+  } else {
+    static_cast<NormalContactState&>(state) =
+        press(surface, contact_modulus, target_of(arguments, surface), options);
+  }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const bool kept = !state.converged() &&
                     arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
@@ -146,11 +155,19 @@ void press_once(const ContactArguments& arguments, Session& session) {
   }
   Json answer =
       json_of(ContactPressures{state.mean_pressure, max_pressure(session.ranks(), state)});
-  answer.add(json_of(state));
+  answer.add(json_of<NormalContactState>(state));
+  std::vector<CurveColumn> beside;
+  if (arguments.adhesive()) {
+    answer.add(json_of<AdhesionOfState>(state));
+    const MeanSummit summit = summit_of(surface, arguments.adhesion(), contact_modulus);
+    answer.add(json_of(summit));
+    beside = columns_beside(std::vector<AdhesionOfState>{state});
+    std::ranges::move(columns_beside(std::vector{summit}), std::back_inserter(beside));
+  }
+  const bool holds = state.converged() && !state.detached;
   answer["seconds"] = elapsed.count();
   add_first_loading(answer, first_loading);
-  std::vector<CurveColumn> beside;
-  if (arguments.wants_stiffness() && state.converged()) {
+  if (arguments.wants_stiffness() && holds) {
     const double area = surface.grid.area();
     const ForceSample sample =
         force_sample(state, surface, material, {.contact = options, .stick = arguments.stick});
@@ -170,7 +187,7 @@ void press_once(const ContactArguments& arguments, Session& session) {
     }
   }
   FlowFactors flow;
-  if (arguments.flow_factors && state.converged()) {
+  if (arguments.flow_factors && holds) {
     flow = flow_of(state, surface.grid, session.progress());
     if (flow.termination == Termination::interrupted)
       throw Interrupted("contact: interrupted; the flow factors were not computed");
@@ -178,7 +195,7 @@ void press_once(const ContactArguments& arguments, Session& session) {
     std::ranges::move(columns_beside(std::vector{flow}), std::back_inserter(beside));
   }
   ContactDistributions distributions;
-  if (arguments.distributions && state.converged()) {
+  if (arguments.distributions && holds) {
     distributions = contact_distributions(state, surface.grid, *arguments.distributions);
     answer["distributions"] = lists_of(distributions);
   }
@@ -187,8 +204,10 @@ void press_once(const ContactArguments& arguments, Session& session) {
   if (state.converged() && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
   session.answer(answer);
   if (!state.converged())
-    throw NotConverged(fmt::format("contact: residual {:.3g} after {} iterations {}",
-                                   state.residual, state.iterations,
+    throw NotConverged(fmt::format("contact: residual {:.3g} after {} {} {}",
+                                   arguments.adhesive() ? state.adhesion_residual : state.residual,
+                                   arguments.adhesive() ? state.outer_iterations : state.iterations,
+                                   arguments.adhesive() ? "contacts" : "iterations",
                                    in_options(message(state.termination))));
   if (!flow.converged()) throw NotConverged(flow_failure);
   arguments.checkpoint.remove(session);
@@ -206,7 +225,7 @@ std::size_t ContactArguments::positions() const {
   const std::vector<Standings> given = at.given();
   for (const Standings& kind : given)
     for (const double value : kind.values)
-      require_positive(value, "--" + option_word(kind.quantity));
+      if (!adhesive() || cycle) require_positive(value, "--" + option_word(kind.quantity));
   require(given.size() <= 1, "--pressure", given.size(),
           "kinds of positions are given; give exactly one of --pressure, --normal-force, "
           "--mean-gap, --indentation");
@@ -240,8 +259,31 @@ namespace {
 
 // Headings of the help, and what belongs together.
 const std::string boundary_elements = "Boundary elements", once = "One position",
-                  often = "Several positions", summits = "Summits",
+                  often = "Several positions", adhesion = "Adhesion", summits = "Summits",
                   parameters = "Summits without a surface";
+
+/// What adhesion does not go together with.
+void check_adhesion(const ContactArguments& arguments, std::size_t positions,
+                    const Session& session) {
+  const bool adhesive = arguments.adhesive();
+  for (const auto& [given, option] :
+       {std::pair(arguments.adhesion_range.has_value(), "--adhesion-range"),
+        {arguments.cycle, "--cycle"},
+        {arguments.force_coarse, "--force-coarse"}})
+    require_that(adhesive || !given, option, "given without --work-of-adhesion; give both");
+  if (!adhesive) return;
+  required(arguments.adhesion_range, "--adhesion-range", "--work-of-adhesion needs it");
+  require_that(!arguments.hardness, "--hardness",
+               "with adhesion is not known: flow under a tension differs; leave out one of them");
+  for (const auto& [given, option] : {std::pair(!arguments.initial.empty(), "--initial"),
+                                      {!arguments.checkpoint.file.empty(), "--checkpoint"},
+                                      {arguments.groups > 0, "--groups"}})
+    require_that(!given, option, "is of contacts without adhesion; leave it out");
+  if (!arguments.cycle) return;
+  require(positions > 1, "--cycle", positions,
+          "position is no cycle; give several, such as --mean-gap 10:100nm:20");
+  session.require_result_name();
+}
 
 /// What is missing, and what does not go together.
 void check(const ContactArguments& arguments, std::size_t positions, const Session& session) {
@@ -254,7 +296,7 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
   require_options(missing, "a contact");
   arguments.conduction.validate();
   if (!bem) {
-    for (const std::string& group : {boundary_elements, once, often})
+    for (const std::string& group : {boundary_elements, once, often, adhesion})
       command.require_none_of(
           group, "is of boundary elements; leave it out with --model " + arguments.model);
     return;
@@ -270,9 +312,10 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
                "are of a gap that repeats itself; leave out --boundary free");
   require_that(arguments.wants_stiffness() || !arguments.stick, "--stick",
                "given without --stiffness; give both");
+  check_adhesion(arguments, positions, session);
   if (positions > 1) {
     command.require_none_of(once, fmt::format("is of one position, and {} are given", positions));
-    require(!arguments.at.pressure.empty() || !arguments.at.force.empty(),
+    require(arguments.adhesive() || !arguments.at.pressure.empty() || !arguments.at.force.empty(),
             arguments.at.mean_gap.empty() ? "--indentation" : "--mean-gap", positions,
             "values are given; several positions are pressures or normal forces");
     return;
@@ -295,6 +338,7 @@ void run(const ContactArguments& arguments, Session& session) {
       !arguments.material.poisson.empty())
     session.warn("--poisson: has no effect without --stiffness, which K_t needs");
   if (arguments.dry_run.dry_run) return estimate_contacts(arguments, session);
+  if (positions > 1 && arguments.adhesive()) return press_adhesively(arguments, session);
   return positions > 1 ? press_often(arguments, session) : press_once(arguments, session);
 }
 
@@ -339,11 +383,27 @@ void add_contact_command(Program& program) {
                "loading; of several, the largest is first loaded to, and the curve is that of "
                "unloading; default none");
   add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
-               "of the complementarity residual; default 1e-10");
+               "of the complementarity residual; default 1e-10. With adhesion of the tension; "
+               "default 1e-5");
   command.add_option("--max-iterations", arguments->max_iterations,
                      fmt::format("on the finest grid; default {}", arguments->max_iterations));
   add_choice<Precision>(command, "--precision", arguments->precision,
                         "of the iterations; residuals are in double always; default mixed");
+
+  command.under(adhesion);
+  add_quantity(command, "--work-of-adhesion", arguments->work_of_adhesion,
+               Dimension::energy_per_area,
+               "w, the energy per area that parts the surfaces. One pressure or force may pull; of "
+               "several positions each contact follows from the one before");
+  add_quantity(command, "--adhesion-range", arguments->adhesion_range, Dimension::length,
+               "of the tension between surfaces with a gap");
+  add_choice<AdhesionPotential>(command, "--adhesion", arguments->potential,
+                                "tension over the gap; default exponential");
+  command.add_flag("--cycle", arguments->cycle,
+                   "of several positions: in and out again, with the pull-off and, at mean gaps or "
+                   "indentations, the work that a cycle loses");
+  command.add_flag("--force-coarse", arguments->force_coarse,
+                   "compute where cells, not surfaces, decide what sticks");
 
   command.under(once);
   command

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <optional>
+#include <salebra/contact/normal/adhesive_cycle.hpp>
+#include <salebra/contact/normal/conductance.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/contact/sweep.hpp>  // processes that share a surface have this face alone
+#include <salebra/results/force_curve_file.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "answers.hpp"
 #include "contact_checkpoint.hpp"
 #include "options.hpp"
 #include "results/columns.hpp"
@@ -29,6 +33,9 @@ struct ContactArguments {
   bool flow_factors = false;
   std::optional<int> distributions;  ///< bins
   Conduction conduction;
+  std::optional<double> work_of_adhesion, adhesion_range;
+  std::string potential = "exponential";
+  bool cycle = false, force_coarse = false;
   std::optional<double> tolerance, hardness;
   int max_iterations = NormalContactOptions().max_iterations;
   int groups = 0;  ///< 0: as many as memory holds
@@ -40,11 +47,14 @@ struct ContactArguments {
   std::optional<double> summit_density, radius, summit_rms;
   std::string distribution = "gaussian";
 
-  /// The number of positions. Throws InvalidInput unless they are of one kind and > 0.
+  /// The number of positions. Throws InvalidInput unless they are of one kind and, but for one position with adhesion, > 0.
   std::size_t positions() const;
   /// p, Pa, of pressures and forces, from the lowest; empty for other positions.
   std::vector<double> pressures_on(double area) const;
   NormalContactOptions contact_options(Session& session) const;
+  bool adhesive() const { return work_of_adhesion.has_value(); }
+  Adhesion adhesion() const;
+  AdhesiveContactOptions adhesive_options(Session& session) const;
   bool wants_stiffness() const { return stiffness || conduction.given(); }
   /// Of a sample of the curve, per nominal area.
   Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
@@ -54,6 +64,10 @@ struct ContactArguments {
 void press_once(const ContactArguments& arguments, Session& session);
 /// The force curve of the surface at several pressures, by boundary elements.
 void press_often(const ContactArguments& arguments, Session& session);
+/// Of a smooth shape unknown.
+MeanSummit summit_of(const Surface& surface, const Adhesion& adhesion, double contact_modulus);
+/// Several positions with adhesion, each from the one before, and back.
+void press_adhesively(const ContactArguments& arguments, Session& session);
 /// The force curve of summits, those of the surface or of parameters.
 void press_summits(const ContactArguments& arguments, Session& session);
 
@@ -69,9 +83,12 @@ inline constexpr const char* flow_failure =
     "contact: the flow factors did not converge; use fewer points";
 /// The flow factors of a converged state; those that did not converge are unknown.
 FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress);
+/// Adds to the columns what was asked about beside the curve, and returns it.
+/// flow: of each sample; empty: not asked
+std::vector<CurveColumn> add_beside(const ContactArguments& arguments, const ForceCurve& curve,
+                                    const std::vector<FlowFactors>& flow, Json& columns);
 /// Writes the curve and answers, with the conductances where they were asked about.
 /// answer: has the `curve`, and what the command says beside it.
-/// flow: of each sample; empty: not asked
 void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
                   Session& session, const std::vector<FlowFactors>& flow = {});
 

@@ -55,20 +55,26 @@ Json to_json(const ForceCurve& curve) {
   return object;
 }
 
-void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
-                  Session& session, const std::vector<FlowFactors>& flow) {
+std::vector<CurveColumn> add_beside(const ContactArguments& arguments, const ForceCurve& curve,
+                                    const std::vector<FlowFactors>& flow, Json& columns) {
   std::vector<CurveColumn> beside;
   if (arguments.conduction.given()) {
     std::vector<Conductances> found;
     for (const ForceSample& sample : curve.samples)
       found.push_back(arguments.conductances_of(sample, curve.nominal_area));
-    answer["curve"].add(conductances_json(found, arguments.conduction));
+    columns.add(conductances_json(found, arguments.conduction));
     beside = columns_beside(found);
   }
   if (!flow.empty()) {
-    answer["curve"].add(json_of(flow));
+    columns.add(json_of(flow));
     std::ranges::move(columns_beside(flow), std::back_inserter(beside));
   }
+  return beside;
+}
+
+void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
+                  Session& session, const std::vector<FlowFactors>& flow) {
+  const auto beside = add_beside(arguments, curve, flow, answer["curve"]);
   collectively(session.ranks(), [&] {
     if (session.has_output() && session.ranks().is_root())
       write_force_curve(session.output(), curve, session.provenance(), session.write_options(),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <tuple>
 #include <utility>
 
 #include "surface_figure.hpp"
@@ -69,6 +70,21 @@ Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>
     if (PlotCurve points = points_of(curve, name, &ForceSample::force, member); !points.x.empty())
       stiffness.curves.push_back(std::move(points));
   if (!stiffness.curves.empty()) figure.panels.push_back(std::move(stiffness));
+  return figure;
+}
+
+Figure cycle_figure(const ForceCurve& loading, const ForceCurve& unloading) {
+  Figure figure;
+  for (const auto& [label, unit, y] :
+       {std::tuple("nominal pressure p", "Pa", &ForceSample::pressure),
+        {"contact area A/A_0", "", &ForceSample::contact_area_fraction}}) {
+    PlotPanel& panel = figure.panels.emplace_back();
+    panel.x = {.label = "indentation", .unit = "m"};
+    panel.y = {.label = label, .unit = unit};
+    panel.legend = PlotLegend::top_left;
+    panel.curves = {points_of(loading, "loading", &ForceSample::indentation, y),
+                    points_of(unloading, "unloading", &ForceSample::indentation, y)};
+  }
   return figure;
 }
 

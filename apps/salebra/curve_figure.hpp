@@ -14,6 +14,9 @@ namespace salebra::cli {
 /// stiffness. Throws InvalidInput for a curve without a sample that converged.
 Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit = {});
 
+/// Pressure over indentation of loading and unloading, whose pressures may pull.
+Figure cycle_figure(const ForceCurve& loading, const ForceCurve& unloading);
+
 /// Maps of pressure and gap.
 Figure pressure_figure(const Grid2D& grid, const NormalContactState& state);
 

@@ -192,7 +192,9 @@ AdhesiveContactState
               const AdhesiveCycle cycle = adhesive_cycle(surface.surface, of_bodies.contact_modulus,
                                                          positions, adhesion, options);
               const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
-                ForceCurve curve{.model = "bem", .nominal_area = surface.surface.grid.area()};
+                ForceCurve curve;
+                curve.model = "bem";
+                curve.nominal_area = surface.surface.grid.area();
                 for (const AdhesiveContactState& state : branch)
                   curve.samples.push_back(
                       force_sample(state, surface.surface, of_bodies,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -266,8 +267,8 @@ TEST_CASE("A contact without gaps conducts as its stiffness says, without a numb
           "[contact][conductance]") {
   const ProgramTest test;
   make_rough(test);
-  const auto closed = test.answer(
-      "contact rough.h5 --contact-modulus 10GPa --pressure 100GPa --resistivity 2e-8");
+  const auto closed =
+      test.answer("contact rough.h5 --contact-modulus 10GPa --pressure 100GPa --resistivity 2e-8");
   CHECK(closed["electrical_conductance"].is_null());
   CHECK_FALSE(closed.contains("thermal_conductance"));
   const auto summits = test.answer(
@@ -448,4 +449,84 @@ TEST_CASE("A contact that reaches the edge of an isolated surface is warned of",
   INFO(light.err << heavy.err);
   CHECK_THAT(light.err, !Contains("reaches the edge"));
   CHECK_THAT(heavy.err, Contains("the contact reaches the edge of the surface"));
+}
+
+TEST_CASE("An adhesive contact pulls, comes off, and answers with the agreed keys",
+          "[contact][adhesion]") {
+  const ProgramTest test;
+  test.done(
+      "generate --points 48 --size-x 48um --hurst 0.8 --rolloff 48um --short-cutoff 24um "
+      "--rms-slope 0.2 --seed 3 -o rough.h5");
+  const std::string press =
+      "contact rough.h5 --contact-modulus 1MPa --work-of-adhesion 0.3 --adhesion-range 2um ";
+  const auto pressed = test.answer(press +
+                                   "--pressure 50kPa --stiffness --resistivity 1e-8 --flow-factors "
+                                   "--distributions -o one.h5");
+  for (const char* key :
+       {"tension_force", "adhesive_energy", "total_energy", "tabor", "cells_in_process_zone",
+        "outer_iterations", "detached", "adhesion_residual", "normal_stiffness",
+        "electrical_conductance", "percolates_x", "distributions"}) {
+    INFO(key);
+    CHECK(pressed.contains(key));
+  }
+  CHECK(pressed["detached"] == false);
+  CHECK(pressed["tension_force"] > 0);
+  CHECK(pressed["adhesive_energy"] < 0);
+  const ResultReader file(test.folder() / "one.h5");
+  const double net =
+      file.field("contact/contact_pressure").mean() - file.field("contact/tension").mean();
+  CHECK(net == Approx(5e4).epsilon(1e-6));
+  CHECK(file.number_attribute("contact", "tension_force") == pressed["tension_force"]);
+
+  const auto parted = test.answer(press + "--pressure=-300kPa --stiffness");
+  CHECK(parted["detached"] == true);
+  CHECK(parted["mean_gap"].is_null());
+  CHECK_FALSE(parted.contains("normal_stiffness"));
+  // Along a branch the pull holds that parts the surfaces without a history.
+  const auto branch = test.answer(press + "--mean-gap 20um,30um,25um");
+  CHECK(branch["curve"]["mean_gap"][0] == Approx(30e-6));
+  CHECK(branch["curve"]["outer_iterations"].size() == 3);
+  CHECK_FALSE(branch.contains("unloading"));
+}
+
+TEST_CASE("A cycle of adhesive contacts has two branches, a pull-off, and the work between them",
+          "[contact][adhesion]") {
+  const ProgramTest test;
+  test.done(
+      "generate --points 64 --size-x 128um --hurst 0.8 --rolloff 64um --short-cutoff 16um "
+      "--rms-slope 0.1 --seed 1 -o rough.h5");
+  const std::string cycle =
+      "contact rough.h5 --contact-modulus 1MPa --work-of-adhesion 0.05 --adhesion-range 500nm "
+      "--cycle ";
+  const auto gaps = test.answer(cycle + "--mean-gap 8:0.1um:12 --stiffness -o cycle.h5");
+  CHECK(keys(gaps) ==
+        "curve unloading pull_off_pressure adhesion_work_per_cycle adhesion_work_error tabor");
+  const std::vector<double> in = gaps["curve"]["force"], out = gaps["unloading"]["force"];
+  const std::vector<double> depth = gaps["curve"]["indentation"],
+                            back = gaps["unloading"]["indentation"];
+  REQUIRE((in.size() == 12 && out.size() == 12));
+  double work = 0;
+  for (std::size_t k = 0; k + 1 < in.size(); ++k)
+    work += (in[k] + in[k + 1]) / 2 * (depth[k + 1] - depth[k]) +
+            (out[k] + out[k + 1]) / 2 * (back[k + 1] - back[k]);
+  CHECK(gaps["adhesion_work_per_cycle"] == Approx(work));
+  // The gap of 12 steps loses some 1e-11 J, and their trapezoids are known to the first digit.
+  CHECK(work > 5e-12);
+  CHECK(-*std::ranges::min_element(out) / (128e-6 * 128e-6) ==
+        Approx(gaps["pull_off_pressure"].get<double>()));
+  const ResultReader file(test.folder() / "cycle.h5");
+  CHECK(file.numbers("unloading/force") == out);
+  CHECK(file.numbers("curve/tension_force") ==
+        gaps["curve"]["tension_force"].get<std::vector<double>>());
+  CHECK(file.number_attribute("unloading", "pull_off_pressure") == gaps["pull_off_pressure"]);
+
+  const auto loads = test.answer(cycle + "--pressure 1kPa,5kPa");
+  // Bracketed to 2 %, and passed between gaps.
+  CHECK(loads["pull_off_pressure"] ==
+        Approx(gaps["pull_off_pressure"].get<double>()).epsilon(0.05));
+  CHECK(loads["adhesion_work_per_cycle"].is_null());
+  // A cycle that begins within the attraction does not close.
+  const auto open = test.run(cycle + "--mean-gap 1.74:0.1um:6 --json");
+  CHECK(open.json()["adhesion_work_per_cycle"].is_null());
+  CHECK_THAT(open.err, Contains("do not meet at its outermost position"));
 }

@@ -177,3 +177,54 @@ def test_a_modulus_without_its_unit_is_doubted(surface: salebra.Surface) -> None
     for call in (lambda: salebra.press(surface, 115, pressure=1e6), lambda: salebra.sweep_pressures(surface, salebra.Material(115), [1e6])):
         with pytest.warns(UserWarning, match=r"a nominal pressure of 1 MPa is 8696 times E\* = 115 Pa: .*; check the units"):
             call()
+
+
+def test_conductance_is_the_stiffness_times_a_constant(surface: salebra.Surface) -> None:
+    state = salebra.press(surface, 1e9, pressure=2e5)
+    stiffness = salebra.normal_stiffness(state)
+    assert salebra.contact.electrical_conductance(stiffness, 1e9, 1e-8, 3e-8) == pytest.approx(2 * stiffness / (1e9 * 4e-8))
+    both = salebra.contact.thermal_conductance(np.array([stiffness, 2 * stiffness]), 1e9, 50.0)
+    assert np.allclose(both, np.array([1, 2]) * stiffness * 50.0 / 1e9)
+    with pytest.raises(salebra.InvalidInput, match="resistivity"):
+        salebra.contact.electrical_conductance(stiffness, 1e9, 0.0)
+
+
+def test_flow_and_densities_of_a_gap(surface: salebra.Surface) -> None:
+    state = salebra.press(surface, 1e9, pressure=2e5)
+    flow = salebra.contact.flow_factors(state)
+    assert flow.converged and flow.percolates_x and flow.percolates_y
+    # Where something touches, the flow is less than between smooth walls.
+    assert 0 < flow.pressure_flow_factor_x < 1
+    assert flow.mean_gap == pytest.approx(state.mean_gap, rel=1e-9)
+    densities = salebra.contact.contact_distributions(state, bins=50)
+    whole = densities.pressure_density.sum() * densities.pressure_width + densities.gap_density.sum() * densities.gap_width
+    assert whole == pytest.approx(1, rel=1e-12)
+    with pytest.raises(salebra.InvalidInput, match="free boundary"):
+        salebra.contact.flow_factors(salebra.press(surface, 1e9, indentation=1e-9, boundary="free"))
+
+
+def test_adhesion_pulls_comes_off_and_loses_work(surface: salebra.Surface) -> None:
+    grid = salebra.Grid2D(48, 48, 48e-6, 48e-6)
+    spectrum = salebra.SelfAffineSpectrum(hurst=0.8, rolloff=48e-6, short_cutoff=24e-6, rms_slope=0.2)
+    rough = salebra.filtered_noise(grid, spectrum, seed=3)
+    adhesion = salebra.contact.Adhesion(work=0.3, range=2e-6)
+    state = salebra.contact.press_adhesive(rough, 1e6, adhesion, pressure=5e4)
+    assert state.converged and not state.detached
+    assert state.mean_pressure == pytest.approx(state.contact_pressure.mean() - state.tension.mean(), rel=1e-9)
+    assert salebra.normal_stiffness(state) > 0  # it is a NormalContactState to everything that takes one
+    assert salebra.contact.press_adhesive(rough, 1e6, adhesion, pressure=-2e5, start=state).detached
+    touch = rough.heights.max() - rough.heights.mean()
+    cycle = salebra.contact.adhesive_cycle(rough, 1e6, adhesion, mean_gaps=np.linspace(touch + 30e-6, 0.6 * touch, 20))
+    assert cycle.converged and cycle.pull_off_pressure > 0
+    assert cycle.adhesion_work_per_cycle > 0
+    assert cycle.unloading.mean_gap[-1] == pytest.approx(cycle.loading.mean_gap[0], rel=1e-9)
+
+
+def test_an_adhesive_ball_is_between_jkr_and_dmt() -> None:
+    radius, modulus, work = 10e-6, 1e6, 0.05
+    jkr = salebra.contact.jkr_pull_off(salebra.paraboloid_profile(radius), modulus, work).force
+    assert jkr == pytest.approx(-1.5 * math.pi * work * radius, rel=1e-9)
+    dmt = salebra.contact.dmt_contact(radius, modulus, work, 0.0 + 1e-12).force
+    between = salebra.contact.MaugisDugdale(radius, modulus, work, 1e-6).pull_off().force
+    assert dmt < between < jkr
+    assert salebra.contact.suggested_adhesion_model(salebra.contact.tabor_parameter(radius, modulus, work, 1e-9)) == "jkr"

@@ -126,9 +126,10 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
         std::max(std::abs(load) / 4, 1e-3 * adhesion.largest_tension()), cycle.unloading);
     return cycle;
   }
-  for (const AdhesiveContactState& state : cycle.unloading)
-    cycle.pull_off_pressure =
-        std::fmax(cycle.pull_off_pressure, std::max(0.0, -state.mean_pressure));
+  const auto least =
+      std::ranges::min_element(cycle.unloading, {}, &AdhesiveContactState::mean_pressure);
+  if (least != cycle.unloading.begin())
+    cycle.pull_off_pressure = std::max(0.0, -least->mean_pressure);
   measure(cycle);
   return cycle;
 }

@@ -10,7 +10,7 @@
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
-#include <salebra/contact/normal/adhesion.hpp>
+#include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <string>
 #include <vector>
 
@@ -520,4 +520,76 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
 
   CHECK_FALSE(doubt_of_process_zone(good, surface.grid, 1));
   CHECK(doubt_of_process_zone({AdhesionPotential::exponential, 1, 1}, surface.grid, 1));
+}
+
+namespace {
+
+/// Mean gaps from beyond every force to a part of that of first touch.
+std::vector<Target> way_in(const Surface& surface, double from, int steps, double closed = 0.6) {
+  const double touch = surface.heights.maxCoeff() - surface.heights.mean();
+  std::vector<Target> positions;
+  for (int k = 0; k <= steps; ++k)
+    positions.push_back({.mean_gap = from + (closed * touch - from) * k / steps});
+  return positions;
+}
+
+}  // namespace
+
+TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does not stick none",
+          "[adhesion]") {
+  const Surface surface = rough_surface(
+      cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
+  const double touch = surface.heights.maxCoeff() - surface.heights.mean();
+  const Adhesion sticky{AdhesionPotential::exponential, 0.3, 2};
+  const AdhesiveCycle lossy =
+      adhesive_cycle(surface, 1, way_in(surface, touch + 30, 48, 0.05), sticky, {.unload = true});
+  REQUIRE(lossy.converged());
+  CHECK(lossy.pull_off_pressure > 0);
+  CHECK(lossy.pull_off_pressure < sticky.largest_tension());
+  CHECK(lossy.adhesion_work_per_cycle > 5 * lossy.adhesion_work_error);
+  // Half of the steps lose the same within what they state.
+  const AdhesiveCycle coarser =
+      adhesive_cycle(surface, 1, way_in(surface, touch + 30, 24, 0.05), sticky, {.unload = true});
+  CHECK(std::abs(coarser.adhesion_work_per_cycle - lossy.adhesion_work_per_cycle) <=
+        coarser.adhesion_work_error + lossy.adhesion_work_error);
+
+  // A hundredth of the work over four times the range: both branches are one.
+  const Adhesion weak{AdhesionPotential::exponential, 0.003, 8};
+  const AdhesiveCycle closed = adhesive_cycle(surface, 1, way_in(surface, touch + 120, 24), weak,
+                                              {.contact = {.tolerance = 1e-7}, .unload = true});
+  REQUIRE(closed.converged());
+  double there = 0;  // what the way in alone takes
+  for (std::size_t k = 0; k + 1 < closed.loading.size(); ++k)
+    there += std::abs(closed.loading[k].force + closed.loading[k + 1].force) / 2 *
+             (closed.loading[k + 1].indentation - closed.loading[k].indentation);
+  // Both branches are known to the tolerance of their contacts.
+  CHECK(std::abs(closed.adhesion_work_per_cycle) < 1e-3 * there);
+}
+
+TEST_CASE("Under pressures a cycle pulls until the surfaces part", "[adhesion]") {
+  const Surface surface = rough_surface(
+      cells(32, 32), {.hurst = 0.8, .rolloff = 1, .cutoff = 16, .rms_slope = 0.2, .seed = 3});
+  const Adhesion sticky{AdhesionPotential::exponential, 0.3, 2};
+  const AdhesiveCycle cycle =
+      adhesive_cycle(surface, 1, {{.pressure = 0.005}, {.pressure = 0.02}, {.pressure = 0.05}},
+                     sticky, {.unload = true});
+  REQUIRE(cycle.converged());
+  REQUIRE(cycle.unloading.size() > 4);
+  CHECK(cycle.unloading[2].mean_pressure == Approx(0.005).epsilon(1e-6));
+  CHECK(cycle.pull_off_pressure == Approx(-cycle.unloading.back().mean_pressure).epsilon(1e-6));
+  for (std::size_t k = 3; k + 1 < cycle.unloading.size(); ++k)
+    CHECK(cycle.unloading[k + 1].mean_pressure < cycle.unloading[k].mean_pressure);
+  CHECK(std::isnan(cycle.adhesion_work_per_cycle));
+  // At mean gaps the force passes the same pull, as closely as the gaps come to it.
+  const AdhesiveCycle by_gap =
+      adhesive_cycle(surface, 1, way_in(surface, 40, 80, 0.05), sticky, {.unload = true});
+  CHECK(by_gap.pull_off_pressure == Approx(cycle.pull_off_pressure).epsilon(0.05));
+  // By 3 % more the last state comes off.
+  std::vector<Target> way{{.pressure = 0.05}};
+  for (const AdhesiveContactState& state : cycle.unloading)
+    way.push_back({.pressure = state.mean_pressure});
+  way.push_back({.pressure = -1.03 * cycle.pull_off_pressure});
+  const AdhesiveCycle once_more = adhesive_cycle(surface, 1, way, sticky);
+  CHECK_FALSE(once_more.loading[way.size() - 2].detached);
+  CHECK(once_more.loading.back().detached);
 }

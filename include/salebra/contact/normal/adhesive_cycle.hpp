@@ -22,7 +22,7 @@ struct AdhesiveCycle {
   std::vector<AdhesiveContactState> loading;    ///< without fields
   std::vector<AdhesiveContactState> unloading;  ///< from the closest position outward
   /// Largest mean tension of unloading, Pa: that at which the surfaces come off, >= 0; NaN of no
-  /// cycle.
+  /// cycle, and where the closest position has it, which is not close enough.
   double pull_off_pressure = std::numeric_limits<double>::quiet_NaN();
   /// ∮F dδ, J, the energy that a cycle between its outermost and its closest position loses; NaN
   /// under given loads, where surfaces that come off part without end, and where both branches do

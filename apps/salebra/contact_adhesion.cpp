@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra contact --work-of-adhesion`: what adhesion asks of options, and several positions with it,
+// in and out.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/mdr/adhesive_indenter.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
+#include <salebra/surface/moments.hpp>
+
+#include "contact_command.hpp"
+#include "curve_figure.hpp"
+#include "option_words.hpp"
+
+namespace salebra::cli {
+namespace {
+
+/// The states of a branch that converged, as the command answers with them.
+struct Branch {
+  ForceCurve curve;
+  std::vector<AdhesionOfState> adhesion;
+  std::vector<FlowFactors> flow;
+
+  void add(const Branch& other, std::size_t place) {
+    curve.samples.push_back(other.curve.samples[place]);
+    adhesion.push_back(other.adhesion[place]);
+    if (!other.flow.empty()) flow.push_back(other.flow[place]);
+  }
+  Json json(const ContactArguments& arguments, std::vector<CurveColumn>& beside) const {
+    Json columns = to_json(curve);
+    columns.add(json_of(adhesion));
+    beside = columns_beside(adhesion);
+    std::ranges::move(add_beside(arguments, curve, flow, columns), std::back_inserter(beside));
+    return columns;
+  }
+};
+
+std::vector<Target> targets_of(const ContactArguments& arguments) {
+  Standings at = arguments.at.given().front();
+  std::ranges::sort(at.values);
+  if (at.quantity == Standing::mean_gap) std::ranges::reverse(at.values);
+  std::vector<Target> targets;
+  for (const double value : at.values)
+    targets.push_back(at.quantity == Standing::mean_gap      ? Target{.mean_gap = value}
+                      : at.quantity == Standing::indentation ? Target{.indentation = value}
+                      : at.quantity == Standing::pressure    ? Target{.pressure = value}
+                                                             : Target{.force = value});
+  return targets;
+}
+
+void write_cycle(const Branch& loading, const std::vector<CurveColumn>& beside,
+                 const Branch& unloading, const std::vector<CurveColumn>& beside_unloading,
+                 const AdhesiveCycle& cycle, const Session& session) {
+  ResultFile file(session.output(), session.provenance(), session.write_options());
+  ResultGroup in = file.group("curve"), out = file.group("unloading");
+  write_force_curve(in, loading.curve, beside);
+  write_force_curve(out, unloading.curve, beside_unloading);
+  for (const auto& [quantity, values] : columns_beside(std::vector{cycle}))
+    out.attribute(std::string(quantity.name), values.front());
+  file.commit();
+}
+
+}  // namespace
+
+Adhesion ContactArguments::adhesion() const {
+  return {*value_of<AdhesionPotential>(potential), *work_of_adhesion, *adhesion_range};
+}
+
+AdhesiveContactOptions ContactArguments::adhesive_options(Session& session) const {
+  AdhesiveContactOptions options;
+  options.contact = contact_options(session);
+  options.contact.tolerance = NormalContactOptions().tolerance;
+  if (tolerance) options.tolerance = *tolerance;
+  options.force_coarse = force_coarse;
+  return options;
+}
+
+MeanSummit summit_of(const Surface& surface, const Adhesion& adhesion, double contact_modulus) {
+  const SpectralMoments moments = surface_moments(surface);
+  if (!(moments.nayak() >= 1) || !(adhesion.work > 0)) return {};
+  const SummitEnsemble summits =
+      summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+  return {tabor_parameter(summits.radius, contact_modulus, adhesion.work, adhesion.range)};
+}
+
+void press_adhesively(const ContactArguments& arguments, Session& session) {
+  const Material material = arguments.material.material();
+  const Surface surface = arguments.surface.read(session);
+  const Adhesion adhesion = arguments.adhesion();
+  const double area = surface.grid.area();
+  for (const double pressure : arguments.pressures_on(area))
+    session.doubt(doubt_of_pressure(pressure, material.contact_modulus));
+  Branch loading;
+  loading.curve.model = "bem";
+  loading.curve.nominal_area = area;
+  loading.curve.rms_height = height_statistics(surface).rms_height;
+  Branch unloading = loading;
+  AdhesiveCycleOptions options{.contact = arguments.adhesive_options(session),
+                               .unload = arguments.cycle};
+  const SweepOptions sample{.contact = options.contact.contact,
+                            .stiffness = arguments.wants_stiffness(),
+                            .stick = arguments.stick};
+  options.on_state = [&](bool out, const AdhesiveContactState& state) {
+    Branch& branch = out ? unloading : loading;
+    if (out && branch.adhesion.empty()) branch.add(loading, loading.adhesion.size() - 1);
+    if (state.detached)
+      branch.curve.samples.push_back({.force = state.force, .pressure = state.mean_pressure});
+    else
+      branch.curve.samples.push_back(force_sample(state, surface, material, sample));
+    branch.adhesion.push_back(state);
+    if (arguments.flow_factors)
+      branch.flow.push_back(state.detached ? FlowFactors() : flow_of(state, surface.grid, {}));
+  };
+  const AdhesiveCycle cycle =
+      adhesive_cycle(surface, material.contact_modulus, targets_of(arguments), adhesion, options);
+  if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
+  session.doubt(doubt_of_process_zone(adhesion, surface.grid, material.contact_modulus));
+  if (!cycle.converged()) {
+    const auto& last = (cycle.unloading.empty() ? cycle.loading : cycle.unloading).back();
+    throw NotConverged(fmt::format(
+        "contact: residual of the tension {:.3g} at {} after {} contacts "
+        "{}",
+        last.adhesion_residual, format_quantity(last.mean_pressure, Dimension::pressure),
+        last.outer_iterations, in_options(message(last.termination))));
+  }
+  std::vector<CurveColumn> beside, beside_unloading;
+  Json answer{{"curve", loading.json(arguments, beside)}};
+  if (arguments.cycle) {
+    answer["unloading"] = unloading.json(arguments, beside_unloading);
+    answer.add(json_of(cycle));
+    if (std::isnan(cycle.adhesion_work_per_cycle) && arguments.pressures_on(area).empty())
+      session.warn(
+          "the branches of the cycle do not meet at its outermost position, and it has no work; "
+          "begin farther out");
+  }
+  answer.add(json_of(summit_of(surface, adhesion, material.contact_modulus)));
+  collectively(session.ranks(), [&] {
+    if (!session.has_output() || !session.ranks().is_root()) return;
+    if (arguments.cycle)
+      write_cycle(loading, beside, unloading, beside_unloading, cycle, session);
+    else
+      write_force_curve(session.output(), loading.curve, session.provenance(),
+                        session.write_options(), beside);
+  });
+  if (session.has_plot())
+    session.plot(arguments.cycle ? cycle_figure(loading.curve, unloading.curve)
+                                 : curve_figure(loading.curve));
+  session.answer(answer);
+  for (const Branch* branch : {&loading, &unloading})
+    if (!std::ranges::all_of(branch->flow, &FlowFactors::converged))
+      throw NotConverged(flow_failure);
+}
+
+}  // namespace salebra::cli
