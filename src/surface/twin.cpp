@@ -20,9 +20,14 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double seen_above = 6;        ///< 2 ln of a likelihood ratio
-constexpr double one_sided = 1.353;     ///< half the 90 % quantile of χ² with one degree
-constexpr double bad_scan_above = 3.5;  ///< misfit of a scan, and over the median of its group
+constexpr double seen_above = 6;     ///< 2 ln of a likelihood ratio
+constexpr double one_sided = 1.353;  ///< half the 90 % quantile of χ² with one degree
+/// Misfit of a scan, and over the median of its group. Of 495 good scans of 45 Gaussian surfaces
+/// (bench/statistics/twin_coverage.cpp) the greatest was 2.2, and the tail puts 3.5 at one in 6000;
+/// at a skewness of −1 at one in 250. SurfaceTwin::refused_above follows in the same way: misfits of
+/// right laws were 1.00 by a factor of e^±0.25, so that one in 1400 is above 2.2, and one in six at
+/// a skewness of −1, where a table must be better by a fifth to be taken.
+constexpr double bad_scan_above = 3.5;
 constexpr double knots_per_decade = 5;
 using detail::unknown;
 
@@ -119,7 +124,8 @@ std::vector<TwinScan> judged_scans(const std::vector<ScanSpectrum>& scans, const
     std::vector<bool> far;
     for (const std::size_t scan : data.scans) {
       std::vector<double> psd;
-      for (const std::size_t bin : data.bins) psd.push_back(scans[scan].psd[bin]);
+      for (std::size_t k = 0; k < data.bins.size(); ++k)
+        psd.push_back(std::max(scans[scan].psd[data.bins[k]], data.leaked[k]));
       const double share = std::min(1 - 1e-9, scans[scan].weight / weight);
       const TwinModel::Misfit misfit = one.model.misfit_of(one.fit.parameters, group, psd, share);
       judged[scan].misfit = misfit.ratio();
@@ -472,7 +478,11 @@ SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& o
   }
   const double misfit = forms.best.misfit();
   const bool asked = options.form == SpectrumForm::table;
+  bool plateau = true;
   if (asked || (!options.form && misfit > SurfaceTwin::refused_above)) {
+    // A table ends with the scans: whether a plateau is in them the self-affine law says.
+    plateau =
+        sees(forms.best, TwinLaw::rolloff, forms.best.model.highest()[TwinLaw::rolloff] - 1e-3);
     Candidate table = table_near(forms.best);
     if (!asked) {
       const bool better = table.misfit() < 0.8 * misfit;
@@ -544,6 +554,14 @@ SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& o
   if (model.law().table()) {
     twin.notes.push_back("rms height and slope are those of waves below " +
                          length_text(model.largest_scan()));
+    if (!plateau) {
+      const double low =
+          quantile(sorted([](const TwinDraw& draw) { return draw.rms_height; }), 0.05);
+      twin.rms_height = {};
+      twin.rms_height.low = low;
+      twin.notes.push_back(
+          "no roll-off is seen in them: of the rms height only a lower limit is known");
+    }
   } else {
     twin.hurst = interval(sorted([](const TwinDraw& draw) { return draw.hurst; }), true);
     if (ends.sees_rolloff()) {

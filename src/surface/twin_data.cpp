@@ -78,6 +78,24 @@ struct ScanScatter {
   }
 };
 
+/// What a Hann window leaves in each bin of waves more than six modes longer, which the response of
+/// the bins above κ = 36 has not: of a wave d modes away the part (2/3)(1/2)(πd³)⁻² along an axis, of
+/// all beyond d modes 0.007 d⁻⁵.
+std::vector<double> leakage(const std::vector<double>& limits, const std::vector<double>& psd,
+                            const std::vector<Index>& modes) {
+  constexpr double share = 0.007, modelled = 6;
+  const auto beyond = [=](double distance) {
+    return share / std::pow(std::max(distance, +modelled), 5);
+  };
+  std::vector<double> leaked(psd.size());
+  for (std::size_t bin = response_bins(limits); bin < psd.size(); ++bin)
+    for (std::size_t from = 0; from < bin; ++from)
+      if (modes[from] > 0)
+        leaked[bin] += psd[from] * (beyond(limits[bin] - limits[from + 1]) -
+                                    beyond(limits[bin] - limits[from]));
+  return leaked;
+}
+
 TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_t> members,
                   Responses& responses) {
   const ScanSpectrum& first = scans[members.front()];
@@ -124,11 +142,12 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
                  (line ? first.grid.dx() / (2 * pi) : first.grid.cell_area() / (4 * pi * pi));
     data.noise_freedom = known_noise;
   }
-  // Without any noise a bin beyond the cut-off would be impossible. Noise-free heights, as computed
-  // ones are, have nothing there but what the window leaks of longer waves: it counts as noise.
-  constexpr double leaked = 1e-8;
-  data.noise = std::max(data.noise, leaked * greatest);
-  for (double& power : psd) power = std::max(power, leaked * greatest);
+  const std::vector<double> leaked = leakage(limits, psd, first.modes);
+  // Without any noise a bin beyond the cut-off would be impossible: rounding is some.
+  constexpr double rounded = 1e-15;
+  data.noise = std::max(data.noise, rounded * greatest);
+  for (std::size_t bin = 0; bin < bins; ++bin)
+    psd[bin] = std::max({psd[bin], leaked[bin], rounded * greatest});
 
   double curvature = 0;  // κ_rms²
   for (std::size_t bin = 0; bin < bins; ++bin) {
@@ -141,8 +160,10 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
     }
     if (!enough(bin)) continue;
     data.bins.push_back(bin);
-    data.doubt.push_back(
-        data.tip ? tip_doubt / tip_limit * instrument.tip_radius * std::sqrt(curvature) : 0);
+    data.leaked.push_back(leaked[bin]);
+    data.doubt.push_back(std::hypot(
+        leaked[bin] / psd[bin],
+        data.tip ? tip_doubt / tip_limit * instrument.tip_radius * std::sqrt(curvature) : 0));
     data.wavenumber.push_back(q);
     data.psd.push_back(psd[bin]);
     const bool by_tapers = bin < tapered;

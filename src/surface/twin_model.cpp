@@ -167,7 +167,7 @@ std::size_t TwinModel::evaluate(const Eigen::VectorXd& parameters, std::size_t g
   work.expected.resize(data.bins.size());
   for (std::size_t bin = 0; bin < data.bins.size(); ++bin) {
     work.signal[bin] *= gain;
-    work.expected[bin] = work.signal[bin] + noise + tail(parameters, group, bin);
+    work.expected[bin] = work.signal[bin] + noise + data.leaked[bin] + tail(parameters, group, bin);
   }
   return cells;
 }

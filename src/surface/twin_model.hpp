@@ -28,7 +28,8 @@ struct TwinData {
   std::vector<std::size_t> bins;  ///< places in the scans' bins
   std::vector<double> wavenumber, psd;
   std::vector<double> modes;                ///< m_c: independent modes in the mean
-  std::vector<double> doubt;                ///< relative error of psd that the tip makes
+  std::vector<double> leaked;               ///< that the window leaves of much longer waves
+  std::vector<double> doubt;                ///< relative error of psd by tip and leakage
   std::vector<double> scatter;              ///< variance of psd/E by that of m_c modes
   std::vector<double> cell_low, cell_high;  ///< ln q of the cells' limits
   std::vector<double> cell_wavenumber;
@@ -69,7 +70,7 @@ class TwinModel {
   double largest_scan() const { return largest_; }             ///< m
   double finest_wavenumber() const { return finest_; }         ///< rad/m, used
 
-  /// s of 1/m = 1/m_c + s² in all bins, to which the squared doubt of the tip comes, and in those beyond 0.8 of the wave number `cutoff`;
+  /// s of 1/m = 1/m_c + s² in all bins, to which the squared doubt of a bin comes, and in those beyond 0.8 of the wave number `cutoff`;
   /// three times that where a bin begins there.
   void set_tolerance(double everywhere, double beyond, double cutoff);
 

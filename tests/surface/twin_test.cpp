@@ -405,6 +405,22 @@ TEST_CASE("A spectrum that is not self-affine becomes a table", "[twin]") {
   CHECK(inside >= 0.6 * asked);
 }
 
+TEST_CASE("Noise nine decades below the longest waves is seen as it is", "[twin]") {
+  // Waves far longer than the scan: C at κ = 1 is 1.4e9 times the noise, which was cut off once.
+  const TwinDraw truth = law(SpectrumForm::corner, 0.9, 2e-3, 1e-6);
+  RoughPatches patches(21);
+  std::vector<ScanSpectrum> scans;
+  for (int scan = 0; scan < 3; ++scan)
+    scans.push_back(
+        scan_of(patches, truth, 256, 200e-6, instrument(Instrument::optical, 1e-9, 3e-6)));
+  REQUIRE(scans[0].psd.front() > 1e8 * scans[0].psd.back());
+  const SurfaceTwin twin = fit_twin(scans, {.leave_one_out = false});
+  // The spectra of 32 bins have a misfit of 1 with a standard deviation of about 0.3.
+  CHECK(twin.misfit < 2);
+  CHECK(twin.form != SpectrumForm::table);
+  CHECK_FALSE(twin.rolloff.seen);
+}
+
 TEST_CASE("Profiles of a surface give the spectrum of the surface", "[twin]") {
   // Ten lines of 100 µm, far from each other, of one surface.
   RoughPatches patches(81);
