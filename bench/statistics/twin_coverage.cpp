@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How often the 95 % intervals of a surface twin hold the truth, over synthetic surfaces and
-// instruments: 3 optical maps of 200 µm (FWHM 1.5 µm, noise 3 nm), 4 scans of 40 µm with a tip of
-// 0.3 µm, 4 of 10 µm with one of 50 nm (noise 0.3 nm, lines that drift), each a place of its own of
-// an infinite surface, with tilt, 5 % of gain for each instrument and 2 % for each scan.
+// instruments.
 //   twin_coverage [truths [points [rolloff [skewness [form [first seed]]]]]]
 // rolloff: inside (20 … 90 µm), beyond (600 … 3000 µm), both in turn; form: corner or smooth
 #include <chrono>
@@ -14,84 +12,27 @@
 #include <salebra/surface/twin.hpp>
 #include <string>
 
-#include "surface/rough_patches.hpp"
+#include "synthetic_scans.hpp"
 
 namespace {
 
 using namespace salebra;
-using std::numbers::pi;
+using synthetic::log_uniform;
+using synthetic::Truth;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-struct Truth {
-  TwinDraw spectrum;
-  double skewness = 0;
-  double bend = 0;  // s of the transform
-  double rms_slope = 0;
-};
-
-/// Heights of skewness −1 from Gaussian ones: h_rms(1 − e^{−su − s²/2})/√(e^{s²} − 1).
-double bent(double height, const Truth& truth) {
-  const double s = truth.bend, u = height / truth.spectrum.rms_height;
-  return truth.spectrum.rms_height * (1 - std::exp(-s * u - s * s / 2)) /
-         std::sqrt(std::expm1(s * s));
-}
-
 std::vector<ScanSpectrum> scans_of(const Truth& truth, Index n, RoughPatches& patches,
                                    double& spent) {
   std::vector<ScanSpectrum> scans;
-  struct Kind {
-    Instrument kind;
-    double side;
-    int count;
-    double tip, noise;
-    const char* name;
-  };
-  for (const Kind& kind : {Kind{Instrument::optical, 200e-6, 3, 0, 3e-9, "optical"},
-                           Kind{Instrument::afm, 40e-6, 4, 0.3e-6, 0.3e-9, "afm 40"},
-                           Kind{Instrument::afm, 10e-6, 4, 50e-9, 0.3e-9, "afm 10"}}) {
-    const double gain = std::exp(0.05 * patches.normal());
-    for (int scan = 0; scan < kind.count; ++scan) {
-      const double sigma = 1.5e-6 / 2.355;
-      const auto density = [&](double q) { return truth.spectrum.density(q); };
-      Field heights;
-      if (kind.kind == Instrument::optical) {
-        heights = patches.patch(n, kind.side, [&](double q) {
-          return density(q) * std::exp(-(q * sigma) * (q * sigma));
-        });
-        if (truth.bend > 0) heights = heights.unaryExpr([&](double h) { return bent(h, truth); });
-      } else {
-        Field fine = patches.patch(2 * n, kind.side, density);
-        if (truth.bend > 0) fine = fine.unaryExpr([&](double h) { return bent(h, truth); });
-        heights = every_second(
-            dilated(std::move(fine), kind.side / static_cast<double>(2 * n), kind.tip));
-      }
-      const double slope_x = 0.3 * patches.normal(), slope_y = 0.3 * patches.normal(),
-                   factor = gain * (1 + 0.02 * patches.normal());
-      std::vector<double> drift(static_cast<std::size_t>(n));
-      for (std::size_t line = 1; line < drift.size() && kind.tip > 0; ++line)
-        drift[line] = drift[line - 1] + 0.6e-9 * patches.normal();
-      for (Index i = 0; i < n; ++i)
-        for (Index j = 0; j < n; ++j)
-          heights(i, j) =
-              factor *
-              (heights(i, j) + kind.noise * patches.normal() +
-               1e-6 * (slope_x * static_cast<double>(i) + slope_y * static_cast<double>(j)) /
-                   static_cast<double>(n) +
-               drift[static_cast<std::size_t>(j)]);
-      ScanInstrument instrument;
-      instrument.kind = kind.kind;
-      instrument.noise = kind.noise;
-      instrument.resolution = kind.kind == Instrument::optical ? 1.5e-6 : 0;
-      instrument.tip_radius = kind.tip;
-      instrument.name = kind.name;
-      const auto start = std::chrono::steady_clock::now();
-      scans.push_back(scan_spectrum(heights, {n, n, kind.side, kind.side}, instrument));
-      spent += seconds_since(start);
-    }
-  }
+  synthetic::for_each_scan(
+      truth, n, patches, [&](Field heights, const Grid2D& grid, const ScanInstrument& instrument) {
+        const auto start = std::chrono::steady_clock::now();
+        scans.push_back(scan_spectrum(heights, grid, instrument));
+        spent += seconds_since(start);
+      });
   return scans;
 }
 
@@ -149,39 +90,17 @@ int main(int argc, char** argv) {
   std::vector<double> misfits;
   for (int number = first; number < first + truths; ++number) {
     RoughPatches patches(static_cast<unsigned>(number));
-    const auto log_uniform = [&](double low, double high) {
-      return std::exp(patches.uniform(std::log(low), std::log(high)));
-    };
     Truth truth;
-    truth.skewness = skewness;
     truth.bend = skewness < 0 ? 0.3143 : 0;  // skewness −1
     const bool inside = where == "inside" || (where == "both" && number % 2 == 0);
     TwinDraw& spectrum = truth.spectrum;
     spectrum.form = smooth ? SpectrumForm::smooth : SpectrumForm::corner;
     spectrum.hurst = patches.uniform(0.3, 0.95);
-    spectrum.rolloff = inside ? log_uniform(20e-6, 90e-6) : log_uniform(600e-6, 3000e-6);
-    spectrum.short_cutoff = log_uniform(0.3e-6, 1e-6);
+    spectrum.rolloff =
+        inside ? log_uniform(patches, 20e-6, 90e-6) : log_uniform(patches, 600e-6, 3000e-6);
+    spectrum.short_cutoff = log_uniform(patches, 0.3e-6, 1e-6);
     spectrum.reference = 2e6;
-    const double slope = log_uniform(0.03, 0.25);
-    // Moments by Simpson's rule over ln q, from far below the roll-off.
-    double height_square = 0, slope_square = 0;
-    constexpr int steps = 4000;
-    const double low = std::log(2 * pi / spectrum.rolloff * 1e-3),
-                 step = (std::log(2 * pi / spectrum.short_cutoff) - low) / steps;
-    for (int k = 0; k <= steps; ++k) {
-      const double q = std::exp(low + step * k);
-      const double part = (k == 0 || k == steps ? 1
-                           : k % 2              ? 4
-                                                : 2) *
-                          step / 3 * 2 * pi * q * q * spectrum.density(q * (1 - 1e-13));
-      height_square += part;
-      slope_square += part * q * q;
-    }
-    spectrum.amplitude = 2 * std::log(slope / std::sqrt(slope_square));
-    spectrum.rms_height = std::sqrt(height_square / slope_square) * slope;
-    const double s2 = truth.bend * truth.bend;
-    truth.rms_slope = slope * (s2 > 0 ? std::sqrt(s2 / -std::expm1(-s2)) : 1);
-
+    synthetic::set_slope(truth, log_uniform(patches, 0.03, 0.25));
     const std::vector<ScanSpectrum> scans = scans_of(truth, n, patches, spectra);
     const auto start = std::chrono::steady_clock::now();
     const SurfaceTwin twin = fit_twin(scans);
