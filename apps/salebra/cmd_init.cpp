@@ -13,6 +13,7 @@
 #include "io/text_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
+#include "toml_text.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -112,30 +113,6 @@ std::string file_heading(const std::string& file) {
   return text + std::string(conventions);
 }
 
-/// A TOML string, whatever is in the name of a file.
-std::string toml_string(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-    else
-      result += c;
-  }
-  return result + '"';
-}
-
-std::string toml_length(double metres) {
-  return toml_string(fmt::format("{:.12g}nm", 1e9 * metres));
-}
-
-/// The key as it is where a value was given, else as a choice that was not made.
-std::string key_or_choice(std::string_view key, const std::string& value, std::string_view example,
-                          std::string_view remark) {
-  return value.empty() ? fmt::format("# {} = {}  # {}", key, example, remark)
-                       : fmt::format("{} = {}  # {}", key, value, remark);
-}
-
 /// Keys for what was given beside size and unit, and otherwise that they are there.
 std::string preparation(const MeasuredSurface& surface) {
   std::string lines;
@@ -171,11 +148,6 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
   // A thirtieth of the rms height, to one digit.
   const double wanted = rms_height / 30, digit = std::pow(10, std::floor(std::log10(wanted)));
   amplitude = toml_length(std::round(wanted / digit) * digit);
-  // The study file's own folder is where its relative names begin.
-  const fs::path folder = fs::absolute(arguments.file).parent_path();
-  const fs::path found = fs::absolute(given.file);
-  fs::path name = fs::relative(found, folder);
-  if (name.empty()) name = found;
   const auto size = [](const std::optional<double>& value) {
     return value ? toml_length(*value) : std::string();
   };
@@ -184,7 +156,7 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
   };
   return fmt::format(
       fmt::runtime(measured_surface),
-      fmt::arg("file", toml_string(name.string()) + "  # from this file's folder"),
+      fmt::arg("file", toml_file(given.file, arguments.file) + "  # from this file's folder"),
       fmt::arg("size_x", key_or_choice("size_x", size(given.size_x), "\"10um\"",
                                        "where the file does not know its size")),
       fmt::arg("size_y", key_or_choice("size_y", size(given.size_y), "\"10um\"",

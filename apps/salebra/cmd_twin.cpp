@@ -2,22 +2,30 @@
 // `salebra twin`: one surface from several scans, with what they leave open.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/study/twin_file.hpp>
+#include <salebra/surface/moments.hpp>
 
+#include "io/text_file.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "results/answer_json.hpp"
 #include "surface_figure.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
+#include "toml_text.hpp"
 
 namespace salebra::cli {
 namespace {
 
 struct TwinArguments {
-  std::string file, form;
+  std::string file, list, form;
+  std::vector<std::string> scans;
   std::uint64_t seed = 1;
 };
 
@@ -69,7 +77,80 @@ std::string twin_text(const SurfaceTwin& twin) {
   return text;
 }
 
+constexpr std::string_view list_heading =
+    R"(# Scans of one surface, each at a place chosen at random. Next: salebra twin {0} -o surface.h5
+# Lengths are strings with a unit: "1.5um". A line that begins with "# " and a key is a choice that was not made: take
+# the sign away to make it. Each scan needs an instrument. Beside what stands below it may have: pixel_size, lateral_unit,
+# transpose, detrend, despike, crop = ["0um", "0um", "50um", "50um"], fill, as the options of that name.
+)";
+
+constexpr std::string_view list_entry = R"(
+[[measurement]]
+file = {0}  # {1}
+{2}
+{3}
+# height_unit = "nm"         # where the file names none
+# instrument = "optical"     # heights blurred by a lens:
+# resolution = "1.5um"       #   full width at half maximum of the blur
+# instrument = "afm"         # or "stylus": heights dilated by a tip, line by line along x
+# tip_radius = "50nm"
+# line_drift = true          #   lines are offset from each other; so they are of stylus and afm where it is not said
+# instrument = "ideal"       # heights as they are, with noise
+# noise = "0.3nm"            # rms; without it found from the spectrum
+# height_calibration = "5%"  # standard error of all heights of the instrument
+# scan_calibration = "2%"    # of those of one scan
+# name = "afm in Berlin"     # where two instruments of a kind differ: scans of one name share their calibration
+# weight = 1                 # how many scans of its kind it counts as
+)";
+
+/// A table of the list, with what the file states itself.
+std::string entry_of(const std::string& file, const std::string& list) {
+  ReadOptions options;
+  options.undefined = Undefined::keep;
+  std::string remark, size_remark = "instead of the size that the file states";
+  try {
+    const Surface surface = read_surface(file, options);
+    const Grid2D& grid = surface.grid;
+    remark =
+        fmt::format("{} x {} points, {} x {}, rms height {}", grid.nx, grid.ny,
+                    format_quantity(grid.lx, Dimension::length, 4),
+                    format_quantity(grid.ly, Dimension::length, 4),
+                    format_quantity(height_statistics(surface).rms_height, Dimension::length, 3));
+  } catch (const InvalidInput&) {
+    // Without a size heights can be read all the same, by any; what else is wrong is said here.
+    options.size_x = options.size_y = 1e-4;
+    const Grid2D grid = read_surface(file, options).grid;
+    remark = fmt::format("{} x {} points, of no stated size", grid.nx, grid.ny);
+    size_remark = "needed: the file states none";
+  }
+  return fmt::format(fmt::runtime(list_entry), toml_file(file, list), remark,
+                     key_or_choice("size_x", "", "\"10um\"", size_remark),
+                     key_or_choice("size_y", "", "\"10um\"", "without it cells are square"));
+}
+
+void write_list(const TwinArguments& arguments, Session& session) {
+  require_options(
+      arguments.scans.empty() ? std::vector<std::string>{"--files"} : std::vector<std::string>{},
+      "the list of scans");
+  require(!session.has_output() && !session.has_plot(), "LIST", arguments.list,
+          "is the only file that init writes; leave out --output and --plot");
+  session.writes("LIST", arguments.list);
+  require_output(arguments.list, session.write_options());
+  std::string text = fmt::format(fmt::runtime(list_heading),
+                                 std::filesystem::path(arguments.list).filename().string());
+  for (const std::string& scan : arguments.scans) text += entry_of(scan, arguments.list);
+  write_text_file(arguments.list, text, session.write_options());
+  session.answer(
+      Json{{"file", arguments.list}, {"scans", arguments.scans.size()}},
+      fmt::format("{0} is written, a table for each scan. Say what each was made with, then:\n"
+                  "  salebra twin {0} -o surface.h5\n",
+                  arguments.list));
+}
+
 void run(const TwinArguments& arguments, Session& session) {
+  if (arguments.file == "init" && !arguments.list.empty()) return write_list(arguments, session);
+  require(arguments.list.empty() && arguments.scans.empty(), "FILE", arguments.file,
+          "is a list that is there; write one with: salebra twin init LIST --files SCAN …");
   std::vector<std::string> remarks;
   TwinOptions options{.seed = arguments.seed};
   if (!arguments.form.empty()) options.form = value_of<SpectrumForm>(arguments.form);
@@ -94,15 +175,18 @@ void add_twin_command(Program& program) {
   Command& command = program.add_command(
       "twin", "one surface from several scans of it, with what they leave open",
       {"salebra twin scans.toml -o surface.h5 --plot surface.png",
-       "salebra study part.toml --twin surface.h5"},
+       "salebra twin init scans.toml --files wli.sur afm-1.gwy afm-2.gwy"},
       [arguments](Session& session) { run(*arguments, session); },
       "the spectrum with its 95 % band, and that of each instrument");
   command
       .add_option("FILE", arguments->file,
                   "TOML file with a table [[measurement]] for each scan: file, instrument, and "
-                  "its resolution or tip_radius")
+                  "its resolution or tip_radius; or init, which writes LIST to start from")
       ->required()
       ->file(FileUse::input);
+  command.add_option("LIST", arguments->list, "with init: the list of scans to write")
+      ->type_name("LIST");
+  command.add_option("--files", arguments->scans, "with init: the scans")->file(FileUse::input);
   add_choice<SpectrumForm>(command, "--form", arguments->form,
                            "how the spectrum falls from its plateau; default: by likelihood");
   add_seed(command, arguments->seed, "of the draws; default 1");

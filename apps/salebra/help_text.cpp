@@ -66,7 +66,7 @@ constexpr std::array descriptions{
         "is removed, and holes are filled on request only (--fill).\n\n"
         "Next: salebra contact presses the surface, salebra study computes its damping."},
     CommandHelp{
-        "twin", surfaces, "--form",
+        "twin", surfaces, "--files --form",
         "Finds the one self-affine surface that several scans are pieces of: optical maps, stylus "
         "and AFM scans of any size. Blur, tip, noise, calibration, drift and levelling of each "
         "instrument are part of the fit. Reports Hurst exponent, roll-off, cut-off, rms height and "
@@ -77,6 +77,7 @@ constexpr std::array descriptions{
         "  file = \"wli.sur\"\n"
         "  instrument = \"optical\"    # or stylus, afm, ideal\n"
         "  resolution = \"1.5um\"      # of stylus and afm: tip_radius\n\n"
+        "salebra twin init LIST --files SCAN … writes it with every key explained.\n\n"
         "Next: salebra study STUDY --twin OUT draws surfaces of the part."},
     CommandHelp{"convert", surfaces, "--fill",
                 "Reads a surface and writes it in the format that the extension of OUT names. "

@@ -41,7 +41,7 @@ _COMMON = (
     "Grid2D", "Surface", "Material", "ForceCurve", "SelfAffineSpectrum", "EqualFrequency", "Drag", "TabulatedLaw", "ExponentialLaw",
     "IndenterLaw", "GreenwoodWilliamsonLaw", "ContactFacts", "StudyConfiguration", "ResultReader",
     "read_surface", "write_surface", "random_phase", "filtered_noise", "exact_rms", "paraboloid_surface", "off_grid_center",
-    "power_spectrum", "after_first_loading", "press", "sweep_pressures",
+    "power_spectrum", "scan_spectrum", "SurfaceTwin", "after_first_loading", "press", "sweep_pressures",
     "boundary_element_levels", "fit_exponential", "test_exponential", "window_sensitivity",
     "surface_damping", "relaxation_damping", "damping_curve", "simulate_cycle", "simulate_frictional_cycle", "simulate_coupled_cycle",
     "read_study_configuration", "parse_study_configuration", "run_study", "run_ensembles", "write_ensembles", "is_result_of",

@@ -52,7 +52,7 @@ _LIKE = {
     "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure",
     "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
     "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
-    "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius",
+    "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius", "resolution": "size_x", "noise": "rms_height",
     "frequency": "threshold_frequency", "pixel_size": "size_x", "crop": "size_x", "duration": "time", "correlation_length": "rolloff", "force_amplitude": "force", "transverse": "displacement",
 }  # fmt: skip
 # Arrays over the grid; every other array has one dimension.

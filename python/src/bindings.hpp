@@ -33,6 +33,7 @@ void bind_damping_maps(nanobind::module_& module);
 void bind_closed_form(nanobind::module_& module);
 void bind_cycle(nanobind::module_& module);
 void bind_study(nanobind::module_& module);
+void bind_twin(nanobind::module_& module);
 void bind_results(nanobind::module_& module);
 void bind_values(nanobind::module_& module);
 

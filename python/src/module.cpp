@@ -34,6 +34,7 @@ NB_MODULE(_core, m) {
   bind_closed_form(m);
   bind_cycle(m);
   bind_study(m);
+  bind_twin(m);
   bind_results(m);
   bind_values(m);
 }

@@ -110,8 +110,8 @@ std::vector<TwinMeasurement> read_twin_measurements(const std::filesystem::path&
   return measurements;
 }
 
-SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const TwinOptions& options,
-                    const Progress& progress, std::vector<std::string>* remarks) {
+std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measurements,
+                                     const Progress& progress, std::vector<std::string>* remarks) {
   std::vector<ScanSpectrum> scans;
   for (const TwinMeasurement& one : measurements) {
     const Surface surface = measured_surface(one.surface, {}, remarks);
@@ -122,7 +122,12 @@ SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const Twin
                                static_cast<int>(scans.size()), 0}))
       throw Interrupted("twin: stopped before all scans were read");
   }
-  return fit_twin(scans, options);
+  return scans;
+}
+
+SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const TwinOptions& options,
+                    const Progress& progress, std::vector<std::string>* remarks) {
+  return fit_twin(spectra_of(measurements, progress, remarks), options);
 }
 
 void write_twin(const std::filesystem::path& path, const SurfaceTwin& twin,

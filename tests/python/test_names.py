@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # of the mean square slope, spectra in units of their convention, the error of a force, a loss in each cell.
 OTHERS = {
     ("EnsembleMean", "mean"), ("MonteCarloCurve", "mean"), ("Realisation", "heights"), ("RoughnessShell", "power"),
-    ("ConvertedPsd", "wavenumber"), ("ConvertedPsd", "psd"), ("SteadySliding", "error_estimate"), ("SlidingContact", "loss"),
+    ("ConvertedPsd", "wavenumber"), ("ConvertedPsd", "psd"), ("PlainSpectrum", "psd"), ("SteadySliding", "error_estimate"), ("SlidingContact", "loss"),
 }  # fmt: skip
 OLD = re.compile(r"curvature|customary|density_unit|law_density|(least|greatest)_.*|released_work")
 

@@ -30,8 +30,13 @@ struct TwinMeasurement {
 ///         measurement
 std::vector<TwinMeasurement> read_twin_measurements(const std::filesystem::path& file);
 
-/// Reads one scan after the other, so that one is in memory at a time, and fits them.
-/// throws  as read_surface() and fit_twin(); Interrupted
+/// Reads one scan after the other, so that one is in memory at a time. Throws as read_surface() and
+/// scan_spectrum(); Interrupted.
+std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measurements,
+                                     const Progress& progress = {},
+                                     std::vector<std::string>* remarks = nullptr);
+
+/// fit_twin() of spectra_of(), and throws as they do.
 SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements,
                     const TwinOptions& options = {}, const Progress& progress = {},
                     std::vector<std::string>* remarks = nullptr);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+/// Pieces of the commented TOML files that commands write to start from.
+namespace salebra::cli {
+
+/// A TOML string, whatever is in the name of a file.
+inline std::string toml_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+inline std::string toml_length(double metres) {
+  return toml_string(fmt::format("{:.12g}nm", 1e9 * metres));
+}
+
+/// The key as it is where a value was given, else as a choice that was not made.
+inline std::string key_or_choice(std::string_view key, const std::string& value,
+                                 std::string_view example, std::string_view remark) {
+  return value.empty() ? fmt::format("# {} = {}  # {}", key, example, remark)
+                       : fmt::format("{} = {}  # {}", key, value, remark);
+}
+
+/// The name of a file from the folder of the list or study file, where its relative names begin.
+inline std::string toml_file(const std::string& file, const std::string& list) {
+  namespace fs = std::filesystem;
+  const fs::path found = fs::absolute(file);
+  const fs::path name = fs::relative(found, fs::absolute(list).parent_path());
+  return toml_string((name.empty() ? found : name).string());
+}
+
+}  // namespace salebra::cli
