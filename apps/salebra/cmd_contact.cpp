@@ -1,217 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra contact`: its options, and one contact by boundary elements.
+// `salebra contact`: its options, and what goes together.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
-#include <salebra/contact/normal/distributions.hpp>
-#include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/questions/contact.hpp>
-#include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/configuration.hpp>
 
-#include "answers.hpp"
 #include "contact_command.hpp"
-#include "curve_figure.hpp"
 #include "option_words.hpp"
 #include "program.hpp"
 #include "results/columns.hpp"
-#include "results/describe.hpp"
-#include "results/quantity_group.hpp"
 
 namespace salebra::cli {
-namespace {
-
-Target target_of(const ContactArguments& arguments, const Surface& surface) {
-  if (!arguments.at.mean_gap.empty()) return {.mean_gap = arguments.at.mean_gap.front()};
-  if (!arguments.at.indentation.empty()) return {.indentation = arguments.at.indentation.front()};
-  return {.pressure = arguments.pressures_on(surface.grid.area()).front()};
-}
-
-/// Whether the contact of any process reaches the edge.
-bool reaches_edge(const Surface& surface, const Field& pressure) {
-  const Share share = surface.share();
-  const Index rows = pressure.rows(), columns = pressure.cols();
-  const bool reached =
-      pressure.size() > 0 && ((share.begin() == 0 && (pressure.row(0) > 0).any()) ||
-                              (share.end() == share.rows() && (pressure.row(rows - 1) > 0).any()) ||
-                              (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any());
-  return !surface.ranks.all_agree(!reached);
-}
-
-void write_contact(const ContactArguments& arguments, const Session& session, const Grid2D& grid,
-                   const AdhesiveContactState& state, const std::vector<CurveColumn>& beside,
-                   const ContactDistributions& distributions) {
-  const FieldType type = arguments.field_type == "float" ? FieldType::float32 : FieldType::float64;
-  const bool has_pressure = arguments.fields != "none";
-  const bool has_gap = has_pressure && arguments.fields != "pressure";
-  std::optional<ResultFile> file;
-  collectively(session.ranks(), [&] {
-    file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
-    QuantityGroup group(file->group("contact"));
-    if (has_pressure) group.axes(grid);
-    if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
-    if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
-    if (has_gap && arguments.adhesive())
-      group.plain().dataset("tension", state.tension, "x", "y", "Pa", "adhesive tension", type);
-    group.attribute("pressure", state.mean_pressure);
-    for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
-      group.attribute(std::string(quantity.name), number(state));
-    });
-    for (const auto& [quantity, values] : beside)
-      group.attribute(std::string(quantity.name), values.front());
-    if (arguments.distributions) {
-      QuantityGroup densities(file->group("distributions"));
-      densities.coordinate("contact_pressure", distributions.contact_pressure);
-      densities.dataset("pressure_density", distributions.pressure_density, {"contact_pressure"});
-      densities.coordinate("gap", distributions.gap);
-      densities.dataset("gap_density", distributions.gap_density, {"gap"});
-    }
-  });
-  file->commit();
-}
-
-/// The largest pressure of all processes.
-double max_pressure(const Communicator& ranks, const NormalContactState& state) {
-  return -ranks.least_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
-                                                           : 0.0);
-}
-
-/// Reads the rows of this process.
-Field read_initial(const std::string& file, const Share& share) {
-  const ResultReader reader(file);
-  const std::string pressure = "contact/contact_pressure";
-  if (reader.has("contact") && !reader.has(pressure))
-    throw InvalidInput(
-        "--initial", file,
-        "has no contact pressure; name a file that was written without --fields none");
-  return reader.field(pressure, share);
-}
-
-/// Bad names are refused before the work.
-void check_residual(const ContactArguments& arguments, const Session& session) {
-  if (arguments.residual.empty()) return;
-  require(arguments.hardness.has_value(), "--residual", arguments.residual,
-          "is what a plastic contact leaves; give --hardness");
-  require_surface_name(arguments.residual);
-  require_output(arguments.residual, session.write_options());
-}
-
-}  // namespace
-
-void press_once(const ContactArguments& arguments, Session& session) {
-  const Material material = arguments.material.material();
-  const double contact_modulus = material.contact_modulus;
-  NormalContactOptions options = arguments.contact_options(session);
-  if (arguments.hardness) options.hardness = *arguments.hardness;
-  const Surface surface = arguments.surface.read(session);
-  for (const double pressure : arguments.pressures_on(surface.grid.area()))
-    session.doubt(doubt_of_pressure(pressure, contact_modulus));
-  Field initial;
-  if (arguments.checkpoint.starts_anew(session, arguments.initial)) {
-    session.note(arguments.initial + " is not there yet: the contact starts anew");
-  } else if (!arguments.initial.empty()) {
-    collectively(session.ranks(),
-                 [&] { initial = read_initial(arguments.initial, surface.share()); });
-    options.initial_pressure = &initial;
-  }
-  arguments.checkpoint.add_to(options, session, surface.grid);
-  const auto start = std::chrono::steady_clock::now();
-  AdhesiveContactState state;
-  if (arguments.adhesive()) {
-    state = press_adhesive(surface, contact_modulus, target_of(arguments, surface),
-                           arguments.adhesion(), arguments.adhesive_options(session));
-    session.doubt(doubt_of_process_zone(arguments.adhesion(), surface.grid, contact_modulus));
-  } else {
-    static_cast<NormalContactState&>(state) =
-        press(surface, contact_modulus, target_of(arguments, surface), options);
-  }
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  const bool kept = !state.converged() &&
-                    arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
-  if (state.termination == Termination::interrupted)
-    throw Interrupted(kept ? fmt::format("contact: interrupted; continue with --initial {}",
-                                         arguments.checkpoint.file)
-                           : "contact: interrupted; nothing was written");
-  if (options.boundary == Boundary::free && reaches_edge(surface, state.contact_pressure))
-    session.warn(
-        "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
-        "or take a larger piece of the surface");
-
-  std::optional<FirstLoading> first_loading;
-  if (arguments.hardness && state.converged()) {
-    const ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
-    first_loading = residual.first_loading;
-    if (!arguments.residual.empty())
-      write_surface(arguments.residual, residual.surface, session.provenance(),
-                    session.write_options());
-  }
-  Json answer =
-      json_of(ContactPressures{state.mean_pressure, max_pressure(session.ranks(), state)});
-  answer.add(json_of<NormalContactState>(state));
-  std::vector<CurveColumn> beside;
-  if (arguments.adhesive()) {
-    answer.add(json_of<AdhesionOfState>(state));
-    const MeanSummit summit = summit_of(surface, arguments.adhesion(), contact_modulus);
-    answer.add(json_of(summit));
-    beside = columns_beside(std::vector<AdhesionOfState>{state});
-    std::ranges::move(columns_beside(std::vector{summit}), std::back_inserter(beside));
-  }
-  const bool holds = state.converged() && !state.detached;
-  answer["seconds"] = elapsed.count();
-  add_first_loading(answer, first_loading);
-  if (arguments.wants_stiffness() && holds) {
-    const double area = surface.grid.area();
-    const ForceSample sample =
-        force_sample(state, surface, material, {.contact = options, .stick = arguments.stick});
-    const Json columns = json_of(sample, area);
-    for (const char* name :
-         {"normal_stiffness", "normal_stiffness_per_area", "tangential_stiffness"})
-      if (name[0] != 't' || std::isfinite(material.tangential_modulus)) {
-        answer[name] = columns[name];
-        beside.push_back({find_quantity(name), {columns[name].number()}});
-      }
-    const std::vector<Conductances> found{arguments.conductances_of(sample, area)};
-    answer.add(conductances_json(found[0], arguments.conduction));
-    std::ranges::move(columns_beside(found), std::back_inserter(beside));
-    if (session.stopped()) {
-      arguments.checkpoint.write(session, surface.grid, state.contact_pressure);
-      throw Interrupted("contact: interrupted; the stiffness was not computed");
-    }
-  }
-  FlowFactors flow;
-  if (arguments.flow_factors && holds) {
-    flow = flow_of(state, surface.grid, session.progress());
-    if (flow.termination == Termination::interrupted)
-      throw Interrupted("contact: interrupted; the flow factors were not computed");
-    answer.add(json_of(flow));
-    std::ranges::move(columns_beside(std::vector{flow}), std::back_inserter(beside));
-  }
-  ContactDistributions distributions;
-  if (arguments.distributions && holds) {
-    distributions = contact_distributions(state, surface.grid, *arguments.distributions);
-    answer["distributions"] = lists_of(distributions);
-  }
-  if (state.converged() && session.has_output())
-    write_contact(arguments, session, surface.grid, state, beside, distributions);
-  if (state.converged() && session.has_plot()) session.plot(pressure_figure(surface.grid, state));
-  session.answer(answer);
-  if (!state.converged())
-    throw NotConverged(fmt::format("contact: residual {:.3g} after {} {} {}",
-                                   arguments.adhesive() ? state.adhesion_residual : state.residual,
-                                   arguments.adhesive() ? state.outer_iterations : state.iterations,
-                                   arguments.adhesive() ? "contacts" : "iterations",
-                                   in_options(message(state.termination))));
-  if (!flow.converged()) throw NotConverged(flow_failure);
-  arguments.checkpoint.remove(session);
-}
 
 FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress) {
   FlowFactors flow = flow_factors(state, grid, {.on_progress = progress});
@@ -256,6 +61,15 @@ NormalContactOptions ContactArguments::contact_options(Session& session) const {
 }
 
 namespace {
+
+/// Bad names are refused before the work.
+void check_residual(const ContactArguments& arguments, const Session& session) {
+  if (arguments.residual.empty()) return;
+  require(arguments.hardness.has_value(), "--residual", arguments.residual,
+          "is what a plastic contact leaves; give --hardness");
+  require_surface_name(arguments.residual);
+  require_output(arguments.residual, session.write_options());
+}
 
 // Headings of the help, and what belongs together.
 const std::string boundary_elements = "Boundary elements", once = "One position",

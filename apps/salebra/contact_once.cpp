@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One position of `salebra contact` by boundary elements, without adhesion and with it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/base/share.hpp>
+#include <salebra/contact/normal/distributions.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/io/write_surface.hpp>
+#include <salebra/questions/contact.hpp>
+
+#include "answers.hpp"
+#include "contact_command.hpp"
+#include "curve_figure.hpp"
+#include "option_words.hpp"
+#include "results/describe.hpp"
+#include "results/quantity_group.hpp"
+
+namespace salebra::cli {
+namespace {
+
+Target target_of(const ContactArguments& arguments, const Surface& surface) {
+  if (!arguments.at.mean_gap.empty()) return {.mean_gap = arguments.at.mean_gap.front()};
+  if (!arguments.at.indentation.empty()) return {.indentation = arguments.at.indentation.front()};
+  return {.pressure = arguments.pressures_on(surface.grid.area()).front()};
+}
+
+/// Whether the contact of any process reaches the edge.
+bool reaches_edge(const Surface& surface, const Field& pressure) {
+  const Share share = surface.share();
+  const Index rows = pressure.rows(), columns = pressure.cols();
+  const bool reached =
+      pressure.size() > 0 && ((share.begin() == 0 && (pressure.row(0) > 0).any()) ||
+                              (share.end() == share.rows() && (pressure.row(rows - 1) > 0).any()) ||
+                              (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any());
+  return !surface.ranks.all_agree(!reached);
+}
+
+void write_contact(const ContactArguments& arguments, const Session& session, const Grid2D& grid,
+                   const AdhesiveContactState& state, const std::vector<CurveColumn>& beside,
+                   const ContactDistributions& distributions) {
+  const FieldType type = arguments.field_type == "float" ? FieldType::float32 : FieldType::float64;
+  const bool has_pressure = arguments.fields != "none";
+  const bool has_gap = has_pressure && arguments.fields != "pressure";
+  std::optional<ResultFile> file;
+  collectively(session.ranks(), [&] {
+    file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
+    QuantityGroup group(file->group("contact"));
+    if (has_pressure) group.axes(grid);
+    if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
+    if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
+    if (has_gap && arguments.adhesive())
+      group.plain().dataset("tension", state.tension, "x", "y", "Pa", "adhesive tension", type);
+    group.attribute("pressure", state.mean_pressure);
+    for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
+      group.attribute(std::string(quantity.name), number(state));
+    });
+    for (const auto& [quantity, values] : beside)
+      group.attribute(std::string(quantity.name), values.front());
+    if (arguments.distributions) {
+      QuantityGroup densities(file->group("distributions"));
+      densities.coordinate("contact_pressure", distributions.contact_pressure);
+      densities.dataset("pressure_density", distributions.pressure_density, {"contact_pressure"});
+      densities.coordinate("gap", distributions.gap);
+      densities.dataset("gap_density", distributions.gap_density, {"gap"});
+    }
+  });
+  file->commit();
+}
+
+/// The largest pressure of all processes.
+double max_pressure(const Communicator& ranks, const NormalContactState& state) {
+  return -ranks.least_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
+                                                           : 0.0);
+}
+
+/// Reads the rows of this process.
+Field read_initial(const std::string& file, const Share& share) {
+  const ResultReader reader(file);
+  const std::string pressure = "contact/contact_pressure";
+  if (reader.has("contact") && !reader.has(pressure))
+    throw InvalidInput(
+        "--initial", file,
+        "has no contact pressure; name a file that was written without --fields none");
+  return reader.field(pressure, share);
+}
+
+/// The position from the surface to the answer, step by step.
+class OnePosition {
+ public:
+  OnePosition(const ContactArguments& arguments, Session& session)
+      : arguments_(arguments),
+        session_(session),
+        material_(arguments.material.material()),
+        options_(arguments.contact_options(session)),
+        surface_(arguments.surface.read(session)) {
+    if (arguments.hardness) options_.hardness = *arguments.hardness;
+    for (const double pressure : arguments.pressures_on(surface_.grid.area()))
+      session.doubt(doubt_of_pressure(pressure, material_.contact_modulus));
+  }
+
+  void press() {
+    start();
+    const auto start = std::chrono::steady_clock::now();
+    if (arguments_.adhesive()) {
+      state_ = press_adhesive(surface_, material_.contact_modulus, target_of(arguments_, surface_),
+                              arguments_.adhesion(), arguments_.adhesive_options(session_));
+      session_.doubt(
+          doubt_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
+    } else {
+      static_cast<NormalContactState&>(state_) = salebra::press(
+          surface_, material_.contact_modulus, target_of(arguments_, surface_), options_);
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    seconds_ = elapsed.count();
+    const bool kept = !state_.converged() && keep();
+    if (state_.termination == Termination::interrupted)
+      throw Interrupted(kept ? fmt::format("contact: interrupted; continue with --initial {}",
+                                           arguments_.checkpoint.file)
+                             : "contact: interrupted; nothing was written");
+    if (options_.boundary == Boundary::free && reaches_edge(surface_, state_.contact_pressure))
+      session_.warn(
+          "the contact reaches the edge of the surface, beyond which there is nothing; press less, "
+          "or take a larger piece of the surface");
+  }
+
+  void answer() {
+    answer_ =
+        json_of(ContactPressures{state_.mean_pressure, max_pressure(session_.ranks(), state_)});
+    answer_.add(json_of<NormalContactState>(state_));
+    if (arguments_.adhesive()) add_adhesion();
+    answer_["seconds"] = seconds_;
+    if (state_.converged()) add_residual();
+    if (state_.converged() && !state_.detached) {
+      if (arguments_.wants_stiffness()) add_stiffness();
+      if (arguments_.flow_factors) add_flow();
+      if (arguments_.distributions) {
+        distributions_ = contact_distributions(state_, surface_.grid, *arguments_.distributions);
+        answer_["distributions"] = lists_of(distributions_);
+      }
+    }
+    if (state_.converged() && session_.has_output())
+      write_contact(arguments_, session_, surface_.grid, state_, beside_, distributions_);
+    if (state_.converged() && session_.has_plot())
+      session_.plot(pressure_figure(surface_.grid, state_));
+    session_.answer(answer_);
+    require_convergence();
+    arguments_.checkpoint.remove(session_);
+  }
+
+ private:
+  /// From an earlier contact, where one is given.
+  void start() {
+    if (arguments_.checkpoint.starts_anew(session_, arguments_.initial)) {
+      session_.note(arguments_.initial + " is not there yet: the contact starts anew");
+    } else if (!arguments_.initial.empty()) {
+      collectively(session_.ranks(),
+                   [&] { initial_ = read_initial(arguments_.initial, surface_.share()); });
+      options_.initial_pressure = &initial_;
+    }
+    arguments_.checkpoint.add_to(options_, session_, surface_.grid);
+  }
+
+  bool keep() const {
+    return arguments_.checkpoint.write(session_, surface_.grid, state_.contact_pressure);
+  }
+
+  template <class Found>
+  void put_beside(const Found& found) {
+    std::ranges::move(columns_beside(std::vector{found}), std::back_inserter(beside_));
+  }
+
+  void add_adhesion() {
+    const AdhesionOfState& adhesion = state_;
+    const MeanSummit summit = summit_of(surface_, arguments_.adhesion(), material_.contact_modulus);
+    answer_.add(json_of(adhesion));
+    answer_.add(json_of(summit));
+    put_beside(adhesion);
+    put_beside(summit);
+  }
+
+  void add_residual() {
+    if (!arguments_.hardness) return;
+    const ResidualSurface residual =
+        residual_surface(surface_, material_.contact_modulus, state_, options_);
+    if (!arguments_.residual.empty())
+      write_surface(arguments_.residual, residual.surface, session_.provenance(),
+                    session_.write_options());
+    add_first_loading(answer_, residual.first_loading);
+  }
+
+  void add_stiffness() {
+    const double area = surface_.grid.area();
+    const ForceSample sample =
+        force_sample(state_, surface_, material_, {.contact = options_, .stick = arguments_.stick});
+    const Json columns = json_of(sample, area);
+    for (const char* name :
+         {"normal_stiffness", "normal_stiffness_per_area", "tangential_stiffness"})
+      if (name[0] != 't' || std::isfinite(material_.tangential_modulus)) {
+        answer_[name] = columns[name];
+        beside_.push_back({find_quantity(name), {columns[name].number()}});
+      }
+    const Conductances found = arguments_.conductances_of(sample, area);
+    answer_.add(conductances_json(found, arguments_.conduction));
+    put_beside(found);
+    if (session_.stopped()) {
+      keep();
+      throw Interrupted("contact: interrupted; the stiffness was not computed");
+    }
+  }
+
+  void add_flow() {
+    flow_ = flow_of(state_, surface_.grid, session_.progress());
+    if (flow_.termination == Termination::interrupted)
+      throw Interrupted("contact: interrupted; the flow factors were not computed");
+    answer_.add(json_of(flow_));
+    put_beside(flow_);
+  }
+
+  void require_convergence() const {
+    const bool adhesive = arguments_.adhesive();
+    if (!state_.converged())
+      throw NotConverged(fmt::format("contact: residual {:.3g} after {} {} {}",
+                                     adhesive ? state_.adhesion_residual : state_.residual,
+                                     adhesive ? state_.outer_iterations : state_.iterations,
+                                     adhesive ? "contacts" : "iterations",
+                                     in_options(message(state_.termination))));
+    if (!flow_.converged()) throw NotConverged(flow_failure);
+  }
+
+  const ContactArguments& arguments_;
+  Session& session_;
+  const Material material_;
+  NormalContactOptions options_;
+  const Surface surface_;
+  Field initial_;
+  AdhesiveContactState state_;
+  double seconds_ = 0;
+  Json answer_;
+  std::vector<CurveColumn> beside_;  ///< what the file has beside the state
+  FlowFactors flow_;
+  ContactDistributions distributions_;
+};
+
+}  // namespace
+
+void press_once(const ContactArguments& arguments, Session& session) {
+  OnePosition position(arguments, session);
+  position.press();
+  position.answer();
+}
+
+}  // namespace salebra::cli
