@@ -80,7 +80,8 @@ Json conductances_json(const Found& found, const Conduction& asked) {
   return object;
 }
 inline constexpr const char* flow_failure =
-    "contact: the flow factors did not converge; use fewer points";
+    "contact: flow factors that are null where the gap percolates did not converge, as happens "
+    "close to the load at which it closes; the other numbers stand";
 /// The flow factors of a converged state; those that did not converge are unknown.
 FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const Progress& progress);
 /// Adds to the columns what was asked about beside the curve, and returns it.
