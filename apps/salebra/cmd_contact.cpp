@@ -30,7 +30,8 @@ std::size_t ContactArguments::positions() const {
   const std::vector<Standings> given = at.given();
   for (const Standings& kind : given)
     for (const double value : kind.values)
-      if (!adhesive() || cycle) require_positive(value, "--" + option_word(kind.quantity));
+      if (!adhesive() || (cycle && kind.quantity != Standing::indentation))
+        require_positive(value, "--" + option_word(kind.quantity));
   require(given.size() <= 1, "--pressure", given.size(),
           "kinds of positions are given; give exactly one of --pressure, --normal-force, "
           "--mean-gap, --indentation");

@@ -47,7 +47,7 @@ struct ContactArguments {
   std::optional<double> summit_density, radius, summit_rms;
   std::string distribution = "gaussian";
 
-  /// The number of positions. Throws InvalidInput unless they are of one kind and, but for one position with adhesion, > 0.
+  /// The number of positions. Throws InvalidInput unless they are of one kind and, without adhesion, > 0.
   std::size_t positions() const;
   /// p, Pa, of pressures and forces, from the lowest; empty for other positions.
   std::vector<double> pressures_on(double area) const;
