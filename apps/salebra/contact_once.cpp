@@ -61,7 +61,7 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
       group.attribute(std::string(quantity.name), number(state));
     });
     for (const auto& [quantity, values] : beside)
-      group.attribute(std::string(quantity.name), values.front());
+      group.plain().attribute(std::string(quantity.name), values.front());
     if (arguments.distributions) {
       QuantityGroup densities(file->group("distributions"));
       densities.coordinate("contact_pressure", distributions.contact_pressure);
