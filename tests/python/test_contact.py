@@ -214,7 +214,7 @@ def test_adhesion_pulls_comes_off_and_loses_work(surface: salebra.Surface) -> No
     assert salebra.normal_stiffness(state) > 0  # it is a NormalContactState to everything that takes one
     assert salebra.contact.press_adhesive(rough, 1e6, adhesion, pressure=-2e5, start=state).detached
     touch = rough.heights.max() - rough.heights.mean()
-    cycle = salebra.contact.adhesive_cycle(rough, 1e6, adhesion, mean_gaps=np.linspace(touch + 30e-6, 0.6 * touch, 20))
+    cycle = salebra.contact.adhesive_cycle(rough, 1e6, adhesion, mean_gaps=np.linspace(touch + 30e-6, 0.05 * touch, 20))
     assert cycle.converged and cycle.pull_off_pressure > 0
     assert cycle.adhesion_work_per_cycle > 0
     assert cycle.unloading.mean_gap[-1] == pytest.approx(cycle.loading.mean_gap[0], rel=1e-9)
