@@ -173,7 +173,7 @@ void run(const TwinArguments& arguments, Session& session) {
 void add_twin_command(Program& program) {
   auto arguments = std::make_shared<TwinArguments>();
   Command& command = program.add_command(
-      "twin", "one surface from several scans of it, with what they leave open",
+      "twin", "one surface from several scans, and what stays open",
       {"salebra twin scans.toml -o surface.h5 --plot surface.png",
        "salebra twin init scans.toml --files wli.sur afm-1.gwy afm-2.gwy"},
       [arguments](Session& session) { run(*arguments, session); },

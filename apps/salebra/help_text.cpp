@@ -141,6 +141,14 @@ constexpr std::array descriptions{
         "and tangential directions coupled. Several shapes stand side by side, as in the paper's "
         "Fig. 3. Minutes, not seconds."},
     CommandHelp{
+        "export", damping,
+        "--to --units --friction-coefficient --pressure --nominal-area --sliders --law",
+        "Writes pressure over clearance, with friction where its coefficient is given, as input of "
+        "finite-element programs, or a joint as sliders in parallel. Of a study of several "
+        "surfaces the mean and two whole surfaces, low and high. The header of each deck has "
+        "units, premises, range and what the clearance is counted from. Decks may be used in any "
+        "program (MIT-0); docs/howto/decks.md says what each format is."},
+    CommandHelp{
         "completion", "", "",
         "Prints the script that lets a shell complete commands, options, and their choices with "
         "the Tab key. An installed package has it in place; for a build of your own:\n"

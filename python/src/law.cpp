@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of contact laws.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <memory>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/export/deck.hpp>
 
 #include "bindings.hpp"
+#include "interop/choice.hpp"
 #include "interop/citations.hpp"
+#include "interop/running.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
@@ -51,7 +57,65 @@ Indentation δ grows with approach. Functions take a number or an array and retu
           nb::sig("def plot(self, indentation: numpy.typing.ArrayLike, ax: matplotlib.axes.Axes | "
                   "None = None, **kwargs: "
                   "typing.Any) -> matplotlib.axes.Axes"),
-          "Draws F(δ) at the indentations given, m.");
+          "Draws F(δ) at the indentations given, m.")
+      .def(
+          "export",
+          [](const ContactLaw& self, const Choice<DeckFormat>& format,
+             std::optional<double> indentation, double nominal_area, double friction_coefficient,
+             const std::string& units, std::optional<std::pair<double, double>> pressure_window,
+             int rows, int sliders, double smallest_force, const std::string& source) {
+            // The law outlives the call.
+            const std::shared_ptr<const ContactLaw> law(std::shared_ptr<void>(), &self);
+            const DeckQuestion question{.contacts = {deck_contact(law, indentation)},
+                                        .format = format.value("format"),
+                                        .units = parse_unit_system(units),
+                                        .friction_coefficient = friction_coefficient,
+                                        .nominal_area = nominal_area,
+                                        .pressure_window = pressure_window,
+                                        .rows = rows,
+                                        .sliders = sliders,
+                                        .smallest_force = smallest_force,
+                                        .source = source};
+            return unlocked([&] { return ask(question).text; });
+          },
+          nb::arg("format"), nb::kw_only(), nb::arg("indentation") = nb::none(),
+          nb::arg("nominal_area") = DeckContact::unknown,
+          nb::arg("friction_coefficient") = DeckContact::unknown, nb::arg("units") = "m,kg,s",
+          nb::arg("pressure_window") = nb::none(), nb::arg("rows") = 200, nb::arg("sliders") = 200,
+          nb::arg("smallest_force") = 0.01, nb::arg("source") = "",
+          R"(The law as input of another program: the text of a deck.
+
+Parameters
+----------
+format : {"csv", "json", "calculix", "abaqus", "ansys", "code_aster", "jenkins"}
+    The last is sliders in parallel, Iwan's model.
+indentation : float, optional
+    Where friction and sliders are taken, m; of an exponential law 0 unless given. A law without a table is exported from a thousandth
+    to ten times the force there.
+nominal_area : float
+    m², over which the force is a pressure; not for sliders.
+friction_coefficient : float
+    For decks with friction and for sliders.
+units : str
+    Length, mass and time of the other program, such as "mm,t,s".
+pressure_window : (float, float), optional
+    Nominal pressures of a table, Pa.
+rows, sliders : int
+    How many.
+smallest_force : float
+    T/(μF) from which the loss of sliders is right to 1 %.
+source : str
+    Of the law, for the header.
+
+Returns
+-------
+str
+
+Raises
+------
+InvalidInput
+    For a law that is not convex, and for what the format needs and was not given.
+)");
 
   nb::class_<PowerLaw, ContactLaw>(
       m, "PowerLaw",

@@ -58,50 +58,70 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve,
   group.attribute("rms_height", curve.rms_height);
 }
 
-ForceCurve read_force_curve(const ResultReader& reader, const std::string& group) {
+std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std::string& group) {
   ForceCurve curve;
   curve.model = reader.text_attribute(group, "model").value_or("");
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
-  bool first = true, study = false;
+  std::size_t length = 0, surfaces = 1;
+  bool study = false;
   const auto column = [&](const std::string& name) {
     std::vector<double> values = reader.numbers(group + "/" + name);
     const std::vector<Index> shape = reader.shape(group + "/" + name);
+    std::size_t rows = values.size();
     if (shape.size() == 3) {  // a study's: model, realisation, pressure
-      if (shape[0] < 1 || shape[1] != 1)
-        detail::refuse(reader.file(), "holds the curves of " + std::to_string(shape[1]) +
-                                          " surfaces in " + group +
-                                          "; give the file of a study of one surface");
-      values.resize(static_cast<std::size_t>(shape[2]));
+      if (shape[0] < 1 || shape[1] < 1 || (study && surfaces != std::size_t(shape[1])))
+        detail::refuse(reader.file(), "has no surface, or too few, in " + group);
       study = true;
+      surfaces = static_cast<std::size_t>(shape[1]);
+      rows = static_cast<std::size_t>(shape[2]);
+      values.resize(surfaces * rows);
     }
-    if (first) curve.samples.resize(values.size());
-    if (values.size() != curve.samples.size())
+    if (length == 0) length = rows;
+    if (rows != length)
       detail::refuse(reader.file(), "has datasets of different length in " + group);
-    first = false;
     return values;
   };
-  for (const auto& [quantity, member] : detail::curve_quantities()) {
-    const std::string name(quantity.name);
-    if (!reader.has(group + "/" + name)) continue;
-    const std::vector<double> values = column(name);
-    for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].*member = values[i];
-  }
+  using Column = std::pair<double ForceSample::*, std::vector<double>>;
+  std::vector<Column> columns;
+  for (const auto& [quantity, member] : detail::curve_quantities())
+    if (const std::string name(quantity.name); reader.has(group + "/" + name))
+      columns.emplace_back(member, column(name));
+  if (length == 0) detail::refuse(reader.file(), "holds no force curve in its group " + group);
+  const std::vector<double> converged =
+      reader.has(group + "/converged") ? column("converged") : std::vector<double>{1};
   if (study) {
     if (const auto models = reader.labels(group + "/model"); !models.empty())
       curve.model = models.front();
     curve.nominal_area = reader.number_attribute("surface", "size_x").value_or(0) *
                          reader.number_attribute("surface", "size_y").value_or(0);
-    if (const auto heights = reader.numbers("surface/rms_height"); !heights.empty())
-      curve.rms_height = heights.front();
   }
-  if (curve.samples.empty())
-    detail::refuse(reader.file(), "holds no force curve in its group " + group);
-  if (reader.has(group + "/converged")) {
-    const std::vector<double> values = column("converged");
-    for (std::size_t i = 0; i < values.size(); ++i) curve.samples[i].converged = values[i] != 0;
+  curve.samples.resize(length);
+  std::vector<ForceCurve> curves(surfaces, curve);
+  // What all surfaces have in common, such as their pressures, is stored once.
+  for (std::size_t i = 0; i < surfaces * length; ++i) {
+    ForceSample& sample = curves[i / length].samples[i % length];
+    for (const auto& [member, values] : columns) sample.*member = values[i % values.size()];
+    sample.converged = converged[i % converged.size()] != 0;
   }
-  return curve;
+  if (study && reader.has("surface/rms_height"))
+    if (const auto heights = reader.numbers("surface/rms_height"); heights.size() == surfaces)
+      for (std::size_t i = 0; i < surfaces; ++i) curves[i].rms_height = heights[i];
+  return curves;
+}
+
+ForceCurve read_force_curve(const ResultReader& reader, const std::string& group) {
+  std::vector<ForceCurve> curves = read_force_curves(reader, group);
+  if (curves.size() != 1)
+    detail::refuse(reader.file(), "holds the curves of " + std::to_string(curves.size()) +
+                                      " surfaces in " + group +
+                                      "; give the file of a study of one surface");
+  return std::move(curves.front());
+}
+
+std::vector<ForceCurve> read_force_curves(const std::filesystem::path& file) {
+  if (detail::is_hdf5(file)) return read_force_curves(ResultReader(file));
+  return {detail::read_text_curve(file, detail::file_content(file))};
 }
 
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,

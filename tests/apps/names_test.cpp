@@ -7,6 +7,7 @@
 #include <regex>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/export/deck.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/questions/damping.hpp>
@@ -97,7 +98,7 @@ const std::set<std::string> counts{"realisations", "seed"};
 const Meanings& columns_of_program() {
   static const Meanings all =
       meanings_of<Cost, PointCost, DampingQuestion, PathQuestion, DampingAnswer, DamperAnswer,
-                  cli::MotionOptions, cli::ContactPressures, cli::MeanSummit, cli::SurfacePoints,
+                  DeckAnswer, cli::MotionOptions, cli::ContactPressures, cli::MeanSummit, cli::SurfacePoints,
                   cli::BearingTable, cli::Lay, cli::FitChoices>();
   return all;
 }

@@ -188,6 +188,7 @@ TEST_CASE("Every command that prints a damping constant or a loss prints its pre
       {"report", ""},
       {"init", ""},
       {"twin", ""},
+      {"export", ""},
       {"completion", ""}};
   const std::string help = test.run("--help").out;
   int with_loss = 0;

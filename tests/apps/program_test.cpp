@@ -24,7 +24,7 @@ TEST_CASE("Help of every command shows two examples, and the options that it has
   const auto command =
       GENERATE(as<std::string>(), "generate", "convert", "contact", "fit", "damping", "sliding",
                "joint", "viscoelastic", "study", "verify", "init", "statistics", "compare",
-               "oscillate", "report", "completion");
+               "oscillate", "export", "report", "completion");
   // The shell alone calls it.
   CHECK((screen.find(" " + command + "  ") < screen.find("Which")) == (command != "completion"));
   const auto help = test.done(command + " --help");

@@ -48,6 +48,12 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve,
 /// Throws InvalidInput if it holds no curve, or those of several surfaces.
 ForceCurve read_force_curve(const ResultReader& reader, const std::string& group = "curve");
 
+/// The curves of all surfaces of a study, of the first model; of any other group or file its one.
+/// Throws InvalidInput if it holds none.
+std::vector<ForceCurve> read_force_curves(const ResultReader& reader,
+                                          const std::string& group = "curve");
+std::vector<ForceCurve> read_force_curves(const std::filesystem::path& file);
+
 /// A file with one curve: .h5 and .hdf5 with the group `curve`, .csv and .txt as text in the form
 /// that read_force_curve takes.
 /// Throws as write_surface does.

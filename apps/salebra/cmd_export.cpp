@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `salebra export`: the law of a contact as input of another program.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <salebra/base/error.hpp>
+#include <salebra/export/deck.hpp>
+#include <salebra/io/result_file.hpp>
+#include <salebra/results/force_curve_file.hpp>
+
+#include "io/atomic_file.hpp"
+#include "io/loaded_surface.hpp"
+#include "law_options.hpp"
+#include "options.hpp"
+#include "program.hpp"
+#include "results/answer_json.hpp"
+
+namespace salebra::cli {
+namespace {
+
+struct ExportArguments {
+  std::string result, format, units = "m,kg,s", of = "mean";
+  LawOptions law;
+  MaterialOptions material;
+  std::optional<double> friction_coefficient, nominal_area, smallest_force;
+  std::vector<double> window;
+  int rows = 200, sliders = 200;
+};
+
+/// Facts of a study that its file holds and no option gave.
+struct StudyFacts {
+  double modulus_ratio = DeckContact::unknown;
+  std::string remark = {};
+};
+
+StudyFacts facts_of(const std::filesystem::path& file) {
+  StudyFacts facts;
+  if (!detail::is_hdf5(file)) return facts;
+  const ResultReader reader(file);
+  if (reader.has("points"))
+    throw InvalidInput(file.string(),
+                       "holds a study of several points; give that of one, without [ensemble]");
+  if (!reader.has("damping")) return facts;
+  if (const auto ratio = reader.number_attribute("damping", "modulus_ratio"))
+    facts.modulus_ratio = *ratio;
+  if (reader.has("answer"))
+    if (const auto validity = reader.text_attribute("answer", "validity"))
+      facts.remark = "Study: validity of its damping constant: " + *validity + ".";
+  return facts;
+}
+
+/// Throws InvalidInput for what an interrupted study left.
+void require_finished(const std::string& file) {
+  const std::string parts = file + ".parts";
+  if (!std::filesystem::exists(file) && std::filesystem::is_directory(parts))
+    throw InvalidInput(file, "is not there: its study was interrupted, and " + parts +
+                                 " holds the surfaces that were finished; continue with the "
+                                 "command of the study and --resume");
+}
+
+bool complete_forces(const ForceCurve& curve) {
+  return std::ranges::none_of(curve.column(&ForceSample::force),
+                              [](double force) { return std::isnan(force); });
+}
+
+std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, const std::string& file,
+                                          DeckQuestion& question, Session& session) {
+  require_finished(file);
+  StudyFacts facts = facts_of(file);
+  if (arguments.material.given()) facts.modulus_ratio = arguments.material.modulus_ratio();
+  question.remark = facts.remark;
+  const std::vector<Standings> at = arguments.law.at.given();
+  require(at.size() < 2, "--normal-force", "several positions", "are given; give one");
+  std::vector<DeckContact> contacts;
+  for (ForceCurve& curve : read_force_curves(file)) {
+    if (curve.nominal_area == 0) {
+      require_that(arguments.nominal_area || complete_forces(curve), "--nominal-area",
+                   "not given, but " + file + " has pressures and no forces");
+      curve.nominal_area = arguments.nominal_area.value_or(0);
+    }
+    contacts.push_back(deck_contact(CurveContact{.curve = std::move(curve),
+                                                 .modulus_ratio = facts.modulus_ratio,
+                                                 .at = at.empty() ? Standings{} : at.front(),
+                                                 .source = file},
+                                    session.context()));
+  }
+  return contacts;
+}
+
+void run(const ExportArguments& arguments, Session& session) {
+  const LawOptions& law = arguments.law;
+  require_that(arguments.result.empty() || law.curve.empty(), "--curve",
+               "given together with RESULT; give one of them");
+  const std::string file = arguments.result.empty() ? law.curve : arguments.result;
+  DeckQuestion question{.contacts = {},
+                        .format = *value_of<DeckFormat>(arguments.format),
+                        .units = parse_unit_system(arguments.units, "--units"),
+                        .rows = arguments.rows,
+                        .of = *value_of<DeckCase>(arguments.of),
+                        .sliders = arguments.sliders,
+                        .provenance = session.provenance()};
+  if (arguments.friction_coefficient)
+    question.friction_coefficient = *arguments.friction_coefficient;
+  if (arguments.nominal_area) question.nominal_area = *arguments.nominal_area;
+  if (arguments.smallest_force) question.smallest_force = *arguments.smallest_force;
+  if (!arguments.window.empty()) {
+    require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
+            "values must be two, LOWER,UPPER");
+    question.pressure_window = {arguments.window[0], arguments.window[1]};
+  }
+  if (!file.empty()) {
+    require_that(law.indenter.law.empty() && !law.surface.given(), "--law",
+                 "or --surface given together with a file; give one of them");
+    question.contacts = contacts_of_file(arguments, file, question, session);
+    question.source = file;
+  } else {
+    require_that(!law.indenter.law.empty() || law.surface.given(), "RESULT",
+                 "not given; name a file of contact or study, or give --law or --surface");
+    question.contacts = {
+        deck_contact(law.question(arguments.material, session, {}), session.context())};
+    question.source =
+        law.surface.given() ? law.surface.file : fmt::format("law {}", law.indenter.law);
+  }
+  const DeckAnswer answer = ask(question);
+  constexpr double most_error = 0.01;
+  if (std::abs(answer.loss_error) > most_error)
+    session.warn(fmt::format(
+        "the loss at {:g} of the force at which all slips is off by {:.3g} %; give more --sliders "
+        "or a larger --smallest-force",
+        question.smallest_force, 100 * answer.loss_error));
+  const Json object = answer_json(answer);
+  if (!session.has_output()) {
+    Json whole = object;
+    whole["text"] = answer.text;
+    return session.answer(whole, answer.text);
+  }
+  detail::AtomicFile output(session.output(), session.write_options());
+  output.write(answer.text);
+  output.commit();
+  session.answer(object);
+}
+
+}  // namespace
+
+void add_export_command(Program& program) {
+  auto arguments = std::make_shared<ExportArguments>();
+  Command& command = program.add_command(
+      "export", "the law of a contact as input of another program",
+      {"salebra export study.h5 --to calculix --units mm,t,s -o contact.inp",
+       "salebra export --law exponential --decay-length 100nm --normal-force 10N --poisson 0.3 "
+       "--friction-coefficient 0.3 --to jenkins --sliders 200 -o sliders.csv"},
+      [arguments](Session& session) { run(*arguments, session); }, "", OutputCheck::any_name);
+  command
+      .add_option("RESULT", arguments->result,
+                  "file of contact, with several loads, or of a study, or a text table")
+      ->file(FileUse::input);
+  add_choice<DeckFormat>(command, "--to", arguments->format, "the format")->required();
+  command.add_option("--units", arguments->units,
+                     "LENGTH,MASS,TIME of the other program, such as mm,t,s; default m,kg,s");
+  add_quantity(command, "--friction-coefficient", arguments->friction_coefficient,
+               Dimension::dimensionless, "mu, for decks with friction and sliders");
+  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+               "of a law, whose pressure is its force over it");
+  add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
+             "LOWER,UPPER nominal pressure of a table; default: the whole curve");
+  command
+      .add_option("--rows", arguments->rows,
+                  "of a table; default 200, of calculix at most 198, of ansys 19")
+      ->range(4, 100000);
+  const std::string before = command.under("Sliders (--to jenkins)");
+  command.add_option("--sliders", arguments->sliders, "how many; default 200")->range(2, 100000);
+  add_quantity(command, "--smallest-force", arguments->smallest_force, Dimension::dimensionless,
+               "T/(mu F) from which their loss is right to 1 %; default 0.01");
+  add_choice<DeckCase>(command, "--of", arguments->of,
+                       "which of several surfaces; default mean. Tables hold all three");
+  command.under(before);
+  arguments->law.add_to(command);
+  arguments->material.add_to(command);
+}
+
+}  // namespace salebra::cli

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Decks of contact laws: what they hold, in which units, and the sentences of their headers.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <salebra/base/error.hpp>
+#include <salebra/base/version.hpp>
+#include <salebra/export/deck.hpp>
+#include <type_traits>
+#include <utility>
+
+#include "formats.hpp"
+
+namespace salebra {
+namespace {
+
+using detail::Deck;
+using detail::DeckLaw;
+
+/// Without a table a law has no end: this many times the force of its position.
+constexpr double lowest_share = 1e-3, highest_share = 10;
+
+void set_range(DeckContact& contact) {
+  const ContactLaw& law = *contact.law;
+  const bool table = std::isfinite(law.highest_indentation());
+  if (table) {
+    contact.lowest = law.lowest_indentation();
+    contact.highest = law.highest_indentation();
+  } else if (!std::isnan(contact.indentation)) {
+    const double force = law.force(contact.indentation);
+    contact.lowest = law.indentation_of(lowest_share * force);
+    contact.highest = law.indentation_of(highest_share * force);
+  }
+}
+
+bool complete(const ForceCurve& curve, double ForceSample::*quantity) {
+  return std::ranges::all_of(curve.samples, [&](const ForceSample& sample) {
+    return !sample.converged || std::isfinite(sample.*quantity);
+  });
+}
+
+void set_origin(DeckContact& contact, const ForceCurve& curve) {
+  const bool gap = complete(curve, &ForceSample::mean_gap);
+  const bool indentation = complete(curve, &ForceSample::indentation);
+  contact.clearance_from = gap ? "the mean planes of the deformed surfaces: it is their mean gap"
+                               : "where the curve counts its indentation from, and is its negative";
+  if (gap && indentation) {
+    const auto sample = std::ranges::find(curve.samples, true, &ForceSample::converged);
+    if (sample != curve.samples.end())
+      contact.clearance_origin = sample->indentation + sample->mean_gap;
+  }
+}
+
+/// Of several contacts the middle of the clearances that all have, and its rank there.
+struct Range {
+  double far = std::numeric_limits<double>::infinity();
+  double close = -std::numeric_limits<double>::infinity();
+};
+
+double force_at(const DeckContact& contact, double clearance) {
+  return contact.law->force(contact.clearance_origin - clearance);
+}
+
+std::vector<std::size_t> by_force(const std::vector<DeckContact>& contacts, double clearance) {
+  std::vector<std::size_t> order(contacts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](std::size_t i) { return force_at(contacts[i], clearance); });
+  return order;
+}
+
+double area_of(const DeckQuestion& question, const DeckContact& contact) {
+  return std::isnan(question.nominal_area) ? contact.nominal_area : question.nominal_area;
+}
+
+Range common_range(const DeckQuestion& question) {
+  Range range;
+  for (const DeckContact& contact : question.contacts) {
+    double lowest = contact.lowest, highest = contact.highest;
+    require_that(!std::isnan(lowest), "normal_force",
+                 "not given, and the law has no table; say about which force it is taken");
+    if (question.pressure_window) {
+      const double area = area_of(question, contact);
+      lowest = contact.law->indentation_of(question.pressure_window->first * area);
+      highest = contact.law->indentation_of(question.pressure_window->second * area);
+    }
+    range.far = std::min(range.far, contact.clearance_origin - lowest);
+    range.close = std::max(range.close, contact.clearance_origin - highest);
+  }
+  require(range.close < range.far, "pressure_window", question.contacts.size(),
+          "surfaces have no clearances in common; widen the window");
+  return range;
+}
+
+/// The greatest convex table below one: rows that stick out upwards lie on the line between their
+/// neighbours. Throws InvalidInput for rows that do not rise, and where a row moves by more than 1 %.
+std::vector<double> convex(const std::vector<double>& pressure, const std::string& what) {
+  constexpr double most = 0.01;
+  std::vector<std::size_t> hull;
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    require(i == 0 || pressure[i] > pressure[i - 1], "curve", what,
+            "has a pressure that does not grow with approach; remove or smooth the sample");
+    while (hull.size() > 1) {
+      const std::size_t b = hull.back(), a = hull[hull.size() - 2];
+      if ((pressure[b] - pressure[a]) / double(b - a) <=
+          (pressure[i] - pressure[b]) / double(i - b))
+        break;
+      hull.pop_back();
+    }
+    hull.push_back(i);
+  }
+  std::vector<double> result = pressure;
+  for (std::size_t k = 1; k < hull.size(); ++k) {
+    const std::size_t a = hull[k - 1], b = hull[k];
+    for (std::size_t i = a + 1; i < b; ++i) {
+      result[i] = std::lerp(pressure[a], pressure[b], double(i - a) / double(b - a));
+      require(result[i] > (1 - most) * pressure[i], "curve", what,
+              fmt::format("is not convex: a pressure lies {:.2g} % above the line between others; "
+                          "remove or smooth the sample, or choose `pressure_window`",
+                          100 * (pressure[i] / result[i] - 1)));
+    }
+  }
+  return result;
+}
+
+/// The mean of some contacts on the clearances of a deck, per area.
+DeckLaw law_of_contacts(const DeckQuestion& question, const std::vector<double>& clearance,
+                        const std::vector<std::size_t>& which) {
+  DeckLaw law;
+  const double share = 1 / double(which.size());
+  bool tangential = true;
+  for (const std::size_t i : which)
+    tangential = tangential && question.contacts[i].knows_tangential_stiffness;
+  law.pressure.assign(clearance.size(), 0);
+  law.normal_stiffness = law.pressure;
+  if (tangential) law.tangential_stiffness = law.pressure;
+  for (std::size_t row = 0; row < clearance.size(); ++row)
+    for (const std::size_t i : which) {
+      const DeckContact& contact = question.contacts[i];
+      const double weight = share / area_of(question, contact);
+      // The ends of the range may miss the table by rounding.
+      const double indentation =
+          std::clamp(contact.clearance_origin - clearance[row], contact.lowest, contact.highest);
+      law.pressure[row] += weight * contact.law->force(indentation);
+      law.normal_stiffness[row] += weight * contact.law->normal_stiffness(indentation);
+      if (tangential)
+        law.tangential_stiffness[row] += weight * contact.law->tangential_stiffness(indentation);
+    }
+  if (!std::isnan(question.friction_coefficient)) {
+    double slope = 0, pressure = 0;
+    for (const std::size_t i : which) {
+      const DeckContact& contact = question.contacts[i];
+      const double weight = share / area_of(question, contact);
+      slope += weight * contact.law->tangential_stiffness(contact.indentation);
+      pressure += weight * contact.law->force(contact.indentation);
+    }
+    law.stick_slope = slope;
+    law.elastic_slip = question.friction_coefficient * pressure / slope;
+  }
+  return law;
+}
+
+double interpolation_error(const DeckQuestion& question, const Deck& deck) {
+  const DeckLaw& mean = deck.laws.front();
+  std::vector<double> middle;
+  for (std::size_t i = 1; i < deck.clearance.size(); ++i)
+    middle.push_back((deck.clearance[i - 1] + deck.clearance[i]) / 2);
+  std::vector<std::size_t> all(question.contacts.size());
+  std::iota(all.begin(), all.end(), 0);
+  const DeckLaw between = law_of_contacts(question, middle, all);
+  double worst = 0;
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    const double line = (mean.pressure[i] + mean.pressure[i + 1]) / 2;
+    worst = std::max(worst, std::abs(line / between.pressure[i] - 1));
+  }
+  return worst;
+}
+
+/// The mean, and of several low and high.
+std::vector<std::pair<DeckCase, std::vector<std::size_t>>> cases_of(const DeckQuestion& question,
+                                                                    double clearance) {
+  const std::vector<std::size_t> order = by_force(question.contacts, clearance);
+  std::vector<std::pair<DeckCase, std::vector<std::size_t>>> cases{{DeckCase::mean, order}};
+  if (order.size() > 1) {
+    const auto rank = std::size_t(0.025 * double(order.size()));
+    cases.push_back({DeckCase::low, {order[rank]}});
+    cases.push_back({DeckCase::high, {order[order.size() - 1 - rank]}});
+  }
+  return cases;
+}
+
+std::string what_of(DeckCase which, const std::vector<std::size_t>& surfaces, std::size_t all) {
+  if (all == 1) return "one surface or law";
+  if (which == DeckCase::mean) return fmt::format("mean of {} surfaces at each clearance", all);
+  const auto rank = std::size_t(0.025 * double(all)) + 1;
+  return fmt::format("surface {} of {}, number {} from the {} force", surfaces.front() + 1, all,
+                     rank, which == DeckCase::low ? "lowest" : "highest");
+}
+
+void check(const DeckQuestion& question, bool table) {
+  require(!question.contacts.empty(), "contacts", 0, "are given; give one at least");
+  require(question.rows >= 4 && question.rows <= 100000, "rows", question.rows,
+          "must be from 4 to 100000");
+  require(question.sliders >= 2 && question.sliders <= 100000, "sliders", question.sliders,
+          "must be from 2 to 100000");
+  require(question.smallest_force > 0 && question.smallest_force < 1, "smallest_force",
+          question.smallest_force, "must be > 0 and < 1, a part of the force at which all slips");
+  if (question.pressure_window)
+    require(question.pressure_window->first > 0 &&
+                question.pressure_window->second > question.pressure_window->first,
+            "pressure_window", question.pressure_window->first, "must be > 0 and rise");
+  const bool friction = !std::isnan(question.friction_coefficient);
+  if (friction) require_positive(question.friction_coefficient, "friction_coefficient");
+  require_that(table || friction, "friction_coefficient", "not given, but sliders need it");
+  for (const DeckContact& contact : question.contacts) {
+    const double area = area_of(question, contact);
+    if (table || question.pressure_window)
+      require_that(area > 0 && std::isfinite(area), "nominal_area",
+                   "not given, but a pressure is a force per nominal area");
+    if (!friction) continue;
+    require_that(
+        contact.knows_tangential_stiffness, "tangential_stiffness",
+        "is not known, but friction needs it; give `poisson` or `tangential_modulus`, or a "
+        "curve with stick solves");
+    require_that(!std::isnan(contact.indentation), "normal_force",
+                 "not given, but the tangential stiffness depends on it; give `normal_force`, "
+                 "`pressure`, `mean_gap` or `indentation`");
+  }
+}
+
+/// All numbers of the deck, from SI.
+void convert(Deck& deck) {
+  const UnitSystem& units = deck.question.units;
+  const auto scale = [&](auto& values, Dimension dimension) {
+    const double factor = 1 / units.in_si(dimension);
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, double>)
+      values *= factor;
+    else
+      for (double& value : values) value *= factor;
+  };
+  scale(deck.clearance, Dimension::length);
+  for (DeckLaw& law : deck.laws) {
+    scale(law.pressure, Dimension::pressure);
+    scale(law.normal_stiffness, Dimension::stiffness_per_area);
+    scale(law.tangential_stiffness, Dimension::stiffness_per_area);
+    scale(law.stick_slope, Dimension::stiffness_per_area);
+    scale(law.elastic_slip, Dimension::length);
+  }
+  for (detail::Slider& slider : deck.sliders) {
+    scale(slider.stiffness, Dimension::stiffness);
+    scale(slider.slider_force, Dimension::force);
+  }
+  scale(deck.exponential_pressure, Dimension::pressure);
+  scale(deck.exponential_length, Dimension::length);
+}
+
+std::vector<std::string> opening(const DeckQuestion& question) {
+  const UnitSystem& units = question.units;
+  std::vector<std::string> lines{
+      fmt::format("Contact law by salebra {}{}", version(),
+                  question.provenance.revision.empty()
+                      ? ""
+                      : " (revision " + question.provenance.revision + ")"),
+      "License of this file: MIT-0, https://opensource.org/license/mit-0",
+      fmt::format("Units: {}. The unit of force is {:g} N, of pressure {:g} Pa.", units.text(),
+                  units.in_si(Dimension::force), units.in_si(Dimension::pressure))};
+  if (!question.source.empty()) lines.push_back("Source: " + question.source);
+  if (!question.provenance.command_line.empty())
+    lines.push_back("Made by: " + question.provenance.command_line);
+  lines.emplace_back(
+      "Premises: quasi-static, nested contact sets, the same law on loading and unloading; no "
+      "adhesion, no wear.");
+  if (!question.remark.empty()) lines.push_back(question.remark);
+  return lines;
+}
+
+void add_table(Deck& deck, int most_rows, DeckAnswer& answer) {
+  const DeckQuestion& question = deck.question;
+  const Range range = common_range(question);
+  const int rows = std::min(question.rows, most_rows);
+  for (int i = 0; i < rows; ++i)
+    deck.clearance.push_back(std::lerp(range.far, range.close, double(i) / (rows - 1)));
+  const double middle = (range.far + range.close) / 2;
+  for (const auto& [which, surfaces] : cases_of(question, middle)) {
+    DeckLaw law = law_of_contacts(question, deck.clearance, surfaces);
+    law.name = word_of(which);
+    law.what = what_of(which, surfaces, question.contacts.size());
+    law.pressure = convex(law.pressure, law.what);
+    deck.laws.push_back(std::move(law));
+  }
+  answer.interpolation_error = interpolation_error(question, deck);
+  const DeckContact& first = question.contacts.front();
+  if (question.contacts.size() == 1 && !std::isnan(first.decay_length)) {
+    deck.exponential_length = first.decay_length;
+    deck.exponential_pressure = force_at(first, 0) / area_of(question, first);
+  }
+  const double metre = 1 / question.units.in_si(Dimension::length),
+               pascal = 1 / question.units.in_si(Dimension::pressure);
+  deck.header.push_back(fmt::format("Clearance: counted from {}.", first.clearance_from));
+  deck.header.push_back(fmt::format(
+      "Window: clearance {:.6g} to {:.6g}, mean pressure {:.6g} to {:.6g}; straight lines between "
+      "the {} rows are off by {:.2g} % at most.",
+      range.far * metre, range.close * metre, deck.laws.front().pressure.front() * pascal,
+      deck.laws.front().pressure.back() * pascal, rows, 100 * answer.interpolation_error));
+  if (question.contacts.size() > 1)
+    deck.header.push_back(
+        fmt::format("Low and high are whole surfaces, ranked by their force at clearance {:.6g}.",
+                    middle * metre));
+  if (deck.has_friction())
+    deck.header.push_back(fmt::format(
+        "Friction: coefficient {:.6g}; tangential stiffness at the mean pressure {:.6g}.",
+        question.friction_coefficient,
+        deck.laws.front().elastic_slip * deck.laws.front().stick_slope /
+            question.friction_coefficient * pascal));
+}
+
+void add_sliders(Deck& deck, DeckAnswer& answer) {
+  const DeckQuestion& question = deck.question;
+  std::vector<DeckContact> contacts = question.contacts;
+  std::string what = "one surface or law";
+  if (contacts.size() > 1) {
+    const Range range = common_range(question);
+    for (const auto& [which, surfaces] : cases_of(question, (range.far + range.close) / 2)) {
+      if (which != question.of) continue;
+      what = what_of(which, surfaces, question.contacts.size());
+      contacts.clear();
+      for (const std::size_t i : surfaces) contacts.push_back(question.contacts[i]);
+    }
+  }
+  detail::SliderSet set = detail::jenkins_sliders(contacts, question.friction_coefficient,
+                                                  question.sliders, question.smallest_force);
+  answer.tangential_stiffness = set.stiffness;
+  answer.slip_force = set.force;
+  answer.loss_error = set.loss_error;
+  double force = 0;
+  for (const DeckContact& contact : contacts)
+    force += contact.law->force(contact.indentation) / double(contacts.size());
+  const double newton = 1 / question.units.in_si(Dimension::force),
+               stiffness = 1 / question.units.in_si(Dimension::stiffness);
+  deck.header.push_back(
+      fmt::format("Of: {}, at the normal force {:.10g} with the coefficient of friction {:.6g}.",
+                  what, force * newton, question.friction_coefficient));
+  deck.header.push_back(fmt::format(
+      "Sliders in parallel: each a spring in series with a slider. Together: stiffness {:.10g}, "
+      "force {:.10g}.",
+      set.stiffness * stiffness, set.force * newton));
+  deck.header.push_back(fmt::format(
+      "Loss of a cycle at {:g} of the force of all: off by {:.3g} %. Beyond {:.4g} of it all that "
+      "sticks is one slider.",
+      question.smallest_force, 100 * set.loss_error, set.resolved));
+  deck.sliders = std::move(set.sliders);
+}
+
+}  // namespace
+
+DeckContact deck_contact(std::shared_ptr<const ContactLaw> law, std::optional<double> indentation) {
+  DeckContact contact;
+  contact.clearance_from = "where the law counts its indentation from, and is its negative";
+  if (const auto* exponential = dynamic_cast<const ExponentialLaw*>(law.get())) {
+    contact.decay_length = exponential->decay_length();
+    if (!indentation) indentation = 0;
+  }
+  contact.law = std::move(law);
+  if (indentation) contact.indentation = *indentation;
+  set_range(contact);
+  return contact;
+}
+
+DeckContact deck_contact(ContactQuestion question, const Context& context) {
+  bool knows_tangential_stiffness = true;
+  double decay_length = DeckContact::unknown;
+  std::string clearance_from = "first touch, and is the negative of the indentation";
+  if (auto* curve = std::get_if<CurveContact>(&question)) {
+    // K_t of every sample takes the place of G*/E*, which then may be any number.
+    knows_tangential_stiffness = complete(curve->curve, &ForceSample::tangential_stiffness) ||
+                                 !std::isnan(curve->modulus_ratio);
+    if (std::isnan(curve->modulus_ratio)) curve->modulus_ratio = 1;
+  } else if (const auto* law = std::get_if<ExponentialContact>(&question)) {
+    decay_length = law->decay_length;
+    clearance_from = "where the normal force is that of the position";
+  }
+  ContactAnswer answer = ask(std::move(question), context);
+  require(answer.positions.size() < 2, "normal_force",
+          fmt::format("{} positions", answer.positions.size()), "are given; a deck takes one");
+  std::optional<double> indentation;
+  if (!answer.positions.empty())
+    indentation = indentation_of(*answer.law, answer.positions.front());
+  DeckContact contact = deck_contact(std::move(answer.law), indentation);
+  contact.knows_tangential_stiffness = knows_tangential_stiffness;
+  contact.decay_length = decay_length;
+  contact.clearance_from = clearance_from;
+  if (answer.curve) set_origin(contact, *answer.curve);
+  if (answer.nominal_area() > 0) contact.nominal_area = answer.nominal_area();
+  return contact;
+}
+
+DeckAnswer ask(const DeckQuestion& question) {
+  const detail::DeckWriter& writer = detail::writer_of(question.format);
+  check(question, writer.table);
+  DeckAnswer answer;
+  answer.surfaces = int(question.contacts.size());
+  Deck deck{.question = question, .header = opening(question)};
+  if (writer.table)
+    add_table(deck, writer.most_rows, answer);
+  else
+    add_sliders(deck, answer);
+  convert(deck);
+  answer.text = writer.write(deck);
+  return answer;
+}
+
+}  // namespace salebra

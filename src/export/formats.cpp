@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Decks as other programs read them: one function for each format.
+#include "formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <salebra/base/version.hpp>
+
+#include "io/json.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// CalculiX and Abaqus read at most 20 characters of a number.
+std::string number(double value) { return fmt::format("{:.10g}", value); }
+
+/// Lines of the header as comments, none longer than what each of the programs reads.
+std::string comments(const Deck& deck, std::string_view mark) {
+  std::string text;
+  for (const std::string& sentence : deck.header) {
+    std::string line;
+    std::size_t begin = 0;
+    while (begin < sentence.size()) {
+      const auto end = std::min(sentence.find(' ', begin), sentence.size());
+      const std::string word = sentence.substr(begin, end - begin);
+      if (!line.empty() && line.size() + 1 + word.size() > 76) {
+        text += fmt::format("{} {}\n", mark, line);
+        line = " ";
+      }
+      line += (line.empty() ? "" : " ") + word;
+      begin = end + 1;
+    }
+    text += fmt::format("{} {}\n", mark, line);
+  }
+  return text;
+}
+
+std::string csv(const Deck& deck) {
+  std::string text = comments(deck, "#") + "clearance";
+  std::vector<const std::vector<double>*> columns{&deck.clearance};
+  const auto column = [&](const std::string& name, const std::vector<double>& values) {
+    if (values.empty()) return;
+    text += "," + name;
+    columns.push_back(&values);
+  };
+  for (const DeckLaw& law : deck.laws) {
+    const std::string end = deck.laws.size() > 1 ? "_" + law.name : "";
+    column("pressure" + end, law.pressure);
+    column("normal_stiffness" + end, law.normal_stiffness);
+    column("tangential_stiffness" + end, law.tangential_stiffness);
+  }
+  text += "\n";
+  for (std::size_t i = 0; i < deck.clearance.size(); ++i)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      text += fmt::format("{}{}", (*columns[k])[i], k + 1 < columns.size() ? "," : "\n");
+  return text;
+}
+
+/// Its members are described in docs/howto/decks.md.
+std::string json(const Deck& deck) {
+  const DeckQuestion& question = deck.question;
+  Json laws = Json::object();
+  for (const DeckLaw& law : deck.laws) {
+    Json one{{"surfaces", law.what},
+             {"pressure", law.pressure},
+             {"normal_stiffness", law.normal_stiffness}};
+    if (!law.tangential_stiffness.empty()) one["tangential_stiffness"] = law.tangential_stiffness;
+    if (deck.has_friction()) {
+      one["stick_slope"] = law.stick_slope;
+      one["elastic_slip"] = law.elastic_slip;
+    }
+    laws[law.name] = one;
+  }
+  Json object{{"format", "salebra contact law 1"},
+              {"license", "MIT-0"},
+              {"version", version()},
+              {"revision", question.provenance.revision},
+              {"header", deck.header},
+              {"units", Json{{"length", question.units.length},
+                             {"mass", question.units.mass},
+                             {"time", question.units.time}}},
+              {"clearance_from", question.contacts.front().clearance_from},
+              {"clearance", deck.clearance},
+              {"laws", laws}};
+  if (deck.has_friction()) object["friction_coefficient"] = question.friction_coefficient;
+  return object.dump(1) + "\n";
+}
+
+std::string upper_case(std::string name) {
+  std::ranges::transform(name, name.begin(), [](char c) { return char(std::toupper(c)); });
+  return "SALEBRA_" + name;
+}
+
+/// Pairs of pressure and overclosure in ascending order, from no pressure on. zero: the clearance
+/// at which the overclosure is 0.
+std::string overclosures(const Deck& deck, const DeckLaw& law, double zero) {
+  std::string text = fmt::format("0, {}\n", number(zero - first_clearance(deck, law)));
+  for (std::size_t i = 0; i < deck.clearance.size(); ++i)
+    text += fmt::format("{}, {}\n", number(law.pressure[i]), number(zero - deck.clearance[i]));
+  return text;
+}
+
+/// CalculiX CrunchiX User's Manual, *SURFACE BEHAVIOR and *FRICTION. EXPONENTIAL: p0 at clearance 0,
+/// and c0, at which the pressure is 1 % of p0: p = p0 exp(−g ln 100/c0). TABULAR: pressure and
+/// overclosure; outside the pressure stays constant, hence the row that goes on with the last slope. Springs
+/// of a table begin at a clearance of 1e-3 in any unit, hence its overclosure counts from where the
+/// pressure begins. *FRICTION: μ and stick slope, a force per volume. Of version 2.20, TYPE=NODE TO
+/// SURFACE follows both; SURFACE TO SURFACE has no force before the surfaces touch, and ends where a
+/// table has more than some twenty rows.
+std::string calculix(const Deck& deck) {
+  std::string text = comments(deck, "**") + "** For *CONTACT PAIR, TYPE=NODE TO SURFACE.\n";
+  for (const DeckLaw& law : deck.laws) {
+    text += fmt::format("** {}: {}\n", law.name, law.what);
+    const std::string name = fmt::format("*SURFACE INTERACTION, NAME={}\n", upper_case(law.name));
+    if (!std::isnan(deck.exponential_length)) {
+      text += fmt::format("{}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n{}, {}\n", name,
+                          number(deck.exponential_length * std::log(100.)),
+                          number(deck.exponential_pressure));
+    } else {
+      const std::size_t last = deck.clearance.size() - 1;
+      const double step = deck.clearance[last - 1] - deck.clearance[last];
+      const double rise = law.pressure[last] - law.pressure[last - 1];
+      const double steps = 10. * double(last), zero = first_clearance(deck, law);
+      text += fmt::format(
+          "** Draw the surfaces so that they touch where their clearance is {}:\n"
+          "** overclosure = {} - clearance.\n{}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n"
+          "{}{}, {}\n",
+          number(zero), number(zero), name, overclosures(deck, law, zero),
+          number(law.pressure[last] + steps * rise),
+          number(zero + steps * step - deck.clearance[last]));
+    }
+    if (deck.has_friction())
+      text += fmt::format("*FRICTION\n{}, {}\n", number(deck.question.friction_coefficient),
+                          number(law.stick_slope));
+  }
+  return text;
+}
+
+/// Abaqus Keywords Reference Guide, *SURFACE BEHAVIOR: TABULAR has pressure and overclosure in
+/// ascending order of overclosure, the first without pressure, and goes on with the last slope. Its
+/// EXPONENTIAL reaches zero at a clearance, and is another function than exp(−g/l). *FRICTION with
+/// ELASTIC SLIP, the stiffness method: stick stiffness μp over that slip.
+std::string abaqus(const Deck& deck) {
+  std::string text = comments(deck, "**");
+  for (const DeckLaw& law : deck.laws) {
+    text += fmt::format(
+        "** {}: {}\n*SURFACE INTERACTION, NAME={}\n*SURFACE BEHAVIOR, "
+        "PRESSURE-OVERCLOSURE=TABULAR\n{}",
+        law.name, law.what, upper_case(law.name), overclosures(deck, law, 0));
+    if (deck.has_friction())
+      text += fmt::format("*FRICTION, ELASTIC SLIP={}\n{},\n", number(law.elastic_slip),
+                          number(deck.question.friction_coefficient));
+  }
+  return text;
+}
+
+/// Ansys Element Reference, COMBIN39: real constants D1, F1, … D20, F20 through the origin, the last
+/// slope goes on; KEYOPT(1) = 0 unloads along the curve, KEYOPT(2) = 1 has no force in compression.
+/// Nodes I above and J below make the approach of both an elongation.
+std::string ansys(const Deck& deck) {
+  std::string text = comments(deck, "!");
+  text +=
+      "! One spring for each pair of nodes of both surfaces, I of the upper, J of the lower\n"
+      "! one, in the direction of KEYOPT(3) (3: z). Normal law only.\n"
+      "SALEBRA_AREA = 1.0  ! area of the surface that belongs to a pair of nodes\n";
+  int type = 101;
+  for (const DeckLaw& law : deck.laws) {
+    const double first = first_clearance(deck, law);
+    text += fmt::format(
+        "! {}: {}. Without displacement the surfaces are {} apart.\n"
+        "ET,{},COMBIN39\nKEYOPT,{},1,0\nKEYOPT,{},2,1\nKEYOPT,{},3,3\nR,{},0,0",
+        law.name, law.what, number(first), type, type, type, type, type);
+    for (std::size_t i = 0; i < deck.clearance.size(); ++i)
+      text += fmt::format("{}{},{}*SALEBRA_AREA", i % 3 == 2 ? "\nRMORE," : ",",
+                          number(first - deck.clearance[i]), number(law.pressure[i]));
+    text += "\n";
+    ++type;
+  }
+  return text;
+}
+
+/// Code_Aster R5.03.17, relation CHOC_ELAS_TRAC (material DIS_CHOC_ELAS), and U4.43.01: FX is a
+/// function of DX, linear, from (0, 0) on, strictly increasing, the left excluded; contact begins
+/// where the length of the discrete element is DIST_1 + DIST_2. Names of concepts have eight letters.
+std::string code_aster(const Deck& deck) {
+  std::string text = comments(deck, "#");
+  text +=
+      "# One discrete element DIS_T on a SEG2 for each pair of nodes of both surfaces, along\n"
+      "# the normal, with RELATION='CHOC_ELAS_TRAC'. Normal law only.\n"
+      "area = 1.0  # of the surface that belongs to a pair of nodes\n";
+  for (const DeckLaw& law : deck.laws) {
+    const double first = first_clearance(deck, law);
+    text += fmt::format("# {}: {}\ntab{} = (\n    (0.0, 0.0),\n", law.name, law.what, law.name);
+    for (std::size_t i = 0; i < deck.clearance.size(); ++i)
+      text += fmt::format("    ({}, {}),\n", number(first - deck.clearance[i]),
+                          number(law.pressure[i]));
+    text += fmt::format(
+        ")\nfun{0} = DEFI_FONCTION(\n    NOM_PARA='DX', INTERPOL='LIN', PROL_GAUCHE='EXCLU', "
+        "PROL_DROITE='LINEAIRE',\n    VALE=[value for dx, p in tab{0} for value in (dx, area * "
+        "p)])\nmat{0} = DEFI_MATERIAU(DIS_CHOC_ELAS=_F(FX=fun{0}, DIST_1={1}, DIST_2=0.0))\n",
+        law.name, number(first));
+  }
+  return text;
+}
+
+std::string jenkins(const Deck& deck) {
+  std::string text = comments(deck, "#") + "stiffness,slider_force\n";
+  for (const Slider& slider : deck.sliders)
+    text += fmt::format("{},{}\n", slider.stiffness, slider.slider_force);
+  return text;
+}
+
+}  // namespace
+
+bool Deck::has_friction() const { return !std::isnan(question.friction_coefficient); }
+
+double first_clearance(const Deck& deck, const DeckLaw& law) {
+  return deck.clearance.front() + law.pressure.front() / law.normal_stiffness.front();
+}
+
+const DeckWriter& writer_of(DeckFormat format) {
+  static constexpr std::array writers{
+      DeckWriter{DeckFormat::csv, csv},
+      DeckWriter{DeckFormat::json, json},
+      DeckWriter{DeckFormat::calculix, calculix, true, 198},
+      DeckWriter{DeckFormat::abaqus, abaqus},
+      DeckWriter{DeckFormat::ansys, ansys, true, 19},
+      DeckWriter{DeckFormat::code_aster, code_aster},
+      DeckWriter{DeckFormat::jenkins, jenkins, false},
+  };
+  return *std::ranges::find(writers, format, &DeckWriter::format);
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <salebra/export/deck.hpp>
+#include <string>
+#include <vector>
+
+namespace salebra::detail {
+
+/// One law of a deck, per nominal area, on the clearances of the deck. All numbers of a deck are in
+/// its units.
+struct DeckLaw {
+  std::string name;  ///< mean, low, high
+  std::string what;  ///< "surface 3, the lowest of 8"
+  std::vector<double> pressure, normal_stiffness;
+  std::vector<double> tangential_stiffness = {};  ///< empty: not known
+  double stick_slope = DeckContact::unknown;      ///< K_t/A at the position
+  double elastic_slip = DeckContact::unknown;     ///< μp over it
+};
+
+/// Stiffness and force of a slider; it slips at their quotient.
+struct Slider {
+  double stiffness = 0, slider_force = 0;
+};
+
+struct Deck {
+  const DeckQuestion& question;
+  std::vector<std::string> header = {};  ///< lines, without the marks of comments
+  std::vector<double> clearance = {};    ///< from the farthest to the closest
+  std::vector<DeckLaw> laws = {};        ///< the mean, and of several surfaces low and high
+  std::vector<Slider> sliders = {};      ///< from the one that slips first on
+  double exponential_pressure = DeckContact::unknown;  ///< at clearance 0, of one exponential law
+  double exponential_length = DeckContact::unknown;    ///< l of it
+
+  bool has_friction() const;
+};
+
+/// A row from which a piecewise linear table starts without a pressure: where the tangent at the
+/// farthest row meets zero, so that the table stays convex.
+double first_clearance(const Deck& deck, const DeckLaw& law);
+
+/// What each format needs beside p(g), and how it is written. A format is a function and a row.
+struct DeckWriter {
+  DeckFormat format;
+  std::string (*write)(const Deck&);
+  bool table = true;  ///< p(g); false: sliders
+  int most_rows = 100000;
+};
+const DeckWriter& writer_of(DeckFormat format);
+
+/// Sliders of contacts at their positions (deck.hpp), SI.
+struct SliderSet {
+  std::vector<Slider> sliders;
+  double stiffness = 0, force = 0;  ///< of all together
+  double resolved = 0;              ///< T/(μF) up to which levels within the law slip
+  double loss_error = 0;            ///< relative, at the smallest force
+};
+SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,
+                          int count, double smallest_force);
+
+}  // namespace salebra::detail

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Jenkins' sliders in parallel (Iwan's model) of a contact under a constant normal force.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <salebra/base/error.hpp>
+
+#include "contact/quadrature.hpp"
+#include "formats.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// First loading of the mean of several contacts: T'(x), and how far it is known.
+class Backbone {
+ public:
+  Backbone(const std::vector<DeckContact>& contacts, double friction_coefficient)
+      : contacts_(contacts), friction_(friction_coefficient) {
+    for (const DeckContact& contact : contacts)
+      end_ = std::min(
+          end_, (contact.indentation - contact.law->lowest_indentation()) / depth_of(contact));
+    for (const DeckContact& contact : contacts) {
+      force_ += friction_ * contact.law->force(contact.indentation) / double(contacts.size());
+      for (const double depth : contact.law->break_points())
+        if (depth < contact.indentation)
+          bends_.push_back((contact.indentation - depth) / depth_of(contact));
+    }
+    std::ranges::sort(bends_);
+  }
+
+  double slip_force() const { return force_; }
+  double stiffness(double x) const {
+    double sum = 0;
+    for (const DeckContact& contact : contacts_) {
+      const ContactLaw& law = *contact.law;
+      const double level = contact.indentation - depth_of(contact) * x;
+      sum += law.tangential_stiffness(std::max(level, law.lowest_indentation()));
+    }
+    return sum / double(contacts_.size());
+  }
+  /// ∫ weight(x) T'(x) dx.
+  double integral(double from, double to, const std::function<double(double)>& weight) const {
+    std::vector<double> points{from};
+    for (const double bend : bends_)
+      if (bend > from && bend < to) points.push_back(bend);
+    points.push_back(to);
+    return integrate([&](double x) { return weight(x) * stiffness(x); }, points, 1e-12).value;
+  }
+  double force(double from, double to) const {
+    return integral(from, to, [](double) { return 1.; });
+  }
+  /// The displacement of a force below that which is known.
+  double displacement(double force_there) const {
+    double high = force_there / stiffness(0);
+    while (high < end_ && force(0, high) < force_there) high *= 2;
+    return find_root([&](double x) { return force(0, x) - force_there; }, 0, std::min(high, end_));
+  }
+  double end() const { return end_; }
+
+ private:
+  /// Slip reaches so deep for a displacement: ρ/μ.
+  double depth_of(const DeckContact& contact) const {
+    return contact.law->stiffness_ratio(contact.indentation) / friction_;
+  }
+
+  const std::vector<DeckContact>& contacts_;
+  double friction_, force_ = 0, end_ = std::numeric_limits<double>::infinity();
+  std::vector<double> bends_;
+};
+
+/// Displacements between which a slider stands for the springs that begin to slip there, but for the
+/// last, which goes on to the end: even steps up to `first`, then growing in proportion.
+std::vector<double> edges(double first, double last, int count) {
+  // x = a sinh(i h). The error of the loss at x is half the square of step over x: steps of an eighth
+  // of `first`, which 60 sliders have where it is a hundredth of the last, leave it below 1 %.
+  std::vector<double> x{0};
+  const double a = first, top = std::asinh(last / a);
+  for (int i = 1; i < count; ++i) x.push_back(a * std::sinh(top * i / (count - 1)));
+  return x;
+}
+
+/// Loss of a cycle between ±X, by Masing's rule 8 times the area between backbone and chord.
+double loss(const Backbone& backbone, double amplitude) {
+  // ∫_0^X T dx = ∫_0^X (X − x) T' dx
+  return 8 * backbone.integral(0, amplitude, [&](double x) { return amplitude / 2 - x; });
+}
+
+double loss(const std::vector<Slider>& sliders, double force) {
+  double amplitude = 0, held = 0, stiffness = 0, work = 0;
+  for (const Slider& slider : sliders) stiffness += slider.stiffness;
+  // They slip one after another: `held` by those that slip.
+  for (const Slider& slider : sliders) {
+    amplitude = (force - held) / stiffness;
+    if (amplitude <= slider.slider_force / slider.stiffness) break;
+    held += slider.slider_force;
+    stiffness -= slider.stiffness;
+  }
+  for (const Slider& slider : sliders)
+    work +=
+        4 * slider.slider_force * std::max(0., amplitude - slider.slider_force / slider.stiffness);
+  return work;
+}
+
+}  // namespace
+
+SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,
+                          int count, double smallest_force) {
+  const Backbone backbone(contacts, friction_coefficient);
+  SliderSet set{.sliders = {}, .stiffness = backbone.stiffness(0), .force = backbone.slip_force()};
+  // Beyond this part nothing is told apart: the last slider holds what remains.
+  constexpr double resolved = 0.999;
+  const double known = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
+  set.resolved = std::min(resolved, known / set.force);
+  require(smallest_force < set.resolved, "smallest_force", smallest_force,
+          "is beyond what the law covers; choose a smaller one or extend the curve");
+  const double smallest = backbone.displacement(smallest_force * set.force);
+  const double last =
+      set.resolved < resolved ? backbone.end() : backbone.displacement(resolved * set.force);
+  const std::vector<double> x = edges(smallest, last, count);
+  double force = 0, stiffness = set.stiffness;  // T and T' at the edge
+  double rest_force = set.force, rest_stiffness = set.stiffness;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    const double next_stiffness = backbone.stiffness(x[i]);
+    const double next_force = force + backbone.force(x[i - 1], x[i]);
+    const Slider slider{stiffness - next_stiffness,
+                        next_force - x[i] * next_stiffness - (force - x[i - 1] * stiffness)};
+    force = next_force;
+    stiffness = next_stiffness;
+    if (!(slider.stiffness > 0) || !(slider.slider_force > 0)) continue;  // no spring slips there
+    rest_stiffness -= slider.stiffness;
+    rest_force -= slider.slider_force;
+    set.sliders.push_back(slider);
+  }
+  require(rest_stiffness > 0 && rest_force > 0, "curve", "",
+          "has levels below its range that would slip before those within; extend it to smaller "
+          "forces");
+  set.sliders.push_back({rest_stiffness, rest_force});
+  set.loss_error = loss(set.sliders, smallest_force * set.force) / loss(backbone, smallest) - 1;
+  return set;
+}
+
+}  // namespace salebra::detail

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Decks of CalculiX, run by CalculiX where it is installed (Debian: calculix-ccx).
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "decks.hpp"
+#include "io/scratch.hpp"
+#include "skipped.hpp"
+
+using namespace salebra;
+using namespace salebra::testing;
+
+namespace {
+
+bool has_calculix() { return std::system("command -v ccx >/dev/null 2>&1") == 0; }
+
+/// Forces on a cube of 1 mm² that is pressed against another, `gap` apart, after each of the
+/// approaches; m, N. The cubes are so stiff that their own compression is 3e-5 of l at the most.
+std::vector<double> press(const std::string& deck, double gap, const std::vector<double>& ways) {
+  const Scratch scratch;
+  const double side = 1e-3;
+  std::ofstream input(scratch / "press.inp");
+  input.precision(12);
+  input << "*NODE\n";
+  for (int k = 0, node = 1; k < 4; ++k)
+    for (const auto& [x, y] : {std::pair(0., 0.), {side, 0.}, {side, side}, {0., side}})
+      input << node++ << ", " << x << ", " << y << ", " << (k + 1) / 2 * side + k / 2 * gap << '\n';
+  input << "*ELEMENT, TYPE=C3D8, ELSET=BOTH\n1, 1,2,3,4,5,6,7,8\n2, 9,10,11,12,13,14,15,16\n"
+           "*MATERIAL, NAME=STIFF\n*ELASTIC\n1e16, 0\n*SOLID SECTION, ELSET=BOTH, MATERIAL=STIFF\n"
+           "*SURFACE, NAME=LOWER\n1, S2\n*SURFACE, NAME=UPPER\n2, S1\n"
+        << deck
+        << "*CONTACT PAIR, INTERACTION=SALEBRA_MEAN, TYPE=NODE TO SURFACE\nUPPER, LOWER\n"
+           "*NSET, NSET=FIXED, GENERATE\n1, 8\n*NSET, NSET=SIDES, GENERATE\n9, 16\n"
+           "*NSET, NSET=TOP, GENERATE\n13, 16\n*BOUNDARY\nFIXED, 1, 3\nSIDES, 1, 2\n";
+  for (const double way : ways)
+    input << "*STEP, NLGEOM, INC=1000\n*STATIC\n0.25, 1\n*BOUNDARY\nTOP, 3, 3, " << -way
+          << "\n*NODE PRINT, NSET=TOP, TOTALS=ONLY, FREQUENCY=1000\nRF\n*END STEP\n";
+  input.close();
+  const std::string run = "cd '" + scratch.folder().string() + "' && ccx press >press.log 2>&1";
+  REQUIRE(std::system(run.c_str()) == 0);
+  std::ifstream stream(scratch / "press.dat");
+  std::vector<double> forces;
+  for (double x = 0, y = 0, z = 0; stream;)
+    if (std::string line; std::getline(stream, line)) {
+      std::istringstream words(line);
+      if (words >> x >> y >> z) forces.push_back(-z);
+    }
+  return forces;
+}
+
+}  // namespace
+
+TEST_CASE("CalculiX presses a cube with the force of the law", "[export][calculix]") {
+  if (skipped(!has_calculix(), "ccx is not installed")) return;
+  DeckQuestion question;
+  question.format = DeckFormat::calculix;
+  SECTION("exponential") {
+    question.contacts = {exponential()};
+    // Clearances from 3 l down to −l.
+    const double gap = 4 * decay_length;
+    const std::vector<double> ways{1e-7, 2e-7, 3e-7, 4e-7, 5e-7};
+    const auto forces = press(ask(question).text, gap, ways);
+    REQUIRE(forces.size() == ways.size());
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      CHECK(forces[i] == Approx(force0 * std::exp((ways[i] - gap) / decay_length)).epsilon(1e-3));
+  }
+  SECTION("table") {
+    question.contacts = {cubic()};
+    const std::string deck = ask(question).text;
+    const double zero = rows_after(deck, "** mean")[0][0];
+    const std::vector<double> ways{1.5e-7, 3e-7, 5e-7, 7e-7};
+    const auto forces = press(deck, 0, ways);
+    REQUIRE(forces.size() == ways.size());
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const double rest = 1 - (zero - ways[i]) / 1e-6;
+      CHECK(forces[i] == Approx(force0 * rest * rest * rest).epsilon(1e-3));
+    }
+  }
+}

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Decks read back, in every unit system, and what is refused.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <salebra/base/error.hpp>
+
+#include "decks.hpp"
+
+using namespace salebra;
+using namespace salebra::testing;
+using Catch::Contains;
+
+namespace {
+
+/// Pressure over clearance of a deck, whatever its format counts.
+std::vector<std::pair<double, double>> table_of(DeckFormat format, const std::string& text) {
+  std::vector<std::pair<double, double>> table;
+  if (format == DeckFormat::csv)
+    for (const auto& row : rows_after(text, "clearance,pressure"))
+      table.emplace_back(row[0], row[1]);
+  if (format == DeckFormat::json) {
+    const auto deck = nlohmann::json::parse(text);
+    for (std::size_t i = 0; i < deck["clearance"].size(); ++i)
+      table.emplace_back(deck["clearance"][i], deck["laws"]["mean"]["pressure"][i]);
+  }
+  if (format == DeckFormat::abaqus)
+    for (const auto& row : rows_after(text, "PRESSURE-OVERCLOSURE"))
+      table.emplace_back(-row[1], row[0]);
+  if (format == DeckFormat::calculix) {
+    const double zero = rows_after(text, "** mean")[0][0];
+    for (const auto& row : rows_after(text, "PRESSURE-OVERCLOSURE"))
+      table.emplace_back(zero - row[1], row[0]);
+    table.pop_back();  // the one that goes on with the last slope
+  }
+  if (format == DeckFormat::code_aster) {
+    const std::string distance = text.substr(text.find("DIST_1=") + 7);
+    for (const auto& row : rows_after(text, "tabmean"))
+      table.emplace_back(std::stod(distance) - row[0], row[1]);
+  }
+  if (format == DeckFormat::ansys) {
+    const std::string apart = text.substr(text.find("surfaces are ") + 13);
+    std::istringstream lines(text.substr(text.find("R,101,") + 6));
+    std::vector<double> numbers;
+    for (std::string line; std::getline(lines, line);) {
+      for (char& symbol : line)
+        if (symbol == ',' || symbol == '*') symbol = ' ';
+      std::istringstream words(line);
+      for (std::string word; words >> word;)
+        if (word != "RMORE" && word != "SALEBRA_AREA") numbers.push_back(std::stod(word));
+    }
+    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2)
+      table.emplace_back(std::stod(apart) - numbers[i], numbers[i + 1]);
+  }
+  return table;
+}
+
+double pressure(double clearance) {
+  const double rest = 1 - clearance / 1e-6;
+  return force0 / area0 * rest * rest * rest;
+}
+
+std::string refusal(const DeckQuestion& question) {
+  try {
+    ask(question);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Every deck of a table is read back as the law at its clearances, in every unit system",
+          "[export]") {
+  const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
+                               DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster);
+  // A length in m, a mass in kg and a time in s; pressure is mass/(length time²).
+  struct System {
+    const char* name;
+    double length, mass, time;
+  };
+  const auto [name, length, mass, time] = GENERATE(
+      System{"m,kg,s", 1, 1, 1}, System{"mm,t,s", 1e-3, 1e3, 1}, System{"mm,kg,ms", 1e-3, 1, 1e-3});
+  INFO(word_of(format) << " " << name);
+  DeckQuestion question;
+  question.contacts = {cubic()};
+  question.format = format;
+  question.units = parse_unit_system(name);
+  question.rows = 1000;
+  const DeckAnswer answer = ask(question);
+  auto table = table_of(format, answer.text);
+  // Those of springs begin without a pressure.
+  const bool from_zero = format != DeckFormat::csv && format != DeckFormat::json;
+  if (from_zero) {
+    CHECK(table.front().second == 0);
+    CHECK(table.front().first > table[1].first);
+    table.erase(table.begin());
+  }
+  CHECK(table.size() == (format == DeckFormat::ansys      ? 19
+                         : format == DeckFormat::calculix ? 198
+                                                          : 1000));
+  // The curve of 200 samples is interpolated to 1e-8; decks hold ten digits of numbers whose
+  // differences are clearances.
+  const double unit = mass / (length * time * time);
+  for (const auto& [clearance, value] : table)
+    REQUIRE(value * unit == Approx(pressure(clearance * length)).epsilon(1e-6));
+  CHECK(table.front().first * length == Approx(0.8e-6).epsilon(1e-6));
+  CHECK(table.back().first * length == Approx(0.1e-6).epsilon(1e-6));
+  // Monotone and convex, and lines between the rows are as close as the header says.
+  double worst = 0, last_slope = 0;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const double slope =
+        (table[i].second - table[i - 1].second) / (table[i - 1].first - table[i].first);
+    CHECK(slope > (1 - 1e-6) * last_slope);
+    last_slope = slope;
+    const double line = (table[i].second + table[i - 1].second) / 2,
+                 there = pressure((table[i].first + table[i - 1].first) / 2 * length) / unit;
+    worst = std::max(worst, std::abs(line / there - 1));
+  }
+  CHECK(worst == Approx(answer.interpolation_error).epsilon(1e-2));
+}
+
+TEST_CASE("Friction of decks is the stick slope at the position and the slip that it allows",
+          "[export]") {
+  DeckQuestion question;
+  question.contacts = {cubic()};
+  question.friction_coefficient = 0.3;
+  question.units = parse_unit_system("mm,t,s");
+  // p = p0/8 at 1 − ū/h = ½, K/A = 3p/(h/2), and K_t = 0.8 K; a stiffness per area of 1 N/mm³ is
+  // 1e9 N/m³.
+  const double slope = 0.8 * 3 * (force0 / area0 / 8) / 0.5e-6;
+  question.format = DeckFormat::calculix;
+  const auto friction = rows_after(ask(question).text, "*FRICTION");
+  REQUIRE(friction.size() == 1);
+  CHECK(friction[0][0] == 0.3);
+  CHECK(friction[0][1] == Approx(slope * 1e-9).epsilon(1e-6));
+  question.format = DeckFormat::abaqus;
+  const std::string text = ask(question).text;
+  const double slip = std::stod(text.substr(text.find("ELASTIC SLIP=") + 13));
+  CHECK(slip == Approx(0.3 * force0 / area0 / 8 / slope * 1e3).epsilon(1e-6));
+  CHECK(rows_after(text, "*FRICTION")[0][0] == 0.3);
+}
+
+TEST_CASE("CalculiX's exponential has the decay length of the law, and 1 % of p0 at c0",
+          "[export]") {
+  DeckQuestion question;
+  question.contacts = {exponential()};
+  question.format = DeckFormat::calculix;
+  const std::string text = ask(question).text;
+  const auto row = rows_after(text, "PRESSURE-OVERCLOSURE=EXPONENTIAL").at(0);
+  CHECK(row[1] == Approx(force0 / area0));
+  CHECK(row[1] * std::exp(-row[0] / decay_length) == Approx(0.01 * row[1]).epsilon(1e-9));
+  // Abaqus' function of that name is another one.
+  question.format = DeckFormat::abaqus;
+  CHECK_THAT(ask(question).text, Contains("TABULAR") && !Contains("EXPONENTIAL"));
+}
+
+TEST_CASE("Of several surfaces low and high are whole ones, ranked at one clearance", "[export]") {
+  DeckQuestion question;
+  for (const double factor : {1.1, 0.9, 1.3, 1.0}) question.contacts.push_back(cubic(factor));
+  question.format = DeckFormat::json;
+  const auto laws = nlohmann::json::parse(ask(question).text)["laws"];
+  CHECK_THAT(laws["low"]["surfaces"].get<std::string>(), Contains("surface 2 of 4"));
+  CHECK_THAT(laws["high"]["surfaces"].get<std::string>(), Contains("surface 3 of 4"));
+  const auto at = [&](const char* name, int row) {
+    return laws[name]["pressure"][row].get<double>();
+  };
+  for (const int row : {0, 70, 199}) {
+    CHECK(at("low", row) / at("mean", row) == Approx(0.9 / 1.075).epsilon(1e-9));
+    CHECK(at("high", row) / at("mean", row) == Approx(1.3 / 1.075).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Decks name license, units, source, revision, window and what the clearance is from",
+          "[export]") {
+  DeckQuestion question;
+  question.contacts = {cubic()};
+  question.units = parse_unit_system("mm,kg,ms");
+  question.source = "curve.h5";
+  question.provenance.revision = "abc123";
+  for (const DeckFormat format : {DeckFormat::csv, DeckFormat::calculix, DeckFormat::ansys}) {
+    question.format = format;
+    CHECK_THAT(ask(question).text,
+               Contains("MIT-0") && Contains("Units: mm, kg, ms. The unit of force is 1000 N") &&
+                   Contains("of pressure 1e+09 Pa") && Contains("curve.h5") && Contains("abc123") &&
+                   Contains("Window: ") && Contains("mean planes") && Contains("Premises"));
+  }
+}
+
+TEST_CASE("What makes no deck is refused with what it lacks", "[export]") {
+  DeckQuestion question;
+  question.contacts = {cubic()};
+  question.contacts.front().knows_tangential_stiffness = false;
+  CHECK(refusal(question).empty());
+  question.friction_coefficient = 0.3;
+  CHECK_THAT(refusal(question), Contains("tangential_stiffness: is not known"));
+  question.contacts = {exponential()};
+  question.contacts.front().nominal_area = DeckContact::unknown;
+  CHECK_THAT(refusal(question), Contains("nominal_area: not given"));
+  question.format = DeckFormat::jenkins;
+  CHECK(refusal(question).empty());
+  question.contacts.front().indentation = DeckContact::unknown;
+  CHECK_THAT(refusal(question), Contains("normal_force: not given"));
+  CHECK_THROWS_WITH(parse_unit_system("mm,stone,s"), Contains("stone is no mass"));
+  CHECK_THROWS_WITH(parse_unit_system("mm,t"), Contains("a length, a mass and a time"));
+
+  // A curve that a kink bends the wrong way, and one that falls.
+  ForceCurve bent = cubic_curve();
+  for (ForceSample& sample : bent.samples) {
+    sample.normal_stiffness = ForceSample::unknown;
+    if (sample.mean_gap < 0.5e-6)
+      sample.force = bent.samples[120].force * (1 + 0.5e-6 - sample.mean_gap);
+  }
+  question = {};
+  question.contacts = {deck_contact(CurveContact{bent, 0.8, {}, "curve"})};
+  CHECK_THAT(refusal(question), Contains("is not convex"));
+  for (ForceSample& sample : bent.samples)
+    if (sample.mean_gap < 0.5e-6) sample.force = 0.1;
+  CHECK_THROWS_WITH(deck_contact(CurveContact{bent, 0.8, {}, "curve"}),
+                    Contains("does not grow with the indentation"));
+  bent.samples.resize(1);
+  CHECK_THROWS_WITH(deck_contact(CurveContact{bent, 0.8, {}, "curve"}), Contains("at least four"));
+}

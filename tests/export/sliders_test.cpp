@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Jenkins' sliders against closed forms of partial slip, and against the loss of joints.
+#include <catch2/catch.hpp>
+#include <salebra/damping/joint.hpp>
+
+#include "decks.hpp"
+
+using namespace salebra;
+using namespace salebra::testing;
+
+namespace {
+
+constexpr double friction = 0.3;
+
+std::vector<std::vector<double>> sliders_of(const DeckContact& contact, int count) {
+  DeckQuestion question;
+  question.contacts = {contact};
+  question.format = DeckFormat::jenkins;
+  question.friction_coefficient = friction;
+  question.sliders = count;
+  return rows_after(ask(question).text, "stiffness,slider_force");
+}
+
+/// Loss of a cycle between ±T, each slider followed in straight steps through the loop.
+double loss_of(const std::vector<std::vector<double>>& sliders, double force) {
+  // The displacement at which they carry T together, by bisection.
+  const auto carried = [&](double x) {
+    double sum = 0;
+    for (const auto& slider : sliders) sum += std::min(slider[0] * x, slider[1]);
+    return sum;
+  };
+  double low = 0, high = 1;
+  for (int i = 0; i < 200; ++i) (carried((low + high) / 2) < force ? low : high) = (low + high) / 2;
+  double work = 0;
+  for (const auto& slider : sliders) {
+    double stretch = 0, lost = 0;
+    // To +x, to −x and back: after the first, each way costs what slides on it.
+    for (const double way : {high, -2 * high, 2 * high}) {
+      const double limit = slider[1] / slider[0], free = stretch + way;
+      stretch = std::clamp(free, -limit, limit);
+      lost += way == high ? 0 : slider[1] * std::abs(free - stretch);
+    }
+    work += lost;
+  }
+  return work;
+}
+
+}  // namespace
+
+TEST_CASE("Sliders of the exponential law lose what the closed form says, with order 2",
+          "[export]") {
+  // W = 8μ²(E*/G*) l F[−(1 − q/2) ln(1 − q) − q], q = T/(μF).
+  const double scale = 8 * friction * friction / modulus_ratio * decay_length * force0;
+  // Where T lies between the slips of two sliders changes the constant, not the order, hence the
+  // largest error of five counts.
+  const auto worst = [&](int count) {
+    const auto sliders = sliders_of(exponential(), count);
+    double largest = 0;
+    for (const double q : {0.05, 0.2, 0.5, 0.8, 0.95}) {
+      const double exact = scale * (-(1 - q / 2) * std::log(1 - q) - q);
+      largest = std::max(largest, std::abs(loss_of(sliders, q * friction * force0) / exact - 1));
+    }
+    return largest;
+  };
+  const double ten = worst(10), fifty = worst(50), many = worst(200), most = worst(800);
+  INFO(ten << ' ' << fifty << ' ' << many << ' ' << most);
+  CHECK(fifty < 0.02);
+  CHECK(many < 1e-3);
+  // Of five places in a slider's range each, the order is known to some tenths.
+  CHECK(std::log(ten / fifty) / std::log(5.) > 1.5);
+  CHECK(std::log(fifty / most) / std::log(16.) == Approx(2).margin(0.3));
+}
+
+TEST_CASE("Sliders have the stiffness and the force of the contact", "[export]") {
+  const double stiffness = modulus_ratio * force0 / decay_length;
+  for (const int count : {2, 10, 200}) {
+    const auto sliders = sliders_of(exponential(), count);
+    CHECK(sliders.size() == std::size_t(count));
+    double sum = 0, forces = 0, last = 0;
+    for (const auto& slider : sliders) {
+      sum += slider[0];
+      forces += slider[1];
+      CHECK(slider[1] / slider[0] > last);
+      last = slider[1] / slider[0];
+    }
+    CHECK(sum == Approx(stiffness).epsilon(1e-13));
+    CHECK(forces == Approx(friction * force0).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("Sliders of a curve lose what joint_loss() says, and know where levels end", "[export]") {
+  const DeckContact contact = cubic();
+  const double force = force0 / 8;
+  const auto sliders = sliders_of(contact, 400);
+  // Levels below ū = 0.8 h, of 0.064 of F, are one slider.
+  for (const double q : {0.02, 0.3, 0.7, 0.9}) {
+    const JointLoss joint =
+        joint_loss(*contact.law, AtForce{force}, TangentialForce{q * friction * force}, friction);
+    CHECK(loss_of(sliders, q * friction * force) == Approx(joint.work_per_cycle).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by default",
+          "[export]") {
+  DeckQuestion question;
+  question.contacts = {exponential()};
+  question.format = DeckFormat::jenkins;
+  question.friction_coefficient = friction;
+  const DeckAnswer answer = ask(question);
+  CHECK(std::abs(answer.loss_error) < 0.01);
+  const double q = question.smallest_force;
+  // W is μFx_c q³/6 · 4 … at small q: the series of the closed form, whose bracket cancels.
+  const double exact = 8 * friction * friction / modulus_ratio * decay_length * force0 *
+                       (q * q * q / 12 + q * q * q * q / 12);
+  const double found =
+      loss_of(rows_after(answer.text, "stiffness,slider_force"), q * friction * force0);
+  // The next term of the series is 3/40 q⁵.
+  CHECK(found / exact - 1 == Approx(answer.loss_error).margin(2e-4));
+  question.sliders = 10;
+  CHECK(std::abs(ask(question).loss_error) > 0.01);
+}
