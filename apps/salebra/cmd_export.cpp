@@ -22,7 +22,7 @@ namespace salebra::cli {
 namespace {
 
 struct ExportArguments {
-  std::string result, format, units = "m,kg,s", of = "mean";
+  std::string result, format, units = "m,kg,s", of = "mean", name = "contact";
   LawOptions law;
   MaterialOptions material;
   std::optional<double> friction_coefficient, nominal_area, smallest_force;
@@ -101,6 +101,7 @@ void run(const ExportArguments& arguments, Session& session) {
                         .rows = arguments.rows,
                         .of = *value_of<DeckCase>(arguments.of),
                         .sliders = arguments.sliders,
+                        .name = arguments.name,
                         .provenance = session.provenance()};
   if (arguments.friction_coefficient)
     question.friction_coefficient = *arguments.friction_coefficient;
@@ -170,8 +171,11 @@ void add_export_command(Program& program) {
       .add_option("--rows", arguments->rows,
                   "of a table; default 200, of calculix at most 198, of ansys 19")
       ->range(4, 100000);
-  const std::string before = command.under("Sliders (--to jenkins)");
-  command.add_option("--sliders", arguments->sliders, "how many; default 200")->range(2, 100000);
+  const std::string before = command.under("Sliders (--to jenkins) and levels (--to c-header)");
+  command.add_option("--sliders", arguments->sliders, "how many, of c-header levels; default 200")
+      ->range(2, 100000);
+  command.add_option("--name", arguments->name,
+                     "with which names of a C header begin; default contact");
   add_quantity(command, "--smallest-force", arguments->smallest_force, Dimension::dimensionless,
                "T/(mu F) from which their loss is right to 1 %; default 0.01");
   add_choice<DeckCase>(command, "--of", arguments->of,

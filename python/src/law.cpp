@@ -63,7 +63,8 @@ Indentation δ grows with approach. Functions take a number or an array and retu
           [](const ContactLaw& self, const Choice<DeckFormat>& format,
              std::optional<double> indentation, double nominal_area, double friction_coefficient,
              const std::string& units, std::optional<std::pair<double, double>> pressure_window,
-             int rows, int sliders, double smallest_force, const std::string& source) {
+             int rows, int sliders, double smallest_force, const std::string& name,
+             const std::string& source) {
             // The law outlives the call.
             const std::shared_ptr<const ContactLaw> law(std::shared_ptr<void>(), &self);
             const DeckQuestion question{.contacts = {deck_contact(law, indentation)},
@@ -75,6 +76,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
                                         .rows = rows,
                                         .sliders = sliders,
                                         .smallest_force = smallest_force,
+                                        .name = name,
                                         .source = source};
             return unlocked([&] { return ask(question).text; });
           },
@@ -82,13 +84,13 @@ Indentation δ grows with approach. Functions take a number or an array and retu
           nb::arg("nominal_area") = DeckContact::unknown,
           nb::arg("friction_coefficient") = DeckContact::unknown, nb::arg("units") = "m,kg,s",
           nb::arg("pressure_window") = nb::none(), nb::arg("rows") = 200, nb::arg("sliders") = 200,
-          nb::arg("smallest_force") = 0.01, nb::arg("source") = "",
+          nb::arg("smallest_force") = 0.01, nb::arg("name") = "contact", nb::arg("source") = "",
           R"(The law as input of another program: the text of a deck.
 
 Parameters
 ----------
-format : {"csv", "json", "calculix", "abaqus", "ansys", "code_aster", "jenkins"}
-    The last is sliders in parallel, Iwan's model.
+format : {"csv", "json", "calculix", "abaqus", "ansys", "code_aster", "jenkins", "c_header"}
+    Jenkins are sliders in parallel, Iwan's model; the last is `ContactElement` without dependencies.
 indentation : float, optional
     Where friction and sliders are taken, m; of an exponential law 0 unless given. A law without a table is exported from a thousandth
     to ten times the force there.
@@ -101,9 +103,11 @@ units : str
 pressure_window : (float, float), optional
     Nominal pressures of a table, Pa.
 rows, sliders : int
-    How many.
+    How many; of a C header `sliders` are its levels.
 smallest_force : float
     T/(μF) from which the loss of sliders is right to 1 %.
+name : str
+    With which every name of a C header begins.
 source : str
     Of the law, for the header.
 

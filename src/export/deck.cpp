@@ -199,7 +199,9 @@ std::string what_of(DeckCase which, const std::vector<std::size_t>& surfaces, st
                      rank, which == DeckCase::low ? "lowest" : "highest");
 }
 
-void check(const DeckQuestion& question, bool table) {
+void check(const DeckQuestion& question, detail::DeckContent content) {
+  const bool table = content == detail::DeckContent::table;
+  const bool levels = content == detail::DeckContent::levels;
   require(!question.contacts.empty(), "contacts", 0, "are given; give one at least");
   require(question.rows >= 4 && question.rows <= 100000, "rows", question.rows,
           "must be from 4 to 100000");
@@ -213,17 +215,19 @@ void check(const DeckQuestion& question, bool table) {
             "pressure_window", question.pressure_window->first, "must be > 0 and rise");
   const bool friction = !std::isnan(question.friction_coefficient);
   if (friction) require_positive(question.friction_coefficient, "friction_coefficient");
-  require_that(table || friction, "friction_coefficient", "not given, but sliders need it");
+  require_that(content != detail::DeckContent::sliders || friction, "friction_coefficient",
+               "not given, but sliders need it");
   for (const DeckContact& contact : question.contacts) {
     const double area = area_of(question, contact);
-    if (table || question.pressure_window)
+    if (table || question.pressure_window || (levels && question.contacts.size() > 1))
       require_that(area > 0 && std::isfinite(area), "nominal_area",
                    "not given, but a pressure is a force per nominal area");
-    if (!friction) continue;
+    if (!friction && !levels) continue;
     require_that(
         contact.knows_tangential_stiffness, "tangential_stiffness",
         "is not known, but friction needs it; give `poisson` or `tangential_modulus`, or a "
         "curve with stick solves");
+    if (levels) continue;
     require_that(!std::isnan(contact.indentation), "normal_force",
                  "not given, but the tangential stiffness depends on it; give `normal_force`, "
                  "`pressure`, `mean_gap` or `indentation`");
@@ -316,19 +320,20 @@ void add_table(Deck& deck, int most_rows, DeckAnswer& answer) {
             question.friction_coefficient * pascal));
 }
 
+/// The contacts of one case, and what they are called.
+std::pair<std::vector<std::size_t>, std::string> case_of(const DeckQuestion& question) {
+  if (question.contacts.size() == 1) return {{0}, what_of(question.of, {0}, 1)};
+  const Range range = common_range(question);
+  for (const auto& [which, surfaces] : cases_of(question, (range.far + range.close) / 2))
+    if (which == question.of) return {surfaces, what_of(which, surfaces, question.contacts.size())};
+  return {};
+}
+
 void add_sliders(Deck& deck, DeckAnswer& answer) {
   const DeckQuestion& question = deck.question;
-  std::vector<DeckContact> contacts = question.contacts;
-  std::string what = "one surface or law";
-  if (contacts.size() > 1) {
-    const Range range = common_range(question);
-    for (const auto& [which, surfaces] : cases_of(question, (range.far + range.close) / 2)) {
-      if (which != question.of) continue;
-      what = what_of(which, surfaces, question.contacts.size());
-      contacts.clear();
-      for (const std::size_t i : surfaces) contacts.push_back(question.contacts[i]);
-    }
-  }
+  const auto [which, what] = case_of(question);
+  std::vector<DeckContact> contacts;
+  for (const std::size_t i : which) contacts.push_back(question.contacts[i]);
   detail::SliderSet set = detail::jenkins_sliders(contacts, question.friction_coefficient,
                                                   question.sliders, question.smallest_force);
   answer.tangential_stiffness = set.stiffness;
@@ -351,6 +356,51 @@ void add_sliders(Deck& deck, DeckAnswer& answer) {
       "sticks is one slider.",
       question.smallest_force, 100 * set.loss_error, set.resolved));
   deck.sliders = std::move(set.sliders);
+}
+
+/// The law of a case: of one contact its own, of several their mean at each clearance as a table.
+std::shared_ptr<const ContactLaw> law_of_case(const DeckQuestion& question, const Range& range,
+                                              const std::vector<std::size_t>& which) {
+  const DeckContact& first = question.contacts[which.front()];
+  if (which.size() == 1) return first.law;
+  std::vector<double> clearance;
+  for (int i = 0; i < question.rows; ++i)
+    clearance.push_back(std::lerp(range.far, range.close, double(i) / (question.rows - 1)));
+  const DeckLaw mean = law_of_contacts(question, clearance, which);
+  const double area = area_of(question, first);
+  ForceCurve curve{.model = "mean", .nominal_area = area, .samples = {}};
+  for (std::size_t i = 0; i < clearance.size(); ++i)
+    curve.samples.push_back({.indentation = first.clearance_origin - clearance[i],
+                             .force = area * mean.pressure[i],
+                             .normal_stiffness = area * mean.normal_stiffness[i],
+                             .tangential_stiffness = area * mean.tangential_stiffness[i]});
+  return std::make_shared<TabulatedLaw>(curve, first.law->modulus_ratio());
+}
+
+void add_levels(Deck& deck) {
+  const DeckQuestion& question = deck.question;
+  const Range range = common_range(question);
+  const auto [which, what] = case_of(question);
+  const DeckContact& first = question.contacts[which.front()];
+  const std::shared_ptr<const ContactLaw> law = law_of_case(question, range, which);
+  // The ends of the range may miss a table by rounding.
+  const double lowest = std::max(first.clearance_origin - range.far, law->lowest_indentation());
+  const double highest = std::min(first.clearance_origin - range.close, law->highest_indentation());
+  const bool friction = !std::isnan(question.friction_coefficient);
+  deck.levels = std::make_shared<const LawLevels>(
+      *law, lowest, highest,
+      LawLevelsOptions{.friction_coefficient = friction ? question.friction_coefficient
+                                                        : std::numeric_limits<double>::infinity(),
+                       .levels = question.sliders});
+  const double metre = 1 / question.units.in_si(Dimension::length),
+               newton = 1 / question.units.in_si(Dimension::force);
+  deck.header.push_back(
+      fmt::format("Of: {}. Indentation: {:.6g} less the clearance, which is counted from {}.", what,
+                  first.clearance_origin * metre, first.clearance_from));
+  deck.header.push_back(fmt::format(
+      "Window: indentation {:.6g} to {:.6g}, force {:.6g} to {:.6g}; below it levels are coarser, "
+      "and above it the force goes on along its tangent.",
+      lowest * metre, highest * metre, law->force(lowest) * newton, law->force(highest) * newton));
 }
 
 }  // namespace
@@ -398,14 +448,21 @@ DeckContact deck_contact(ContactQuestion question, const Context& context) {
 
 DeckAnswer ask(const DeckQuestion& question) {
   const detail::DeckWriter& writer = detail::writer_of(question.format);
-  check(question, writer.table);
+  check(question, writer.content);
   DeckAnswer answer;
   answer.surfaces = int(question.contacts.size());
   Deck deck{.question = question, .header = opening(question)};
-  if (writer.table)
-    add_table(deck, writer.most_rows, answer);
-  else
-    add_sliders(deck, answer);
+  switch (writer.content) {
+    case detail::DeckContent::table:
+      add_table(deck, writer.most_rows, answer);
+      break;
+    case detail::DeckContent::sliders:
+      add_sliders(deck, answer);
+      break;
+    case detail::DeckContent::levels:
+      add_levels(deck);
+      break;
+  }
   convert(deck);
   answer.text = writer.write(deck);
   return answer;

@@ -3,6 +3,7 @@
 #include "formats.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <numbers>
 #include <salebra/base/version.hpp>
 
+#include "c_header.hpp"
 #include "io/json.hpp"
 
 namespace salebra::detail {
@@ -214,6 +216,14 @@ std::string jenkins(const Deck& deck) {
   return text;
 }
 
+std::string header_of_c(const Deck& deck) {
+  const UnitSystem& units = deck.question.units;
+  return c_header(*deck.levels, {.name = deck.question.name,
+                                 .comment = fmt::format("{}", fmt::join(deck.header, "\n")),
+                                 .length_unit = units.in_si(Dimension::length),
+                                 .force_unit = units.in_si(Dimension::force)});
+}
+
 }  // namespace
 
 bool Deck::has_friction() const { return !std::isnan(question.friction_coefficient); }
@@ -226,11 +236,12 @@ const DeckWriter& writer_of(DeckFormat format) {
   static constexpr std::array writers{
       DeckWriter{DeckFormat::csv, csv},
       DeckWriter{DeckFormat::json, json},
-      DeckWriter{DeckFormat::calculix, calculix, true, 198},
+      DeckWriter{DeckFormat::calculix, calculix, DeckContent::table, 198},
       DeckWriter{DeckFormat::abaqus, abaqus},
-      DeckWriter{DeckFormat::ansys, ansys, true, 19},
+      DeckWriter{DeckFormat::ansys, ansys, DeckContent::table, 19},
       DeckWriter{DeckFormat::code_aster, code_aster},
-      DeckWriter{DeckFormat::jenkins, jenkins, false},
+      DeckWriter{DeckFormat::jenkins, jenkins, DeckContent::sliders},
+      DeckWriter{DeckFormat::c_header, header_of_c, DeckContent::levels},
   };
   return *std::ranges::find(writers, format, &DeckWriter::format);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <salebra/damping/contact_element.hpp>
 #include <salebra/export/deck.hpp>
 #include <string>
 #include <vector>
@@ -30,6 +32,7 @@ struct Deck {
   std::vector<double> clearance = {};    ///< from the farthest to the closest
   std::vector<DeckLaw> laws = {};        ///< the mean, and of several surfaces low and high
   std::vector<Slider> sliders = {};      ///< from the one that slips first on
+  std::shared_ptr<const LawLevels> levels = {};
   double exponential_pressure = DeckContact::unknown;  ///< at clearance 0, of one exponential law
   double exponential_length = DeckContact::unknown;    ///< l of it
 
@@ -40,11 +43,13 @@ struct Deck {
 /// farthest row meets zero, so that the table stays convex.
 double first_clearance(const Deck& deck, const DeckLaw& law);
 
-/// What each format needs beside p(g), and how it is written. A format is a function and a row.
+enum class DeckContent { table, sliders, levels };
+
+/// What a format holds, and how it is written. A format is a function and a row.
 struct DeckWriter {
   DeckFormat format;
   std::string (*write)(const Deck&);
-  bool table = true;  ///< p(g); false: sliders
+  DeckContent content = DeckContent::table;
   int most_rows = 100000;
 };
 const DeckWriter& writer_of(DeckFormat format);

@@ -15,7 +15,7 @@
 /// Contact laws as input of other programs (docs/howto/decks.md has formats and their manuals).
 namespace salebra {
 
-enum class DeckFormat { csv, json, calculix, abaqus, ansys, code_aster, jenkins };
+enum class DeckFormat { csv, json, calculix, abaqus, ansys, code_aster, jenkins, c_header };
 template <>
 struct Words<DeckFormat> {
   static constexpr auto values = std::to_array<std::pair<DeckFormat, std::string_view>>(
@@ -25,7 +25,8 @@ struct Words<DeckFormat> {
        {DeckFormat::abaqus, "abaqus"},
        {DeckFormat::ansys, "ansys"},
        {DeckFormat::code_aster, "code_aster"},
-       {DeckFormat::jenkins, "jenkins"}});
+       {DeckFormat::jenkins, "jenkins"},
+       {DeckFormat::c_header, "c_header"}});
 };
 
 /// Which of several surfaces a deck is of. Low and high are whole surfaces, ranked by their force at
@@ -73,9 +74,10 @@ struct DeckQuestion {
   /// Nominal pressures that decks hold, Pa; none: as far as the contacts go.
   std::optional<std::pair<double, double>> pressure_window = {};
   int rows = 200;                ///< of a table, 4 to 100000; of CalculiX at most 198, of Ansys 19
-  DeckCase of = DeckCase::mean;  ///< of Jenkins' sliders; the other formats hold all three
-  int sliders = 200;             ///< 2 to 100000
+  DeckCase of = DeckCase::mean;  ///< of sliders and of a C header; the other formats hold all three
+  int sliders = 200;             ///< 2 to 100000; of a C header levels, 8 to 4096
   double smallest_force = 0.01;  ///< T/(μF) from which the loss of Jenkins' sliders is right
+  std::string name = "contact";  ///< with which every name of a C header begins
   std::string source = {};       ///< of the contacts, for the header
   std::string remark = {};       ///< a sentence more in the header
   Provenance provenance = {};
@@ -111,6 +113,8 @@ constexpr void describe(auto&& visit, std::type_identity<DeckAnswer>) {
 /// (μ/ρ)(δ − ζ) on, so that the backbone is T' = K_t(δ − ρx/μ) as in joint_loss(). A slider stands
 /// for those between two displacements, with their stiffness and their force: T and T' are met at
 /// each of these exactly, K_t and μF by all sliders together. Loss converges with order 2.
+/// A C header has the steps of ContactElement without dependencies, its levels over the clearances
+/// of the deck; without μ it is in full stick.
 /// throws  InvalidInput for a force that does not grow with approach, a curve that is not convex, an
 ///         area, K_t, position or coefficient of friction that the format needs and nobody gave,
 ///         surfaces without a common range, and numbers out of range

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/damping/contact_element.hpp>
+#include <string>
+
+namespace salebra {
+
+struct CHeaderOptions {
+  std::string name = "contact";  ///< with which every name in the header begins
+  std::string comment = {};      ///< stands first, line by line: licence, source, units
+  double length_unit = 1;        ///< of the header, m
+  double force_unit = 1;         ///< of the header, N
+};
+
+/// A header of C99, which is C++ as well, that needs the standard's math.h alone: tables of the
+/// levels, and <name>_state, <name>_start(), <name>_step() with the forces and derivatives of
+/// ContactElement, up to round-off. Throws InvalidInput for a name that C does not take.
+std::string c_header(const LawLevels& levels, const CHeaderOptions& options = {});
+
+}  // namespace salebra

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "export/c_header.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <memory>
+#include <random>
+#include <salebra/base/error.hpp>
+#include <salebra/damping/contact_element.hpp>
+#include <string>
+
+using namespace salebra;
+
+namespace {
+
+// Reads δ x y from one file, and writes F, F_x, F_y and the derivatives to another: each step is tried
+// before it is taken.
+constexpr const char* driver = R"(
+#include "bolt.h"
+#include <stdio.h>
+int main(void) {
+  bolt_state state;
+  double at[3];
+  FILE *path = fopen("path.txt", "r"), *out = fopen("forces.txt", "w");
+  bolt_start(&state, 0, 0, 0);
+  while (fscanf(path, "%lf %lf %lf", at, at + 1, at + 2) == 3) {
+    bolt_forces tried = bolt_step(&state, NULL, at[0], at[1], at[2]);
+    bolt_forces taken = bolt_step(&state, &state, at[0], at[1], at[2]);
+    int i, j;
+    if (tried.tangential[0] != taken.tangential[0]) return 1;
+    fprintf(out, "%.17g %.17g %.17g", taken.normal, taken.tangential[0], taken.tangential[1]);
+    for (i = 0; i < 3; ++i)
+      for (j = 0; j < 3; ++j) fprintf(out, " %.17g", taken.stiffness[i][j]);
+    fprintf(out, "\n");
+  }
+  return fclose(out);
+}
+)";
+
+void compare(const ContactLaw& law, double lowest, double highest, double friction) {
+  const auto levels = std::make_shared<const LawLevels>(
+      law, lowest, highest, LawLevelsOptions{.friction_coefficient = friction, .levels = 40});
+  // Millimetres and kilonewtons: what is checked against SI are the units as well.
+  const CHeaderOptions options{
+      .name = "bolt", .comment = "one\ntwo", .length_unit = 1e-3, .force_unit = 1e3};
+  std::ofstream("bolt.h") << c_header(*levels, options);
+  std::ofstream("driver.c") << driver;
+  std::mt19937_64 bits(5);
+  const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  std::vector<std::array<double, 3>> path;
+  std::ofstream file("path.txt");
+  file.precision(17);
+  for (int i = 0; i < 2000; ++i) {
+    path.push_back({std::lerp(lowest - 2e-8, highest, uniform()), 4e-8 * (2 * uniform() - 1),
+                    4e-8 * (2 * uniform() - 1)});
+    for (const double one : path.back()) file << one * 1e3 << ' ';
+    file << '\n';
+  }
+  file.close();
+  REQUIRE(std::system(SALEBRA_COMPILER
+                      " -x c -std=c99 -pedantic -Wall -Wextra -Werror driver.c -o driver -lm") ==
+          0);
+  REQUIRE(std::system("./driver") == 0);
+  // Round-off of sums of forty levels, relative to the largest of each kind.
+  const double force = law.force(highest), stiffness = law.normal_stiffness(highest);
+  ContactElement element(levels);
+  element.start(0, 0, 0);
+  std::ifstream forces("forces.txt");
+  double worst_force = 0, worst_stiffness = 0;
+  for (const auto& [indentation, x, y] : path) {
+    const ElementForces here = element.move_to(indentation, x, y);
+    for (const double expected : {here.normal, here.tangential[0], here.tangential[1]}) {
+      double found = std::numeric_limits<double>::quiet_NaN();
+      forces >> found;
+      worst_force = std::max(worst_force, std::abs(found * 1e3 - expected) / force);
+    }
+    for (const auto& row : here.stiffness)
+      for (const double expected : row) {
+        double found = std::numeric_limits<double>::quiet_NaN();
+        forces >> found;
+        worst_stiffness = std::max(worst_stiffness, std::abs(found * 1e6 - expected) / stiffness);
+      }
+  }
+  CHECK(forces.good());
+  CHECK(worst_force < 1e-13);
+  CHECK(worst_stiffness < 1e-11);
+}
+
+}  // namespace
+
+TEST_CASE("A C header takes the steps of a contact element") {
+  constexpr double ratio = 0.8;
+  for (const double friction : {0.3, std::numeric_limits<double>::infinity()}) {
+    compare(ExponentialLaw(10, 1e-7, ratio), -5e-8, 5e-8, friction);
+    compare(PowerLaw(1e9, 1.5, ratio), 1e-8, 9e-8, friction);
+  }
+}
+
+TEST_CASE("A C header has a name of C") {
+  const LawLevels levels(ExponentialLaw(10, 1e-7, 0.8), -5e-8, 5e-8);
+  for (const char* name : {"", "2nd", "a-b"})
+    CHECK_THROWS_WITH(c_header(levels, {.name = name}), Catch::Contains("must be a name of C"));
+}
