@@ -228,6 +228,8 @@ def test_an_adhesive_ball_is_between_jkr_and_dmt() -> None:
     between = salebra.contact.MaugisDugdale(radius, modulus, work, 1e-6).pull_off().force
     assert dmt < between < jkr
     assert salebra.contact.suggested_adhesion_model(salebra.contact.tabor_parameter(radius, modulus, work, 1e-9)) == "jkr"
+
+
 def test_a_law_is_exported_as_a_deck() -> None:
     law = salebra.ExponentialLaw(10, 100e-9, 0.8)
     deck = law.export("calculix", nominal_area=1e-6, friction_coefficient=0.3, units="mm,t,s")
