@@ -66,8 +66,8 @@ Indentation δ grows with approach. Functions take a number or an array and retu
              int rows, int sliders, double smallest_force, const std::string& name,
              const std::string& source) {
             // The law outlives the call.
-            const std::shared_ptr<const ContactLaw> shared(std::shared_ptr<void>(), &self);
-            const DeckQuestion question{.contacts = {deck_contact(shared, indentation)},
+            const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
+            const DeckQuestion question{.contacts = {deck_contact(alias, indentation)},
                                         .format = format.value("format"),
                                         .units = parse_unit_system(units),
                                         .friction_coefficient = friction_coefficient,

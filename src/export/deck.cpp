@@ -79,8 +79,8 @@ Range common_range(const DeckQuestion& question) {
   Range range;
   for (const DeckContact& contact : question.contacts) {
     double lowest = contact.lowest, highest = contact.highest;
-    require_that(!std::isnan(lowest), "normal_force",
-                 "not given, and the law has no table; say about which force it is taken");
+    require_that(!std::isnan(lowest), "indentation",
+                 "not given, but a law without a table is taken from forces about that there");
     if (question.pressure_window) {
       const double area = area_of(question, contact);
       lowest = contact.law->indentation_of(question.pressure_window->first * area);
@@ -228,9 +228,8 @@ void check(const DeckQuestion& question, detail::DeckContent content) {
         "is not known, but friction needs it; give `poisson` or `tangential_modulus`, or a "
         "curve with stick solves");
     if (levels) continue;
-    require_that(!std::isnan(contact.indentation), "normal_force",
-                 "not given, but the tangential stiffness depends on it; give `normal_force`, "
-                 "`pressure`, `mean_gap` or `indentation`");
+    require_that(!std::isnan(contact.indentation), "indentation",
+                 "not given, nor another position, on which the tangential stiffness depends");
   }
 }
 
@@ -432,7 +431,7 @@ DeckContact deck_contact(ContactQuestion question, const Context& context) {
     clearance_from = "where the normal force is that of the position";
   }
   ContactAnswer answer = ask(std::move(question), context);
-  require(answer.positions.size() < 2, "normal_force",
+  require(answer.positions.size() < 2, "contacts",
           fmt::format("{} positions", answer.positions.size()), "are given; a deck takes one");
   std::optional<double> indentation;
   if (!answer.positions.empty())

@@ -100,7 +100,7 @@ std::string upper_case(std::string name) {
 /// Pairs of pressure and overclosure in ascending order, from no pressure on. zero: the clearance
 /// at which the overclosure is 0.
 std::string overclosures(const Deck& deck, const DeckLaw& law, double zero) {
-  std::string text = fmt::format("0, {}\n", number(zero - first_clearance(deck, law)));
+  std::string text = fmt::format("0, {}\n", number(zero - first_clearance(deck)));
   for (std::size_t i = 0; i < deck.clearance.size(); ++i)
     text += fmt::format("{}, {}\n", number(law.pressure[i]), number(zero - deck.clearance[i]));
   return text;
@@ -126,7 +126,7 @@ std::string calculix(const Deck& deck) {
       const std::size_t last = deck.clearance.size() - 1;
       const double step = deck.clearance[last - 1] - deck.clearance[last];
       const double rise = law.pressure[last] - law.pressure[last - 1];
-      const double steps = 10. * double(last), zero = first_clearance(deck, law);
+      const double steps = 10. * double(last), zero = first_clearance(deck);
       text += fmt::format(
           "** Draw the surfaces so that they touch where their clearance is {}:\n"
           "** overclosure = {} - clearance.\n{}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n"
@@ -171,7 +171,7 @@ std::string ansys(const Deck& deck) {
       "SALEBRA_AREA = 1.0  ! area of the surface that belongs to a pair of nodes\n";
   int type = 101;
   for (const DeckLaw& law : deck.laws) {
-    const double first = first_clearance(deck, law);
+    const double first = first_clearance(deck);
     text += fmt::format(
         "! {}: {}. Without displacement the surfaces are {} apart.\n"
         "ET,{},COMBIN39\nKEYOPT,{},1,0\nKEYOPT,{},2,1\nKEYOPT,{},3,3\nR,{},0,0",
@@ -195,7 +195,7 @@ std::string code_aster(const Deck& deck) {
       "# the normal, with RELATION='CHOC_ELAS_TRAC'. Normal law only.\n"
       "area = 1.0  # of the surface that belongs to a pair of nodes\n";
   for (const DeckLaw& law : deck.laws) {
-    const double first = first_clearance(deck, law);
+    const double first = first_clearance(deck);
     text += fmt::format("# {}: {}\ntab{} = (\n    (0.0, 0.0),\n", law.name, law.what, law.name);
     for (std::size_t i = 0; i < deck.clearance.size(); ++i)
       text += fmt::format("    ({}, {}),\n", number(first - deck.clearance[i]),
@@ -228,8 +228,11 @@ std::string header_of_c(const Deck& deck) {
 
 bool Deck::has_friction() const { return !std::isnan(question.friction_coefficient); }
 
-double first_clearance(const Deck& deck, const DeckLaw& law) {
-  return deck.clearance.front() + law.pressure.front() / law.normal_stiffness.front();
+double first_clearance(const Deck& deck) {
+  double tail = 0;
+  for (const DeckLaw& law : deck.laws)
+    tail = std::max(tail, law.pressure.front() / law.normal_stiffness.front());
+  return deck.clearance.front() + tail;
 }
 
 const DeckWriter& writer_of(DeckFormat format) {

@@ -39,9 +39,9 @@ struct Deck {
   bool has_friction() const;
 };
 
-/// A row from which a piecewise linear table starts without a pressure: where the tangent at the
-/// farthest row meets zero, so that the table stays convex.
-double first_clearance(const Deck& deck, const DeckLaw& law);
+/// The clearance at which piecewise linear tables start without a pressure, the same for all laws of
+/// a deck: no closer than where the tangent at the farthest row meets zero, so that they stay convex.
+double first_clearance(const Deck& deck);
 
 enum class DeckContent { table, sliders, levels };
 

@@ -200,7 +200,7 @@ TEST_CASE("What makes no deck is refused with what it lacks", "[export]") {
   question.format = DeckFormat::jenkins;
   CHECK(refusal(question).empty());
   question.contacts.front().indentation = DeckContact::unknown;
-  CHECK_THAT(refusal(question), Contains("normal_force: not given"));
+  CHECK_THAT(refusal(question), Contains("indentation: not given"));
   CHECK_THROWS_WITH(parse_unit_system("mm,stone,s"), Contains("stone is no mass"));
   CHECK_THROWS_WITH(parse_unit_system("mm,t"), Contains("a length, a mass and a time"));
 

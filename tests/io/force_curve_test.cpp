@@ -65,6 +65,14 @@ TEST_CASE("The file of a study of one surface holds a force curve, of several it
   }
   if (surfaces > 1) {
     CHECK_THROWS_WITH(read_force_curve(scratch / "study.h5"), Contains("2 surfaces"));
+    const std::vector<ForceCurve> all = read_force_curves(scratch / "study.h5");
+    REQUIRE(all.size() == 2);
+    for (std::size_t i = 0; i < 8; ++i) {
+      const ForceSample& sample = all[i / 4].samples.at(i % 4);
+      CHECK(sample.mean_gap == gaps[i]);
+      CHECK(sample.pressure == pressures[i % 4]);
+    }
+    CHECK(all[1].nominal_area == Approx(2e-6).epsilon(1e-15));
     return;
   }
   const ForceCurve read = read_force_curve(scratch / "study.h5");

@@ -34,7 +34,7 @@ METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "um": 1e-6, "nm": 1e-9,
 TOLERANCE = 1e-9
 
 
-def by_peer(file):
+def by_peer(file, way="salebra"):
     """Points, sizes and rms height as SurfaceTopography has them; None where it refuses. Sizes of 1 where the file states none."""
     try:
         with warnings.catch_warnings(), contextlib.redirect_stderr(io.StringIO()):
@@ -51,6 +51,8 @@ def by_peer(file):
             if topography.dim == 1:
                 x = np.asarray(topography.positions(), dtype=float)
                 n = len(x)
+                if way == "salebra-import" and topography.unit is None:
+                    x = np.linspace(x[0], x[-1], n)  # positions without a unit are not used
                 even = x[0] + np.arange(n) * (x[-1] - x[0]) / (n - 1)
                 if np.max(np.abs(even - x)) > 0.1 * (even[1] - even[0]):
                     heights = np.interp(even, x, heights)
@@ -107,6 +109,7 @@ with tempfile.TemporaryDirectory() as scratch:
         answer, message, status = by_salebra(file, bare)
         if answer is None and "salebra[formats]" in message:
             way = "salebra-import"
+            peer = by_peer(file, way)
             answer, message, status = by_salebra(file, f"{scratch}:{bare}")
         if answer is None and ("--size-x" in message or "--pixel-size" in message) and isinstance(peer, dict):
             asked = [f"--size-x={float(peer['sizes'][0])!r}", *([f"--size-y={float(peer['sizes'][1])!r}"] if peer["dim"] == 2 else [])]

@@ -228,3 +228,20 @@ def test_an_adhesive_ball_is_between_jkr_and_dmt() -> None:
     between = salebra.contact.MaugisDugdale(radius, modulus, work, 1e-6).pull_off().force
     assert dmt < between < jkr
     assert salebra.contact.suggested_adhesion_model(salebra.contact.tabor_parameter(radius, modulus, work, 1e-9)) == "jkr"
+
+
+def test_a_law_is_exported_as_a_deck() -> None:
+    law = salebra.ExponentialLaw(10, 100e-9, 0.8)
+    deck = law.export("calculix", nominal_area=1e-6, friction_coefficient=0.3, units="mm,t,s")
+    lines = [line for line in deck.splitlines() if not line.startswith("*")]
+    c0, p0, friction, slope = (float(word) for line in lines for word in line.split(","))
+    assert np.isclose(c0, 100e-6 * np.log(100)) and np.isclose(p0, 10)
+    assert friction == 0.3 and np.isclose(slope, 0.8 * 10 / 100e-6)
+    sliders = law.export("jenkins", friction_coefficient=0.3, sliders=50)
+    rows = [line.split(",") for line in sliders.splitlines() if not line.startswith("#")][1:]
+    assert len(rows) == 50
+    assert np.isclose(sum(float(force) for _, force in rows), 3, rtol=1e-13)
+    with pytest.raises(salebra.InvalidInput, match="nominal_area: not given"):
+        law.export("abaqus")
+    with pytest.raises(salebra.InvalidInput, match="format"):
+        law.export("nastran")  # type: ignore[arg-type]

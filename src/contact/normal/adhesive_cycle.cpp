@@ -85,6 +85,17 @@ double work_along(const std::vector<AdhesiveContactState>& branch, std::size_t s
   return work;
 }
 
+/// Surfaces snap somewhere between two positions, and the trapezium takes the middle: the largest error
+/// of one.
+double error_of_snap(const std::vector<AdhesiveContactState>& branch) {
+  double largest = 0;
+  for (std::size_t k = 0; k + 1 < branch.size(); ++k)
+    largest = std::max(largest, std::abs((branch[k + 1].force - branch[k].force) *
+                                         (branch[k + 1].indentation - branch[k].indentation)) /
+                                    2);
+  return largest;
+}
+
 void measure(AdhesiveCycle& cycle) {
   const auto force = [](const AdhesiveContactState& state) { return std::abs(state.force); };
   double largest = force(std::ranges::max(cycle.loading, {}, force));
@@ -95,7 +106,8 @@ void measure(AdhesiveCycle& cycle) {
     return work_along(cycle.loading, stride) + work_along(cycle.unloading, stride);
   };
   cycle.adhesion_work_per_cycle = work(1);
-  cycle.adhesion_work_error = std::abs(work(1) - work(2));
+  cycle.adhesion_work_error = std::abs(work(1) - work(2)) + error_of_snap(cycle.loading) +
+                              error_of_snap(cycle.unloading);
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ struct AdhesiveCycle {
   /// under given loads, where surfaces that come off part without end, and where both branches do
   /// not meet at the outermost position.
   double adhesion_work_per_cycle = std::numeric_limits<double>::quiet_NaN();
-  /// What it changes by without every other position, J.
+  /// What it changes by without every other position, and half of the largest step of the force times
+  /// that of the indentation of each branch, for one snap somewhere between, J.
   double adhesion_work_error = std::numeric_limits<double>::quiet_NaN();
 
   bool converged() const;
@@ -45,7 +46,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
         Quantity{"adhesion_work_per_cycle", energy, "energy that adhesion loses in a cycle"});
   visit(&S::adhesion_work_error,
         Quantity{"adhesion_work_error", energy,
-                 "change of the adhesion work without every other position"});
+                 "error of the adhesion work by the steps between positions"});
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
 
