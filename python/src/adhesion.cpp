@@ -45,7 +45,7 @@ constexpr void describe(auto&& visit, std::type_identity<BoundCycle>) {
   visit(&S::adhesion_work_per_cycle,
         Kept{"adhesion_work_per_cycle", "energy that adhesion loses in a cycle", energy});
   visit(&S::adhesion_work_error,
-        Kept{"adhesion_work_error", "change of the work without every other position", energy});
+        Kept{"adhesion_work_error", "error of the work by the steps between positions", energy});
   visit(&S::converged, Kept{"converged", "False: do not use the numbers"});
 }
 

@@ -98,8 +98,8 @@ const std::set<std::string> counts{"realisations", "seed"};
 const Meanings& columns_of_program() {
   static const Meanings all =
       meanings_of<Cost, PointCost, DampingQuestion, PathQuestion, DampingAnswer, DamperAnswer,
-                  DeckAnswer, cli::MotionOptions, cli::ContactPressures, cli::MeanSummit, cli::SurfacePoints,
-                  cli::BearingTable, cli::Lay, cli::FitChoices>();
+                  DeckAnswer, cli::MotionOptions, cli::ContactPressures, cli::MeanSummit,
+                  cli::SurfacePoints, cli::BearingTable, cli::Lay, cli::FitChoices>();
   return all;
 }
 /// These and those of studies, whose descriptions stand beside their structs.

@@ -337,7 +337,9 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
   StudyConfiguration other = configuration;
   other.conduction = {};
   CHECK(StudyParts::keys(other) == StudyParts::keys(configuration));
-  CHECK(answer_of({.configuration = other, .grid = result.grid, .pressures = result.pressures,
+  CHECK(answer_of({.configuration = other,
+                   .grid = result.grid,
+                   .pressures = result.pressures,
                    .realisations = result.realisations})
             .thermal_conductance.empty());
 }
@@ -346,8 +348,8 @@ TEST_CASE("A study has the flow through the gap of each contact where it is aske
           "[study][flow]") {
   StudyConfiguration configuration = small_study();
   configuration.levels = 0;
-  CHECK(std::isnan(
-      run_study(configuration).flow(&FlowFactors::pressure_flow_factor_x).front().mean));
+  CHECK(
+      std::isnan(run_study(configuration).flow(&FlowFactors::pressure_flow_factor_x).front().mean));
   const auto keys = StudyParts::keys(configuration);
   configuration.flow_factors = true;
   CHECK(StudyParts::keys(configuration) != keys);
@@ -357,10 +359,9 @@ TEST_CASE("A study has the flow through the gap of each contact where it is aske
   NormalContactOptions options;
   options.tolerance = configuration.tolerance;
   for (const std::size_t k : {std::size_t(0), result.pressures.size() - 1}) {
-    const FlowFactors flow = flow_factors(
-        press(surface, configuration.material.contact_modulus, {.pressure = result.pressures[k]},
-              options),
-        surface.grid);
+    const FlowFactors flow = flow_factors(press(surface, configuration.material.contact_modulus,
+                                                {.pressure = result.pressures[k]}, options),
+                                          surface.grid);
     CHECK(first.flow[k].percolates_x == flow.percolates_x);
     if (flow.percolates_x)
       CHECK(first.flow[k].pressure_flow_factor_x == Approx(flow.pressure_flow_factor_x));

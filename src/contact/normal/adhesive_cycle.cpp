@@ -106,8 +106,8 @@ void measure(AdhesiveCycle& cycle) {
     return work_along(cycle.loading, stride) + work_along(cycle.unloading, stride);
   };
   cycle.adhesion_work_per_cycle = work(1);
-  cycle.adhesion_work_error = std::abs(work(1) - work(2)) + error_of_snap(cycle.loading) +
-                              error_of_snap(cycle.unloading);
+  cycle.adhesion_work_error =
+      std::abs(work(1) - work(2)) + error_of_snap(cycle.loading) + error_of_snap(cycle.unloading);
 }
 
 }  // namespace
