@@ -405,20 +405,44 @@ TEST_CASE("A spectrum that is not self-affine becomes a table", "[twin]") {
   CHECK(inside >= 0.6 * asked);
 }
 
-TEST_CASE("Noise nine decades below the longest waves is seen as it is", "[twin]") {
-  // Waves far longer than the scan: C at κ = 1 is 1.4e9 times the noise, which was cut off once.
+TEST_CASE("Noise eight decades below the longest waves is kept as it is", "[twin]") {
+  // Waves far longer than the scan: C at κ = 1 is 5e8 times the noise.
   const TwinDraw truth = law(SpectrumForm::corner, 0.9, 2e-3, 1e-6);
   RoughPatches patches(21);
-  std::vector<ScanSpectrum> scans;
-  for (int scan = 0; scan < 3; ++scan)
-    scans.push_back(
-        scan_of(patches, truth, 256, 200e-6, instrument(Instrument::optical, 1e-9, 3e-6)));
+  const std::vector<ScanSpectrum> scans = two_instruments(patches, truth);
   REQUIRE(scans[0].psd.front() > 1e8 * scans[0].psd.back());
-  const SurfaceTwin twin = fit_twin(scans, {.leave_one_out = false});
-  // The spectra of 32 bins have a misfit of 1 with a standard deviation of about 0.3.
-  CHECK(twin.misfit < 2);
-  CHECK(twin.form != SpectrumForm::table);
-  CHECK_FALSE(twin.rolloff.seen);
+  twin_detail::Responses responses;
+  const std::vector<twin_detail::TwinData> groups =
+      twin_detail::grouped(scans, std::vector<bool>(scans.size()), responses);
+  CHECK(groups[0].noise == Approx(1e-18 * scans[0].grid.cell_area() / (4 * pi * pi)));
+  for (std::size_t k = 0; k < groups[0].bins.size(); ++k) {
+    const std::size_t bin = groups[0].bins[k];
+    CHECK(groups[0].psd[k] == Approx((scans[0].psd[bin] + scans[1].psd[bin]) / 2));
+    CHECK(groups[0].leaked[k] < 0.1 * groups[0].psd[k]);
+  }
+}
+
+TEST_CASE("Beyond a sharp end of the waves there is what the window leaks", "[twin]") {
+  // 100 modes in the side, no noise. The formula is that along an axis, the largest; the mean over
+  // directions is some fifteenth of it, the same at every distance from the end.
+  const TwinDraw truth = law(SpectrumForm::corner, 0.7, 5e-5, 2e-6);
+  RoughPatches patches(22);
+  ScanInstrument ideal;
+  ideal.noise = 0;
+  const ScanSpectrum scan =
+      scan_spectrum(patches.patch(480, 200e-6, [&](double q) { return truth.density(q); }),
+                    {480, 480, 200e-6, 200e-6}, ideal);
+  twin_detail::Responses responses;
+  const twin_detail::TwinData group = twin_detail::grouped({scan}, {false}, responses).front();
+  int beyond = 0;
+  for (std::size_t k = 0; k < group.bins.size(); ++k) {
+    if (group.wavenumber[k] < 1.2 * 2 * pi / 2e-6) continue;
+    ++beyond;
+    const double share = scan.psd[group.bins[k]] / group.leaked[k];
+    CHECK(share > 0.04);
+    CHECK(share < 0.12);
+  }
+  CHECK(beyond == 4);
 }
 
 TEST_CASE("Profiles of a surface give the spectrum of the surface", "[twin]") {
