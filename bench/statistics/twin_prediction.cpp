@@ -148,9 +148,11 @@ int main(int argc, char** argv) {
     truth.spectrum.short_cutoff = synthetic::log_uniform(patches, 2e-6, 4e-6);
     synthetic::set_slope(truth, synthetic::log_uniform(patches, 0.03, 0.2));
     const double slope = truth.rms_slope;
+    // Each ensemble has surfaces of its own.
+    const int seeds = 1000 * number;
 
     const SpectrumTable exact = tabulated(truth.spectrum, pi / size);
-    const StudyResult known = ensemble({exact, exact}, slope, surfaces, 1001);
+    const StudyResult known = ensemble({exact, exact}, slope, surfaces, seeds + 500);
     const Contacts real = contacts_of(known);
     const double k = geometric_mean(real.stiffness), a = geometric_mean(real.area);
     const auto note = [&](const std::string& row, double of_stiffness, double of_area) {
@@ -184,12 +186,12 @@ int main(int argc, char** argv) {
           optical_area.push_back(sample.contact_area_fraction);
         });
     note(rows[3], geometric_mean(optical_stiffness), geometric_mean(optical_area));
-    const Contacts plain = contacts_of(ensemble({plain_mean(scans)}, slope, 4, 1));
+    const Contacts plain = contacts_of(ensemble({plain_mean(scans)}, slope, 4, seeds + 900));
     note(rows[4], geometric_mean(plain.stiffness), geometric_mean(plain.area));
 
     const SurfaceTwin twin = fit_twin(scans, {.leave_one_out = false});
     const Grid2D grid{points, points, size, size};
-    const StudyResult drawn = ensemble(tables_of(twin.draws, grid), slope, surfaces, 2);
+    const StudyResult drawn = ensemble(tables_of(twin.draws, grid), slope, surfaces, seeds);
     const Contacts said = contacts_of(drawn);
     note(rows[5], geometric_mean(said.stiffness), geometric_mean(said.area));
     shares.push_back(drawn.scan_share());
