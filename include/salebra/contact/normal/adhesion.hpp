@@ -84,7 +84,7 @@ struct AdhesionOfState {
 constexpr void describe(auto&& visit, std::type_identity<AdhesionOfState>) {
   using enum Dimension;
   using S = AdhesionOfState;
-  visit(&S::tension, Kept{"tension", "adhesive tension", Dimension::pressure});
+  visit(&S::tension, Quantity{"tension", pressure, "adhesive tension"});
   visit(&S::tension_force,
         Quantity{"tension_force", Dimension::force, "force by which adhesion pulls"});
   visit(&S::adhesive_energy, Quantity{"adhesive_energy", energy, "energy of adhesion"});
