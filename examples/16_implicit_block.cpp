@@ -37,7 +37,7 @@ int main(int argc, char** argv) try {
   };
   const Matrix3d springs = Vector3d(0, spring, spring).asDiagonal();
   const auto inside = [](const ElementForces& forces) {
-    return Vector3d(forces.normal, forces.tangential[0], forces.tangential[1]);
+    return Vector3d(forces.normal_force, forces.tangential_force[0], forces.tangential_force[1]);
   };
 
   // 3. The trapezoidal rule: Newton's method finds the end of a step, without taking it.

@@ -34,7 +34,7 @@ TabulatedLaw law_of_rough_spheres(double radius, const Material& material, doubl
 std::array<double, 3> pair_force(double overlap, const std::array<double, 2>& shear,
                                  ContactElement& history) {
   const ElementForces forces = history.move_to(overlap, shear[0], shear[1]);
-  return {forces.normal, -forces.tangential[0], -forces.tangential[1]};
+  return {forces.normal_force, -forces.tangential_force[0], -forces.tangential_force[1]};
 }
 
 }  // namespace

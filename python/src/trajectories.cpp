@@ -119,8 +119,8 @@ levels : int
           nb::rv_policy::automatic, "Indentations at which levels end, m.");
 
   nb::class_<ElementForces>(m, "ElementForces", "What a contact element answers to a step.")
-      .def_ro("normal", &ElementForces::normal, "F, N.")
-      .def_ro("tangential", &ElementForces::tangential,
+      .def_ro("normal_force", &ElementForces::normal_force, "F, N.")
+      .def_ro("tangential_force", &ElementForces::tangential_force,
               "F_x and F_y, N: what holds the displaced body.")
       .def_ro("stiffness", &ElementForces::stiffness,
               "Derivatives of F, F_x, F_y, by rows, over indentation, x and y, N/m.");

@@ -26,10 +26,10 @@ typedef struct {
   double anchor_x[@NAME@_levels], anchor_y[@NAME@_levels];
 } @NAME@_state;
 
-/* normal: F >= 0. tangential: F_x and F_y, which hold the displaced body. stiffness: the derivatives
+/* normal_force: F >= 0. tangential_force: F_x and F_y, which hold the displaced body. stiffness: the derivatives
    of (F, F_x, F_y), by rows, over (indentation, x, y) at the end of the step. */
 typedef struct {
-  double normal, tangential[2], stiffness[3][3];
+  double normal_force, tangential_force[2], stiffness[3][3];
 } @NAME@_forces;
 
 /* F, K and K' of the law: a cubic between nodes, the tangent beyond them, 0 where that is below 0. */
@@ -100,7 +100,7 @@ static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *
   if (to && to != from) *to = *from;
   @NAME@_normal(indentation, now);
   @NAME@_normal(before, then);
-  result.normal = now[0];
+  result.normal_force = now[0];
   stiffness[0][0] = now[1];
   for (i = @NAME@_levels - 1; i >= 0; --i) {
     const double floor = @NAME@_floor(i), top = @NAME@_node[i];
@@ -147,7 +147,7 @@ static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *
       stiffness[1][1] += part * hold * n_y * n_y, stiffness[2][2] += part * hold * n_x * n_x;
       stiffness[1][2] -= part * hold * n_x * n_y;
     }
-    result.tangential[0] += f_x, result.tangential[1] += f_y;
+    result.tangential_force[0] += f_x, result.tangential_force[1] += f_y;
     if (to && k > 0) to->anchor_x[i] = x - f_x / k, to->anchor_y[i] = y - f_y / k;
   }
   stiffness[2][1] = stiffness[1][2];

@@ -24,7 +24,7 @@ std::shared_ptr<const LawLevels> levels_of(const ContactLaw& law, double lowest,
 }
 
 double size_of(const ElementForces& forces) {
-  return std::hypot(forces.tangential[0], forces.tangential[1]);
+  return std::hypot(forces.tangential_force[0], forces.tangential_force[1]);
 }
 
 // A random walk of turning points in δ, x, y.
@@ -58,7 +58,7 @@ double error_of_levels(const ContactLaw& law, double low, double high, double fr
       const double x = std::lerp(from[1], path[i][1], part);
       exact.move_to(indentation, x);
       const ElementForces forces = element.move_to(indentation, x, 0);
-      worst = std::max(worst, std::abs(forces.tangential[0] - exact.tangential_force()) /
+      worst = std::max(worst, std::abs(forces.tangential_force[0] - exact.tangential_force()) /
                                   (friction * law.force(high)));
     }
     from = {path[i][0], path[i][1]};
@@ -106,9 +106,9 @@ TEST_CASE("An element in full stick loses what the levels that it lets go held")
   double work = 0;
   const auto go = [&](double indentation, double x) {
     const double before = element.state()[1],
-                 force = element.forces(indentation, before, 0).tangential[0];
+                 force = element.forces(indentation, before, 0).tangential_force[0];
     const ElementForces end = element.move_to(indentation, x, 0);
-    work += 0.5 * (force + end.tangential[0]) * (x - before);
+    work += 0.5 * (force + end.tangential_force[0]) * (x - before);
   };
   for (int lap = 0; lap < 2; ++lap) {
     go(high, 0), go(high, travel), go(low, travel), go(low, 0);
@@ -131,7 +131,7 @@ TEST_CASE("An element under a constant load loses what Mindlin's bodies lose in 
     const auto go = [&](double to) {
       for (int step = 1, steps = 2000; step <= steps; ++step) {
         const double next = x + (to - x) / (steps - step + 1);
-        const double now = element.move_to(0, next, 0).tangential[0];
+        const double now = element.move_to(0, next, 0).tangential_force[0];
         work += 0.5 * (force + now) * (next - x);
         x = next, force = now;
       }
@@ -161,8 +161,8 @@ TEST_CASE("Sliding in any direction takes μF, against the motion") {
         element.move_to(4e-8, from[1] + 1e-5 * std::cos(angle), from[2] + 1e-5 * std::sin(angle));
     // What springs were stretched by before, up to 1e-8 m, turns them by 1e-3 from the way of 1e-5 m
     // and from each other, and their sum is shorter by half of the square.
-    CHECK(size_of(forces) == Approx(0.2 * forces.normal).epsilon(1e-6));
-    CHECK(std::atan2(forces.tangential[1], forces.tangential[0]) ==
+    CHECK(size_of(forces) == Approx(0.2 * forces.normal_force).epsilon(1e-6));
+    CHECK(std::atan2(forces.tangential_force[1], forces.tangential_force[0]) ==
           Approx(angle > pi ? angle - 2 * pi : angle).margin(3e-3));
   }
 }
@@ -176,9 +176,11 @@ TEST_CASE("An element knows no direction") {
   for (const auto& [indentation, x, y] : walk(-5e-8, 5e-8, 3e-8, 200)) {
     const ElementForces a = straight.move_to(indentation, x, y);
     const ElementForces b = turned.move_to(indentation, c * x - s * y, s * x + c * y);
-    REQUIRE(b.normal == a.normal);
-    CHECK(b.tangential[0] == Approx(c * a.tangential[0] - s * a.tangential[1]).margin(1e-12 * 3));
-    CHECK(b.tangential[1] == Approx(s * a.tangential[0] + c * a.tangential[1]).margin(1e-12 * 3));
+    REQUIRE(b.normal_force == a.normal_force);
+    CHECK(b.tangential_force[0] ==
+          Approx(c * a.tangential_force[0] - s * a.tangential_force[1]).margin(1e-12 * 3));
+    CHECK(b.tangential_force[1] ==
+          Approx(s * a.tangential_force[0] + c * a.tangential_force[1]).margin(1e-12 * 3));
   }
 }
 
@@ -202,7 +204,7 @@ TEST_CASE("The stiffness of an element is the derivative of its forces") {
           const ElementForces right = element.forces(after[0], after[1], after[2]);
           for (std::size_t of = 0; of < 3; ++of) {
             const auto part = [&](const ElementForces& forces) {
-              return of == 0 ? forces.normal : forces.tangential[of - 1];
+              return of == 0 ? forces.normal_force : forces.tangential_force[of - 1];
             };
             const double backward = (part(here) - part(left)) / step;
             const double forward = (part(right) - part(here)) / step;
@@ -232,8 +234,10 @@ TEST_CASE("A copy of an element and its numbers are states to come back to") {
   element.forces(9e-8, 1e-6, 0);  // a step that is not taken
   for (int i = 20; i < 40; ++i) {
     const auto expected = element.move_to(path[i][0], path[i][1], path[i][2]);
-    CHECK(copy.move_to(path[i][0], path[i][1], path[i][2]).tangential == expected.tangential);
-    CHECK(restored.move_to(path[i][0], path[i][1], path[i][2]).tangential == expected.tangential);
+    CHECK(copy.move_to(path[i][0], path[i][1], path[i][2]).tangential_force ==
+          expected.tangential_force);
+    CHECK(restored.move_to(path[i][0], path[i][1], path[i][2]).tangential_force ==
+          expected.tangential_force);
   }
   CHECK_THROWS_WITH(restored.restore(std::vector<double>{1.0, 2.0}),
                     Catch::Contains("numbers are not those of these levels"));
@@ -247,13 +251,13 @@ TEST_CASE("An element that parts has no force, and forgets") {
     CHECK(size_of(element.move_to(0, 1e-8, 2e-8)) > 0);
     // 1e-6 of the highest force are 14 decay lengths below it, and the tangent one further.
     const ElementForces apart = element.move_to(-2e-6, 5e-7, 0);
-    CHECK(apart.normal == 0);
+    CHECK(apart.normal_force == 0);
     CHECK(size_of(apart) == 0);
     CHECK(apart.stiffness[0][0] == 0);
     // What touches again where it stands is free of stress.
     CHECK(size_of(element.move_to(0, 5e-7, 0)) < 1e-12);
     // At first all springs stick, in the levels that are as wide as they slip in 1e-9 m.
-    CHECK(element.move_to(0, 5e-7 + 1e-9, 0).tangential[0] ==
+    CHECK(element.move_to(0, 5e-7 + 1e-9, 0).tangential_force[0] ==
           Approx(law.tangential_stiffness(0) * 1e-9).epsilon(0.02));
   }
 }

@@ -31,8 +31,8 @@ int main(void) {
     bolt_forces tried = bolt_step(&state, NULL, at[0], at[1], at[2]);
     bolt_forces taken = bolt_step(&state, &state, at[0], at[1], at[2]);
     int i, j;
-    if (tried.tangential[0] != taken.tangential[0]) return 1;
-    fprintf(out, "%.17g %.17g %.17g", taken.normal, taken.tangential[0], taken.tangential[1]);
+    if (tried.tangential_force[0] != taken.tangential_force[0]) return 1;
+    fprintf(out, "%.17g %.17g %.17g", taken.normal_force, taken.tangential_force[0], taken.tangential_force[1]);
     for (i = 0; i < 3; ++i)
       for (j = 0; j < 3; ++j) fprintf(out, " %.17g", taken.stiffness[i][j]);
     fprintf(out, "\n");
@@ -73,7 +73,8 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
   double worst_force = 0, worst_stiffness = 0;
   for (const auto& [indentation, x, y] : path) {
     const ElementForces here = element.move_to(indentation, x, y);
-    for (const double expected : {here.normal, here.tangential[0], here.tangential[1]}) {
+    for (const double expected :
+         {here.normal_force, here.tangential_force[0], here.tangential_force[1]}) {
       double found = std::numeric_limits<double>::quiet_NaN();
       forces >> found;
       worst_force = std::max(worst_force, std::abs(found * 1e3 - expected) / force);

@@ -345,18 +345,18 @@ def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
     x = 3e-8
     expected = friction * load * -math.expm1(-ratio * x / (friction * decay_length))
     tried = element.forces(0.0, 0.6 * x, 0.8 * x)
-    assert math.hypot(*tried.tangential) == pytest.approx(expected, rel=1e-2)
-    assert tried.tangential[1] / tried.tangential[0] == pytest.approx(0.8 / 0.6)
-    assert tried.normal == pytest.approx(load, rel=1e-6)
+    assert math.hypot(*tried.tangential_force) == pytest.approx(expected, rel=1e-2)
+    assert tried.tangential_force[1] / tried.tangential_force[0] == pytest.approx(0.8 / 0.6)
+    assert tried.normal_force == pytest.approx(load, rel=1e-6)
     assert np.shape(tried.stiffness) == (3, 3) and tried.stiffness[0][0] == pytest.approx(load / decay_length, rel=1e-4)
     before, kept = element.state, element.copy()
     taken = element.move_to(0.0, 0.6 * x, 0.8 * x)
-    assert taken.tangential == tried.tangential
-    assert kept.move_to(0.0, 0.6 * x, 0.8 * x).tangential == taken.tangential
+    assert taken.tangential_force == tried.tangential_force
+    assert kept.move_to(0.0, 0.6 * x, 0.8 * x).tangential_force == taken.tangential_force
     assert len(before) == 3 + 2 * len(levels) and element.state[1] == 0.6 * x
     element.restore(before)
-    assert element.move_to(0.0, 0.6 * x, 0.8 * x).tangential == taken.tangential
-    assert element.move_to(-1e-5, 0.0).normal == 0
+    assert element.move_to(0.0, 0.6 * x, 0.8 * x).tangential_force == taken.tangential_force
+    assert element.move_to(-1e-5, 0.0).normal_force == 0
     with pytest.raises(salebra.InvalidInput, match="levels"):
         salebra.LawLevels(law, 0.0, 1e-8, levels=1)
 

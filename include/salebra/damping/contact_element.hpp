@@ -58,8 +58,8 @@ class LawLevels {
 
 /// What a contact answers to a step, and how that depends on its end: what Newton's method needs.
 struct ElementForces {
-  double normal = 0;                   ///< F, N, >= 0
-  std::array<double, 2> tangential{};  ///< F_x, F_y, N: what holds the displaced body
+  double normal_force = 0;                   ///< F, N, >= 0
+  std::array<double, 2> tangential_force{};  ///< F_x, F_y, N: what holds the displaced body
   /// ∂(F, F_x, F_y)/∂(δ, x, y) by rows, N/m, from the same state before the step.
   std::array<std::array<double, 3>, 3> stiffness{};
 };

@@ -28,8 +28,8 @@ struct AdhesiveCycle {
   /// under given loads, where surfaces that come off part without end, and where both branches do
   /// not meet at the outermost position.
   double adhesion_work_per_cycle = std::numeric_limits<double>::quiet_NaN();
-  /// What it changes by without every other position, and half of the largest step of the force times
-  /// that of the indentation of each branch, for one snap somewhere between, J.
+  /// What it changes by without every other position, and what two snaps somewhere between positions
+  /// may add, J.
   double adhesion_work_error = std::numeric_limits<double>::quiet_NaN();
 
   bool converged() const;
