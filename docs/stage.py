@@ -25,6 +25,7 @@ MODULES = {
     "results": "what each result is called, with unit and meaning; files of curves",
     "study": "the whole path for an ensemble",
     "questions": "what several faces ask, as data, and the answers",
+    "export": "laws as input of other programs",
     "report": "the results of a study as a page",
 }
 NOTEBOOKS = ("10_damping_of_scan", "12_joint", "13_tunable_damper", "15_own_law")

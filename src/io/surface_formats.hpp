@@ -21,7 +21,7 @@ struct SurfaceFormat {
 /// All formats, as the table of docs/formats.md lists them.
 std::vector<SurfaceFormat> surface_formats();
 
-/// ".h5 .nc …": the first extension of each format that is read, or written, for help and messages.
+/// ".h5 .npy …": the first extension of each format that is read, or written, for help and messages.
 std::string read_extensions();
 std::string written_extensions();
 

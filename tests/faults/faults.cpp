@@ -91,6 +91,10 @@ std::vector<Case> all_cases() {
        "contact IN/s.h5 --pressure 5MPa -o out.h5 --checkpoint out.state --checkpoint-every 0" +
            material},
       {"contact_curve", in, curve + " -o out.h5"},
+      {"contact_cycle", in,
+       "contact IN/s.h5 --mean-gap 60:30nm:4 --cycle --work-of-adhesion 10mJ/m2 --adhesion-range "
+       "10nm -o out.h5" +
+           material},
       {"contact_curve_table", in, curve + " -o out.csv"},
       {"contact_summits",
        {},
@@ -152,6 +156,11 @@ std::vector<Case> all_cases() {
       {"compare", {}, "compare IN/small.toml -o out.h5 --no-report"},
       {"report", {"study small.toml -o study.h5 --no-report"}, "report IN/study.h5 -o out.html"},
       {"init", {}, "init out.toml"},
+      {"twin_init", in, "twin init out.toml --files IN/s.h5"},
+      {"export",
+       {},
+       "export --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
+       "--friction-coefficient 0.3 --to c-header -o out.h"},
       {"completion", {}, "completion bash -o out.bash"},
       {"plot", in, "statistics IN/s.h5 --plot out.svg"},
       {"plot_sliding",
@@ -163,7 +172,7 @@ std::vector<Case> all_cases() {
        {},
        "damping --law exponential --normal-force 1 --decay-length 100nm --poisson 0.3 "
        "--normal-amplitude 1nm,2nm --drag-velocity 1um/s --frequency 20kHz --plot out.svg"}};
-  for (const char* format : {"h5", "nc", "gwy", "gsf", "xyz", "txt"})
+  for (const char* format : {"h5", "gwy", "gsf", "xyz", "txt"})
     cases.push_back({std::string("convert_") + format,
                      {surface + " -o s.npy"},
                      std::string("convert IN/s.npy out.") + format});
@@ -490,9 +499,13 @@ int run(int argc, char** argv) {
     throw std::runtime_error(
         "usage: faults PROGRAM LIBRARY CALLS ALLOCATIONS CASE...; CASE may be all");
   const std::vector<std::string> wanted(argv + 5, argv + argc);
+  const std::vector<Case> cases = all_cases();
+  for (const std::string& name : wanted)
+    if (name != "all" && std::ranges::find(cases, name, &Case::name) == cases.end())
+      throw std::runtime_error(name + ": no case");
   Tally total;
   std::printf("%-20s %8s %8s %10s %10s\n", "case", "faults", "survived", "refused", "violations");
-  for (const Case& one : all_cases()) {
+  for (const Case& one : cases) {
     if (wanted.front() != "all" && std::ranges::find(wanted, one.name) == wanted.end()) continue;
     Bench bench(argv[1], argv[2]);
     CaseRun test(bench, one);
