@@ -88,7 +88,7 @@ static inline void @NAME@_start(@NAME@_state *state, double indentation, double 
   for (i = 0; i < @NAME@_levels; ++i) state->anchor_x[i] = x, state->anchor_y[i] = y;
 }
 
-/* The forces at the end of a straight step. The state after it goes to `to`, which may be `from`, or
+/* The forces at the end of a straight step. The state after it goes to *to, which may be *from, or
    NULL for a step that is only tried. Apart, all forces are 0. */
 static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *to,
                                         double indentation, double x, double y) {
