@@ -436,151 +436,190 @@ std::vector<TwinWithout> fits_without(const Candidate& all) {
 
 std::string length_text(double value) { return format_quantity(value, Dimension::length, 3); }
 
-SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
-  require_that(!scans.empty(), "scans", "are none; give one or more");
-  require(options.draws >= 100, "draws", options.draws, "must be >= 100");
-  std::vector<bool> left_out(scans.size(), false);
-  Responses responses;
-  const auto data_of_all = [&] {
-    std::vector<TwinData> data = grouped(scans, left_out, responses);
+/// From scans to a twin, stage by stage.
+class TwinRun {
+ public:
+  TwinRun(const std::vector<ScanSpectrum>& scans, const TwinOptions& options)
+      : scans_(scans),
+        options_(options),
+        left_out_(scans.size(), false),
+        forms_(forms_of(data_of_all(), options.form)) {}
+
+  SurfaceTwin go() {
+    judge();
+    if (options_.leave_one_out) leave_out_each();
+    replace_by_table();
+    const Ends ends = ends_of(forms_.best);
+    describe_fit(ends);
+    draw(ends);
+    set_parameters(ends);
+    return std::move(twin_);
+  }
+
+ private:
+  std::vector<TwinData> data_of_all() {
+    std::vector<TwinData> data = grouped(scans_, left_out_, responses_);
     std::size_t bins = 0;
     for (const TwinData& group : data) bins += group.bins.size();
     require(bins >= 8, "scans", bins,
             "bins of wavelengths are usable, which are too few; give larger scans or finer tips");
     return data;
-  };
-  Forms forms = forms_of(data_of_all(), options.form);
-  SurfaceTwin twin;
-  twin.scans = judged_scans(scans, forms.best, left_out);
-  if (options.drop_bad_scans && std::ranges::find(left_out, true) != left_out.end()) {
-    forms = forms_of(data_of_all(), options.form);
+  }
+
+  void note(std::string text) { twin_.notes.push_back(std::move(text)); }
+
+  void judge() {
+    twin_.scans = judged_scans(scans_, forms_.best, left_out_);
+    if (!options_.drop_bad_scans || std::ranges::find(left_out_, true) == left_out_.end()) return;
+    forms_ = forms_of(data_of_all(), options_.form);
     // Those that are left are judged by the better fit.
-    std::vector<bool> final = left_out;
-    std::vector<TwinScan> judged = judged_scans(scans, forms.best, final);
-    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
-      if (!left_out[scan]) {
-        twin.scans[scan] = judged[scan];
+    std::vector<bool> final = left_out_;
+    std::vector<TwinScan> judged = judged_scans(scans_, forms_.best, final);
+    for (std::size_t scan = 0; scan < scans_.size(); ++scan) {
+      if (!left_out_[scan]) {
+        twin_.scans[scan] = judged[scan];
         continue;
       }
-      twin.scans[scan].left_out = true;
-      twin.notes.push_back(
-          "scan " + (scans[scan].name.empty() ? std::to_string(scan + 1) : scans[scan].name) +
-          " is left out: its spectrum is far from that of the others");
+      twin_.scans[scan].left_out = true;
+      note("scan " + (scans_[scan].name.empty() ? std::to_string(scan + 1) : scans_[scan].name) +
+           " is left out: its spectrum is far from that of the others");
     }
   }
-  if (options.leave_one_out) {
-    twin.without = fits_without(forms.best);
-    for (const TwinWithout& without : twin.without)
+
+  void leave_out_each() {
+    twin_.without = fits_without(forms_.best);
+    for (const TwinWithout& without : twin_.without)
       if (!without.agrees)
-        twin.notes.push_back("without " + without.instrument +
-                             " the parameters move by more than chance explains: one of the "
-                             "instruments is not what it is said to be");
+        note(
+            "without " + without.instrument +
+            " the parameters move by more than chance explains: one of the instruments is not what "
+            "it is said to be");
   }
-  const double misfit = forms.best.misfit();
-  const bool asked = options.form == SpectrumForm::table;
-  bool plateau = true;
-  if (asked || (!options.form && misfit > SurfaceTwin::refused_above)) {
+
+  void replace_by_table() {
+    const double misfit = forms_.best.misfit();
+    const bool asked = options_.form == SpectrumForm::table;
+    if (!asked && (options_.form || !(misfit > SurfaceTwin::refused_above))) return;
     // A table ends with the scans: whether a plateau is in them the self-affine law says.
-    plateau =
-        sees(forms.best, TwinLaw::rolloff, forms.best.model.highest()[TwinLaw::rolloff] - 1e-3);
-    Candidate table = table_near(forms.best);
-    if (!asked) {
-      const bool better = table.misfit() < 0.8 * misfit;
-      twin.notes.push_back(std::string("the scans fit no self-affine spectrum, with a corner or a "
-                                       "smooth roll-off: ") +
-                           (better ? "a table is fitted"
-                                   : "nor do they fit any other, so that they contradict each "
-                                     "other, and intervals are too narrow"));
-      if (better) forms = {std::move(table), {}, 0};
-    } else {
-      forms = {std::move(table), {}, 0};
-    }
-  }
-  const Candidate& best = forms.best;
-  const TwinModel& model = best.model;
-  twin.form = model.law().form;
-  twin.form_ratio = forms.ratio;
-  twin.bins = model.bins();
-  twin.misfit = best.misfit();
-  const Ends ends = ends_of(best);
-  twin.rolloff_ratio = ends.rolloff_ratio;
-  twin.cutoff_ratio = ends.cutoff_ratio;
-  for (std::size_t group = 0; group < model.data().size(); ++group) {
-    const TwinData& data = model.data()[group];
-    const TwinModel::Misfit of_law = model.misfit(best.fit.parameters, group);
-    twin.chi_square += of_law.deviance;
-    twin.groups.push_back({data.instrument, static_cast<Index>(data.scans.size()),
-                           2 * pi / data.wavenumber.back(), 2 * pi / data.wavenumber.front(),
-                           static_cast<Index>(data.bins.size()),
-                           model.gain(best.fit.parameters, group), of_law.ratio()});
-    if (data.tip_limit > 0)
-      twin.notes.push_back(data.instrument + ": waves below " +
-                           length_text(2 * pi / data.tip_limit) +
-                           " are left out, which the tip does not follow");
+    plateau_ =
+        sees(forms_.best, TwinLaw::rolloff, forms_.best.model.highest()[TwinLaw::rolloff] - 1e-3);
+    Candidate table = table_near(forms_.best);
+    const bool better = asked || table.misfit() < 0.8 * misfit;
+    if (!asked)
+      note(std::string("the scans fit no self-affine spectrum, with a corner or a smooth "
+                       "roll-off: ") +
+           (better ? "a table is fitted"
+                   : "nor do they fit any other, so that they contradict each other, and intervals "
+                     "are too narrow"));
+    if (better) forms_ = {std::move(table), {}, 0};
   }
 
-  // Where the forms are nearly as likely, draws are of both.
-  const double odds = std::exp(-forms.ratio / 2);
-  const bool undecided = forms.other && ends.sees_rolloff() && forms.ratio < seen_above;
-  const Index of_other =
-      undecided
-          ? static_cast<Index>(std::lround(static_cast<double>(options.draws) * odds / (1 + odds)))
-          : 0;
-  twin.draws = draws_of(best, ends, options.draws - of_other, options.seed);
-  if (of_other > 0) {
-    twin.notes.push_back(
-        "a corner and a smooth roll-off are nearly as likely: draws and intervals are of both");
-    std::vector<TwinDraw> others = draws_of(*forms.other, ends_of(*forms.other),
-                                            std::max<Index>(of_other, 1), options.seed + 1);
-    std::ranges::move(others, std::back_inserter(twin.draws));
+  void describe_fit(const Ends& ends) {
+    const Candidate& best = forms_.best;
+    const TwinModel& model = best.model;
+    twin_.form = model.law().form;
+    twin_.form_ratio = forms_.ratio;
+    twin_.bins = model.bins();
+    twin_.misfit = best.misfit();
+    twin_.rolloff_ratio = ends.rolloff_ratio;
+    twin_.cutoff_ratio = ends.cutoff_ratio;
+    for (std::size_t group = 0; group < model.data().size(); ++group) {
+      const TwinData& data = model.data()[group];
+      const TwinModel::Misfit of_law = model.misfit(best.fit.parameters, group);
+      twin_.chi_square += of_law.deviance;
+      twin_.groups.push_back({data.instrument, static_cast<Index>(data.scans.size()),
+                              2 * pi / data.wavenumber.back(), 2 * pi / data.wavenumber.front(),
+                              static_cast<Index>(data.bins.size()),
+                              model.gain(best.fit.parameters, group), of_law.ratio()});
+      if (data.tip_limit > 0)
+        note(data.instrument + ": waves below " + length_text(2 * pi / data.tip_limit) +
+             " are left out, which the tip does not follow");
+    }
   }
 
-  const auto sorted = [&](const auto& function) { return of_draws(twin.draws, function); };
-  const std::vector<double> cutoffs =
-      sorted([](const TwinDraw& draw) { return draw.short_cutoff; });
-  twin.rms_height = interval(sorted([](const TwinDraw& draw) { return draw.rms_height; }), true);
-  twin.rms_slope =
-      interval(sorted([](const TwinDraw& draw) { return draw.rms_slope; }), ends.sees_cutoff());
-  if (ends.sees_cutoff()) {
-    twin.short_cutoff = interval(cutoffs, true);
-  } else {
-    twin.short_cutoff.high = std::exp(
-        ends.cutoffs->limit(best.fit.cost, one_sided).value_or(ends.cutoffs->values.front()));
-    twin.notes.push_back("the short cut-off is not seen: it lies below " +
-                         length_text(twin.short_cutoff.high) +
-                         "; the upper limit of the rms slope follows from its prior, from " +
-                         length_text(std::exp(model.lowest()[model.law().cutoff()])) + " on");
+  /// Where the forms are nearly as likely, draws are of both.
+  void draw(const Ends& ends) {
+    const double odds = std::exp(-forms_.ratio / 2);
+    const bool undecided = forms_.other && ends.sees_rolloff() && forms_.ratio < seen_above;
+    const Index of_other = undecided ? static_cast<Index>(std::lround(
+                                           static_cast<double>(options_.draws) * odds / (1 + odds)))
+                                     : 0;
+    twin_.draws = draws_of(forms_.best, ends, options_.draws - of_other, options_.seed);
+    if (of_other == 0) return;
+    note("a corner and a smooth roll-off are nearly as likely: draws and intervals are of both");
+    std::vector<TwinDraw> others = draws_of(*forms_.other, ends_of(*forms_.other),
+                                            std::max<Index>(of_other, 1), options_.seed + 1);
+    std::ranges::move(others, std::back_inserter(twin_.draws));
   }
-  if (model.law().table()) {
-    twin.notes.push_back("rms height and slope are those of waves below " +
-                         length_text(model.largest_scan()));
-    if (!plateau) {
-      const double low =
-          quantile(sorted([](const TwinDraw& draw) { return draw.rms_height; }), 0.05);
-      twin.rms_height = {};
-      twin.rms_height.low = low;
-      twin.notes.push_back(
-          "no roll-off is seen in them: of the rms height only a lower limit is known");
+
+  std::vector<double> sorted(double TwinDraw::*number) const {
+    return of_draws(twin_.draws, [number](const TwinDraw& draw) { return draw.*number; });
+  }
+
+  void set_parameters(const Ends& ends) {
+    const TwinModel& model = forms_.best.model;
+    twin_.rms_height = interval(sorted(&TwinDraw::rms_height), true);
+    twin_.rms_slope = interval(sorted(&TwinDraw::rms_slope), ends.sees_cutoff());
+    const std::vector<double> cutoffs = sorted(&TwinDraw::short_cutoff);
+    set_cutoff(ends, cutoffs);
+    if (model.law().table())
+      set_heights_of_table();
+    else
+      set_rolloff(ends);
+    double end = model.finest_wavenumber();
+    if (ends.sees_cutoff()) end = std::max(end, 2 * pi / quantile(cutoffs, 0.5));
+    twin_.spectrum = band_of(twin_.draws, model.law(), 2 * pi / model.largest_scan(), end);
+  }
+
+  void set_cutoff(const Ends& ends, const std::vector<double>& cutoffs) {
+    if (ends.sees_cutoff()) {
+      twin_.short_cutoff = interval(cutoffs, true);
+      return;
     }
-  } else {
-    twin.hurst = interval(sorted([](const TwinDraw& draw) { return draw.hurst; }), true);
+    const TwinModel& model = forms_.best.model;
+    twin_.short_cutoff.high = std::exp(ends.cutoffs->limit(forms_.best.fit.cost, one_sided)
+                                           .value_or(ends.cutoffs->values.front()));
+    note("the short cut-off is not seen: it lies below " + length_text(twin_.short_cutoff.high) +
+         "; the upper limit of the rms slope follows from its prior, from " +
+         length_text(std::exp(model.lowest()[model.law().cutoff()])) + " on");
+  }
+
+  void set_heights_of_table() {
+    note("rms height and slope are those of waves below " +
+         length_text(forms_.best.model.largest_scan()));
+    if (plateau_) return;
+    twin_.rms_height = {};
+    twin_.rms_height.low = quantile(sorted(&TwinDraw::rms_height), 0.05);
+    note("no roll-off is seen in them: of the rms height only a lower limit is known");
+  }
+
+  void set_rolloff(const Ends& ends) {
+    twin_.hurst = interval(sorted(&TwinDraw::hurst), true);
     if (ends.sees_rolloff()) {
-      twin.rolloff = interval(sorted([](const TwinDraw& draw) { return draw.rolloff; }), true);
-    } else {
-      twin.rolloff.low = std::exp(
-          ends.rolloffs->limit(best.fit.cost, one_sided).value_or(ends.rolloffs->values.front()));
-      twin.rms_height = {};
-      twin.rms_height.low = least_height(best, *ends.rolloffs);
-      twin.notes.push_back("the roll-off is not seen: it lies beyond " +
-                           length_text(twin.rolloff.low) +
-                           "; of the rms height only a lower limit is known");
+      twin_.rolloff = interval(sorted(&TwinDraw::rolloff), true);
+      return;
     }
+    twin_.rolloff.low = std::exp(ends.rolloffs->limit(forms_.best.fit.cost, one_sided)
+                                     .value_or(ends.rolloffs->values.front()));
+    twin_.rms_height = {};
+    twin_.rms_height.low = least_height(forms_.best, *ends.rolloffs);
+    note("the roll-off is not seen: it lies beyond " + length_text(twin_.rolloff.low) +
+         "; of the rms height only a lower limit is known");
   }
-  const double end = quantile(cutoffs, 0.5);
-  twin.spectrum = band_of(twin.draws, model.law(), 2 * pi / model.largest_scan(),
-                          std::max(model.finest_wavenumber(),
-                                   ends.sees_cutoff() ? 2 * pi / end : model.finest_wavenumber()));
-  return twin;
+
+  const std::vector<ScanSpectrum>& scans_;
+  const TwinOptions& options_;
+  std::vector<bool> left_out_;
+  Responses responses_;
+  Forms forms_;
+  SurfaceTwin twin_;
+  bool plateau_ = true;  ///< whether the scans hold one, where a table is fitted
+};
+
+SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
+  require_that(!scans.empty(), "scans", "are none; give one or more");
+  require(options.draws >= 100, "draws", options.draws, "must be >= 100");
+  return TwinRun(scans, options).go();
 }
 
 }  // namespace
