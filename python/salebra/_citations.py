@@ -39,6 +39,7 @@ _ALL = {
         Citation("yastrebov2017", "V. A. Yastrebov, G. Anciaux, J.-F. Molinari, On the accurate computation of the true contact-area in mechanical contact of random rough surfaces, Tribol. Int. 114 (2017) 161", "10.1016/j.triboint.2017.04.023"),
         Citation("barber2003", "J. R. Barber, Bounds on the electrical resistance between contacting elastic rough bodies, Proc. R. Soc. A 459 (2003) 53", "10.1098/rspa.2002.1038"),
         Citation("patir_cheng1978", "N. Patir, H. S. Cheng, An average flow model for determining effects of three-dimensional roughness on partial hydrodynamic lubrication, J. Lubr. Technol. 100 (1978) 12", "10.1115/1.3453103"),
+        Citation("riedel1995", "K. S. Riedel, A. Sidorenko, Minimum bias multiple taper spectral estimation, IEEE Trans. Signal Process. 43 (1995) 188", "10.1109/78.365298"),
         Citation("sanner2022", "A. Sanner, W. G. Nöhring, L. A. Thimons, T. D. B. Jacobs, L. Pastewka, Scale-dependent roughness parameters for topography analysis, Appl. Surf. Sci. Adv. 7 (2022) 100190", "10.1016/j.apsadv.2021.100190"),
         Citation("salmon2011", "J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, Parallel random numbers: as easy as 1, 2, 3, SC '11 (2011)", "10.1145/2063384.2063405"),
         Citation("schreiber1996", "T. Schreiber, A. Schmitz, Improved surrogate data for nonlinearity tests, Phys. Rev. Lett. 77 (1996) 635", "10.1103/PhysRevLett.77.635"),
