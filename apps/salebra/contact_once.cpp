@@ -54,8 +54,7 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
     if (has_pressure) group.axes(grid);
     if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
     if (has_gap) group.dataset("gap", state.gap, "x", "y", type);
-    if (has_gap && arguments.adhesive())
-      group.dataset("tension", state.tension, "x", "y", type);
+    if (has_gap && arguments.adhesive()) group.dataset("tension", state.tension, "x", "y", type);
     group.attribute("pressure", state.mean_pressure);
     for_each_number<NormalContactState>([&](const auto& number, const Quantity& quantity) {
       group.attribute(std::string(quantity.name), number(state));

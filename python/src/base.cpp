@@ -98,14 +98,17 @@ void bind_base(nb::module_& m) {
     forked = true;
     parallel::set_threads(1);
   });
-  m.def("set_threads", [](int threads) {
-          require(!forked || threads == 1, "threads", threads,
-                  "must be 1 in a forked process; use the start method spawn for more");
-          parallel::set_threads(threads);
-        }, nb::arg("threads"),
-        "Threads that loops and transforms use from now on; 0 means all that the process may run "
-        "on, at most 64 or four for each processor.\n\n"
-        "Results have the same bits for every number of threads.");
+  m.def(
+      "set_threads",
+      [](int threads) {
+        require(!forked || threads == 1, "threads", threads,
+                "must be 1 in a forked process; use the start method spawn for more");
+        parallel::set_threads(threads);
+      },
+      nb::arg("threads"),
+      "Threads that loops and transforms use from now on; 0 means all that the process may run "
+      "on, at most 64 or four for each processor.\n\n"
+      "Results have the same bits for every number of threads.");
   m.def("threads", &parallel::threads, "Threads that loops and transforms use.");
 
   m.def(

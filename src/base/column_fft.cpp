@@ -143,8 +143,7 @@ class BackwardByColumns {
     LoopProgress loop(progress, stage, rows_.count(), 0.7, 1);
     collectively(rows_.ranks(), [&] {
       parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
-        const auto modes =
-            detail::fftw_array<Complex>(static_cast<std::size_t>(ny_ / 2 + 1));
+        const auto modes = detail::fftw_array<Complex>(static_cast<std::size_t>(ny_ / 2 + 1));
         const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny_));
         for (Index x = begin; x < end && loop.running(); ++x) {
           double* row = field_.data() + x * ny_;
@@ -171,8 +170,7 @@ class BackwardByColumns {
                     LoopProgress& loop) {
     const Index pitch = column_pitch(nx_);
     parallel::for_slabs(deal_.count(rank_, batch), [&](Index begin, Index end) {
-      const auto buffer =
-          detail::fftw_array<Complex>(static_cast<std::size_t>(block * pitch));
+      const auto buffer = detail::fftw_array<Complex>(static_cast<std::size_t>(block * pitch));
       for (Index k = begin; k < end && loop.running(); ++k) {
         const Index group = deal_.group(rank_, batch, k), count = columns_of(group);
         for (Index j = 0; j < count; ++j) {

@@ -31,7 +31,7 @@ class CycleBody {
   /// the position reached, m.
   virtual double advance(int step, double from) = 0;
   virtual CycleReading reading() const = 0;
-  virtual double stored_energy() const = 0;  ///< J
+  virtual double stored_energy() const = 0;     ///< J
   virtual Termination termination() const = 0;  ///< of all solves so far
   virtual decltype(CycleState::body) state() const = 0;
 };

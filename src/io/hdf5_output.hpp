@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "atomic_file.hpp"
-#include "hdf5_handle.hpp"
 #include "hdf5_drivers.hpp"
+#include "hdf5_handle.hpp"
 
 namespace salebra::detail::hdf5 {
 

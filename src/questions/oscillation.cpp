@@ -74,7 +74,7 @@ double ratio(const OscillationOutcome& outcome, double value, double reference) 
 
 const std::vector<std::string>& oscillating_shapes() {
   static const std::vector<std::string> names{"cylinder",  "paraboloid", "pyramids",
-                                              "sinusoids", "cone",     "elliptic-paraboloid"};
+                                              "sinusoids", "cone",       "elliptic-paraboloid"};
   return names;
 }
 

@@ -331,9 +331,9 @@ class Point {
         json[name] = number(part(std::string("damping/") + name, bem(), 1)[0]);
     for (const char* name : {"mode", "hold", "tangential_stiffness", "interval_method"})
       if (const auto text = file_.text_attribute(where_ + "damping", name)) json[name] = *text;
-    for (const char* name : {"normal_amplitude", "angular_frequency", "drag_velocity",
-                             "tangential_amplitude", "phase", "modulus_ratio", "contact_modulus",
-                             "friction_coefficient"})
+    for (const char* name :
+         {"normal_amplitude", "angular_frequency", "drag_velocity", "tangential_amplitude", "phase",
+          "modulus_ratio", "contact_modulus", "friction_coefficient"})
       if (const auto value = file_.number_attribute(where_ + "damping", name))
         json[name] = number(*value);
     return json;

@@ -97,7 +97,8 @@ TEST_CASE("Parseval: the spectrum of profiles holds their variance about their m
 }
 
 TEST_CASE("Every window keeps the expectation of short waves", "[psd]") {
-  const auto window = GENERATE(Window::none, Window::hann, Window::blackman, Window::welch, Window::radial_hann);
+  const auto window =
+      GENERATE(Window::none, Window::hann, Window::blackman, Window::welch, Window::radial_hann);
   // White heights have C = ⟨h²⟩ dx dy/(2π)² at every wave vector.
   const Surface surface = white({120, 90, 2.0, 2.0}, false);
   const RadialSpectrum radial = radial_spectrum(power_spectrum(surface, window));

@@ -100,7 +100,8 @@ TEST_CASE(
     const double mean = (weights * heights).sum() / weights.sum();
     return (weights * (heights - mean)).square().sum() / weights.square().sum();
   };
-  const Window window = GENERATE(Window::hann, Window::blackman, Window::welch, Window::radial_hann);
+  const Window window =
+      GENERATE(Window::hann, Window::blackman, Window::welch, Window::radial_hann);
   Field weights(24, 30);
   for (Index ix = 0; ix < 24; ++ix) {
     for (Index iy = 0; iy < 30; ++iy) {

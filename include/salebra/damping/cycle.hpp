@@ -92,12 +92,12 @@ constexpr void describe(auto&& visit, std::type_identity<CycleSample>) {
 
 /// What a stuck contact remembers: where each of its cells has been drawn to.
 struct StuckState {
-  ContactSet contact;             ///< now
-  TangentialField displacement;   ///< of the cells in contact, m; 0 elsewhere
-  TangentialField traction;       ///< Pa
-  TangentialField unit_traction;  ///< stick traction of a unit move, Pa/m
-  double work = 0;                ///< of the period, J
-  double released = 0;            ///< of the period, J
+  ContactSet contact;                                ///< now
+  TangentialField displacement;                      ///< of the cells in contact, m; 0 elsewhere
+  TangentialField traction;                          ///< Pa
+  TangentialField unit_traction;                     ///< stick traction of a unit move, Pa/m
+  double work = 0;                                   ///< of the period, J
+  double released = 0;                               ///< of the period, J
   Termination termination = Termination::converged;  ///< of all solves
   long iterations = 0;
   long fft_count = 0;
@@ -172,9 +172,9 @@ struct CycleResult {
   ContactSet smallest, largest;      ///< cells that are in contact always, at some time
   std::vector<CycleSample> samples;  ///< after each step of the last period
   int periods = 0;
-  long iterations = 0;     ///< of all tangential solves
-  long fft_count = 0;      ///< pairs of scalar fields
-  bool steady = false;     ///< the period repeats
+  long iterations = 0;  ///< of all tangential solves
+  long fft_count = 0;   ///< pairs of scalar fields
+  bool steady = false;  ///< the period repeats
   /// Of all solves; unless converged, do not use the numbers.
   Termination termination = Termination::iteration_limit;
 

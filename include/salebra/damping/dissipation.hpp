@@ -60,10 +60,10 @@ struct DampingResult {
   double power = unknown;           ///< P = Wω/2π, W; NaN where the motion has no ω
   double damping_constant =
       unknown;  ///< γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω
-  double normal_stiffness = unknown;  ///< K at the mean indentation, N/m
+  double normal_stiffness = unknown;      ///< K at the mean indentation, N/m
   double tangential_stiffness = unknown;  ///< K_t there: with γ the contact as a spring and damper
-  double force_curvature = unknown;   ///< F'' at the mean indentation, N/m²
-  double force = unknown;             ///< F at the mean indentation, N
+  double force_curvature = unknown;       ///< F'' at the mean indentation, N/m²
+  double force = unknown;                 ///< F at the mean indentation, N
   double mean_force = unknown;   ///< mean of F over the cycle, N; that of a finite amplitude always
   double indentation = unknown;  ///< mean indentation of the cycle, m
   /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. What Hold::force does to the mean

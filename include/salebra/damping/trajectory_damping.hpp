@@ -29,7 +29,7 @@ struct TrajectoryDamping {
   double storage_stiffness = 0;
   double loss_factor =
       0;  ///< W/(2π · storage_stiffness · ⟨(x − ⟨x⟩)²⟩), W/(2πU) of a harmonic motion; NaN as
-      ///< storage_stiffness
+  ///< storage_stiffness
   /// Columns at the samples of the trajectory, in its order: the loop is (displacement,
   /// tangential_force).
   std::vector<double>

@@ -27,8 +27,8 @@ struct PowerSpectrum {
 
   Share columns() const { return {ranks, grid.ny / 2 + 1}; }
 
-  double wavenumber_x(Index i) const;  ///< q_x, rad/m; −π/dx < q_x <= π/dx
-  double wavenumber_y(Index j) const;  ///< q_y >= 0, rad/m
+  double wavenumber_x(Index i) const;         ///< q_x, rad/m; −π/dx < q_x <= π/dx
+  double wavenumber_y(Index j) const;         ///< q_y >= 0, rad/m
   std::vector<double> wavenumbers_x() const;  ///< of all rows
   std::vector<double> wavenumbers_y() const;  ///< of the columns of this process
   double multiplicity(Index j) const;  ///< 1 where column j holds its own conjugates, 2 elsewhere

@@ -31,10 +31,10 @@ struct CoupledReport {
 /// All that a coupled contact remembers from one increment to the next.
 struct CoupledState {
   SlidingState sliding;
-  Field gap;               ///< (nx, ny), m
-  double indentation = 0;  ///< m
-  double normal_work = 0;  ///< ∫F dδ since the start, J
-  double gap_work = 0;     ///< of it, J
+  Field gap;                                         ///< (nx, ny), m
+  double indentation = 0;                            ///< m
+  double normal_work = 0;                            ///< ∫F dδ since the start, J
+  double gap_work = 0;                               ///< of it, J
   Termination termination = Termination::converged;  ///< of all increments
 };
 
