@@ -13,6 +13,8 @@
 #include <salebra/damping/contact_element.hpp>
 #include <string>
 
+#include "io/scratch.hpp"
+
 using namespace salebra;
 
 namespace {
@@ -47,12 +49,13 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
   // Millimetres and kilonewtons: what is checked against SI are the units as well.
   const CHeaderOptions options{
       .name = "bolt", .comment = "one\ntwo", .length_unit = 1e-3, .force_unit = 1e3};
-  std::ofstream("bolt.h") << c_header(*levels, options);
-  std::ofstream("driver.c") << driver;
+  const Scratch scratch;
+  scratch.file("bolt.h", c_header(*levels, options));
+  scratch.file("driver.c", driver);
   std::mt19937_64 bits(5);
   const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
   std::vector<std::array<double, 3>> path;
-  std::ofstream file("path.txt");
+  std::ofstream file(scratch / "path.txt");
   file.precision(17);
   for (int i = 0; i < 2000; ++i) {
     path.push_back({std::lerp(lowest - 2e-8, highest, uniform()), 4e-8 * (2 * uniform() - 1),
@@ -61,15 +64,16 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
     file << '\n';
   }
   file.close();
-  REQUIRE(std::system(SALEBRA_COMPILER
-                      " -x c -std=c99 -pedantic -Wall -Wextra -Werror driver.c -o driver -lm") ==
-          0);
-  REQUIRE(std::system("./driver") == 0);
+  const std::string there = "cd '" + scratch.folder().string() + "' && ";
+  REQUIRE(std::system((there + SALEBRA_COMPILER +
+                       " -x c -std=c99 -pedantic -Wall -Wextra -Werror driver.c -o driver -lm")
+                          .c_str()) == 0);
+  REQUIRE(std::system((there + "./driver").c_str()) == 0);
   // Round-off of sums of forty levels, relative to the largest of each kind.
   const double force = law.force(highest), stiffness = law.normal_stiffness(highest);
   ContactElement element(levels);
   element.start(0, 0, 0);
-  std::ifstream forces("forces.txt");
+  std::ifstream forces(scratch / "forces.txt");
   double worst_force = 0, worst_stiffness = 0;
   for (const auto& [indentation, x, y] : path) {
     const ElementForces here = element.move_to(indentation, x, y);
