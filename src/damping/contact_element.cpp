@@ -6,6 +6,8 @@
 #include <salebra/damping/contact_element.hpp>
 #include <utility>
 
+#include "contact/quadrature.hpp"
+
 namespace salebra {
 namespace {
 
@@ -31,19 +33,17 @@ double deepest(const ContactLaw& law, double lowest, double highest) {
 std::vector<double> depths(double first, double last, int count) {
   std::vector<double> result;
   if (!(last > 0)) return result;
-  if (first * count >= last) {
+  const auto sum = [&](double ratio) { return first * (std::pow(ratio, count) - 1) / (ratio - 1); };
+  constexpr double even = 1 + 1e-9;
+  if (sum(even) >= last) {
     for (int i = 1; i <= count; ++i) result.push_back(last * i / count);
     return result;
   }
-  const auto sum = [&](double ratio) { return first * (std::pow(ratio, count) - 1) / (ratio - 1); };
-  double low = 1 + 1e-9, high = 2;
-  while (sum(high) < last) high *= 2;
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = 0.5 * (low + high);
-    (sum(middle) < last ? low : high) = middle;
-  }
+  double largest = 2;
+  while (sum(largest) < last) largest *= 2;
+  const double ratio = detail::find_root([&](double r) { return sum(r) - last; }, even, largest);
   double depth = 0, step = first;
-  for (int i = 1; i < count; ++i, step *= high) result.push_back(depth += step);
+  for (int i = 1; i < count; ++i, step *= ratio) result.push_back(depth += step);
   result.push_back(last);
   return result;
 }
