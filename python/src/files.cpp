@@ -73,7 +73,7 @@ void bind_files(nb::module_& m) {
       R"(Reads the heights of a surface.
 
 What the file is follows from its first bytes, not from its name: HDF5, NPY, X3P, GWY, GSF, SUR,
- text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. Formats of instruments
+text matrices with the headers of Gwyddion and of instruments, XYZ; text may be packed by gzip. Formats of instruments
 are read by SurfaceTopography where it is installed (``pip install 'salebra[formats]'``). Undefined points become NaN.
 
 Parameters

@@ -149,7 +149,7 @@ levels : LawLevels
       .def_prop_ro(
           "state", [](const ContactElement& self) { return array_of(self.state()); },
           nb::rv_policy::automatic,
-          "Indentation, x, y, and where each level is anchored, m: a copy, for restart files.")
+          "A copy, for restart files, of the position and of where each level is anchored, m.")
       .def(
           "restore", [](ContactElement& self, const Values& state) { self.restore(state.values); },
           nb::arg("state"), "Goes back to a state of an element with the same levels.");
