@@ -12,7 +12,7 @@ namespace salebra::cli {
 /// together.
 struct Launch {
   std::string name = "salebra";     ///< of the program, in messages
-  bool by_mpi = false;              ///< salebra-mpi, also as one process
+  std::string mpi = {};             ///< of salebra-mpi, its library; empty: salebra
   Communicator ranks = {};          ///< all processes
   Communicator ranks_of_node = {};  ///< those on this machine
   /// True once all processes have come here, false where some do not within seconds.

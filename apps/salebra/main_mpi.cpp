@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     mpi::Session mpi;
     cli::Launch launch;
     launch.name = "salebra-mpi";
-    launch.by_mpi = true;
+    launch.mpi = mpi::library();
     launch.ranks = mpi.ranks();
     launch.ranks_of_node = mpi.ranks_of_node();
     // All of them learn of a failure within milliseconds, or are about to wait for ever.

@@ -26,6 +26,7 @@
 #include "options.hpp"
 #include "scarce_memory.hpp"
 #include "terminal.hpp"
+#include "version_text.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -248,6 +249,8 @@ void run(int argc, char** argv, const Launch& launch) {
     words.emplace_back("--help");
   }
   if (words.empty()) words = {"--help"};
+  if (words == std::vector<std::string>{"--version", "--verbose"})
+    return show(version_text(launch));
   std::vector<std::string> names;
   for (const Command& command : program.commands()) names.push_back(command.name());
   const std::string word = words.front();

@@ -9,4 +9,4 @@ if(git AND EXISTS ${SOURCE}/.git)
     COMMAND ${CMAKE_COMMAND} -E env GIT_OPTIONAL_LOCKS=0 ${git} describe --always --exclude=* --abbrev=12 --dirty=-modified
     WORKING_DIRECTORY ${SOURCE} OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 endif()
-file(CONFIGURE OUTPUT ${FILE} CONTENT "constexpr std::string_view source_revision = \"${revision}\";\n")
+file(CONFIGURE OUTPUT ${FILE} CONTENT "constexpr std::string_view revision_of_sources = \"${revision}\";\n")

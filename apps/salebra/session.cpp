@@ -19,9 +19,9 @@
 #include "base/printable.hpp"
 #include "io/input.hpp"
 #include "option_words.hpp"
-#include "revision.inc"
 #include "terminal.hpp"
 #include "text.hpp"
+#include "version_text.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -112,7 +112,7 @@ bool Session::stopped() const { return !ranks().all_agree(!interrupted()); }
 
 WriteOptions Session::write_options() const {
   const std::string place = ranks().alone() ? place_among_tasks() : "";
-  if (!place.empty() && launch_.by_mpi)
+  if (!place.empty() && !launch_.mpi.empty())
     throw InvalidInput("--output",
                        fmt::format("would be written by each of several tasks, for this is {} "
                                    "and yet alone; start it with the mpirun of its own MPI",
@@ -167,7 +167,7 @@ Provenance Session::provenance() const {
   Provenance provenance;
   provenance.command_line = command_line_;
   provenance.started = started_;
-  provenance.revision = source_revision;
+  provenance.revision = source_revision();
   return provenance;
 }
 
@@ -222,7 +222,7 @@ void Session::answer(const Json& object) {
 }
 
 Json Session::with_processes(Json object) const {
-  if (launch_.by_mpi) {
+  if (!launch_.mpi.empty()) {
     object["ranks"] = ranks().ranks();
     object["threads"] = parallel::threads();
   }

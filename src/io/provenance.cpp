@@ -5,10 +5,14 @@
 #include <fmt/format.h>
 #include <gsl/gsl_version.h>
 #include <hdf5.h>
+#include <zip.h>
+#include <zlib.h>
 
 #include <Eigen/Core>
 #include <chrono>
 #include <ctime>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string_view>
 
@@ -27,6 +31,13 @@ std::string library_versions() {
   return fmt::format("Eigen {}.{}.{}, FFTW {}, GSL {}, HDF5 {}.{}.{}", EIGEN_WORLD_VERSION,
                      EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, fftw.substr(0, fftw.find('-')),
                      gsl_version, major, minor, release);
+}
+
+std::string reader_versions() {
+  return fmt::format("libzip {}, zlib {}, pugixml {}.{}, nlohmann-json {}.{}.{}",
+                     zip_libzip_version(), zlibVersion(), PUGIXML_VERSION / 1000,
+                     PUGIXML_VERSION % 1000 / 10, NLOHMANN_JSON_VERSION_MAJOR,
+                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
 }
 
 }  // namespace salebra

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <salebra/base/error.hpp>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -142,6 +143,14 @@ class MpiTransport : public detail::Transport {
 
 Communicator communicator(MPI_Comm processes) {
   return Communicator(std::make_shared<MpiTransport>(processes));
+}
+
+std::string library() {
+  char words[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  check(MPI_Get_library_version(words, &length), "MPI_Get_library_version");
+  const std::string_view text(words, static_cast<std::size_t>(length));
+  return std::string(text.substr(0, text.find_first_of(",\n")));
 }
 
 Session::Session() {

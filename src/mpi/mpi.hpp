@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <salebra/base/communicator.hpp>
+#include <string>
 
 /// MPI as the transport of communicators. No other header of salebra includes mpi.h.
 namespace salebra::mpi {
@@ -21,6 +22,9 @@ namespace salebra::mpi {
 /// initialised, and the last handle be gone before it is finalised.
 /// throws   Error for what MPI refuses; the communicator is of no use then
 Communicator communicator(MPI_Comm processes);
+
+/// What the MPI library calls itself, "Open MPI v4.1.4".
+std::string library();
 
 /// MPI from its start to its end, once in a program that leaves both to salebra.
 class Session {

@@ -17,6 +17,17 @@ TEST_CASE("The program tells its version", "[program]") {
   CHECK(result.out == "salebra " + std::string(salebra::version()) + "\n");
 }
 
+TEST_CASE("What a report of a fault needs is printed at once", "[program]") {
+  const auto result = ProgramTest().done("--version --verbose");
+  CHECK(result.err.empty());
+  for (const std::string line :
+       {"salebra " + std::string(salebra::version()), std::string("revision "),
+        "arithmetic " + salebra::arithmetic(), std::string("libraries  Eigen "),
+        std::string("build "), std::string("threads "), std::string("processes  one"),
+        std::string("system     Linux ")})
+    CHECK_THAT("\n" + result.out, Contains("\n" + line));
+}
+
 TEST_CASE("Help of every command shows two examples, and the options that it has alone",
           "[program]") {
   const ProgramTest test;
