@@ -9,6 +9,7 @@
 /// is in SI units.
 namespace salebra {
 
+/// What a quantity is measured in.
 enum class Dimension {
   dimensionless,
   length,                  ///< m

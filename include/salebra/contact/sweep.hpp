@@ -12,6 +12,7 @@
 
 namespace salebra {
 
+/// What is computed at each load, and how many loads at once.
 struct SweepOptions {
   /// on_progress is told of finished loads, with stage "sweep"; when it returns false, the loads
   /// finished by then are returned.

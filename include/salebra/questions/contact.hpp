@@ -82,6 +82,7 @@ struct SurfaceContact {
 using ContactQuestion =
     std::variant<ExponentialContact, IndenterContact, CurveContact, SurfaceContact>;
 
+/// The law of a contact, where it stands on it, and what it was made from.
 struct ContactAnswer {
   std::unique_ptr<const ContactLaw> law;
   std::vector<Position> positions;                 ///< on it
@@ -129,6 +130,7 @@ constexpr void describe(auto&& visit, std::type_identity<LawState>) {
   visit(&S::tangential_stiffness, quantity::tangential_stiffness);
 }
 
+/// An axisymmetric contact at rest.
 struct IndenterState : LawState {
   double contact_radius = 0;   ///< a, m
   double force_curvature = 0;  ///< F'', N/m²
@@ -141,6 +143,7 @@ constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
   visit(&S::force_curvature, quantity::force_curvature);
 }
 
+/// What a law says of an indentation, m. Throws as the law.
 LawState state_of(const ContactLaw& law, double indentation);
 IndenterState state_of(const IndenterLaw& law, double indentation);
 

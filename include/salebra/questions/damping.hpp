@@ -128,6 +128,7 @@ constexpr void describe(auto&& visit, std::type_identity<PathQuestion>) {
         Quantity{"transverse", Dimension::length, "displacement along y"});
 }
 
+/// The loss of a path and whether its premises hold.
 struct PathAnswer {
   TrajectoryDamping loss;
   Premises premises;
@@ -150,6 +151,7 @@ struct DamperQuestion {
   ContactFacts facts = {};
 };
 
+/// The damping constant over amplitude and frequency, and what it does to an oscillator or a slider.
 struct DamperAnswer {
   ContactAnswer contact;
   /// Empty without amplitudes. With friction γ is that with slip, NaN where the velocity or the
@@ -197,6 +199,7 @@ struct JointQuestion {
   std::optional<int> direct_steps = {};
 };
 
+/// The loss of each motion, and whether its premises hold.
 struct JointAnswer {
   ContactAnswer contact;
   LawState state = {};  ///< at the mean indentation

@@ -48,6 +48,7 @@ double mean_indentation(const OscillatingBody& body, double contact_modulus,
 void load_plastically(OscillationCase& contact, const Target& position, double hardness,
                       const Progress& on_progress);
 
+/// By which routes a cycle is simulated, and how finely.
 struct OscillationRoutes {
   LevelQuadratureOptions levels;
   CycleOptions cycle;
@@ -59,6 +60,7 @@ struct OscillationRoutes {
   Index most_points = 1024;  ///< of its finest grid
 };
 
+/// One simulated cycle by each of the routes.
 struct OscillationOutcome {
   OscillationCase run;  ///< on the grid that was chosen
   LevelQuadratureResult levels;
@@ -108,8 +110,9 @@ void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& route
 OscillationLoss loss_of(const OscillationOutcome& outcome);
 /// Eq. (16), or Eq. (12) with F'' = F/l², and the exponential law at this amplitude.
 ExponentialLoss exponential_loss(const OscillationOutcome& outcome, double decay_length);
-/// Of a cycle with friction, and of one with coupling.
+/// What friction changes in the loss of a cycle.
 SlipEffect slip_effect(const OscillationOutcome& outcome);
+/// What the coupling of normal and tangential displacements changes in it.
 CouplingEffect coupling_effect(const OscillationOutcome& outcome);
 /// Judges by the force at the contact levels, and by the coupled cycle where there is one; by the
 /// facts alone where fewer than four levels touch.

@@ -24,6 +24,7 @@ struct SlidingQuestion {
   Hold hold = Hold::indentation;
 };
 
+/// Friction under vibration at each amplitude and velocity.
 struct SlidingAnswer {
   std::vector<SlidingPoint> points;  ///< amplitude by amplitude
   std::optional<RegimeMap> regimes;
@@ -49,6 +50,7 @@ struct SliderQuestion {
   SliderOptions options = {};
 };
 
+/// The motion of a slider, as simulated and averaged over the oscillation, and its stability.
 struct SliderAnswer {
   SliderMotion motion, averaged;
   SteadySliding sliding;  ///< at the velocity of the drive

@@ -221,6 +221,7 @@ struct RealisationReport {
   bool restored = false;  ///< read, not computed
 };
 
+/// How a study runs: who is told, where its parts are kept, and which processes share it.
 struct StudyRun {
   Progress on_progress = {};  ///< of the whole run
   std::function<void(const RealisationReport&)> on_realisation = {};

@@ -9,6 +9,7 @@
 
 namespace salebra {
 
+/// Pressures between which a law is fitted or a curve is known.
 struct PressureWindow {
   double pressure_min = 0;  ///< Pa
   double pressure_max = 0;  ///< Pa
