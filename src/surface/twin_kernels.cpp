@@ -21,8 +21,9 @@ void add_products(std::span<const double> values, const double* table, std::span
 }
 
 SALEBRA_VECTOR_WIDTHS
-void add_squares(double a, double b, double c, const double* u, const double* v, const double* w,
-                 double weight, std::span<double> powers) {
+void add_squares(const AlongX& x, const AlongY& y, double weight, std::span<double> powers) {
+  const double a = x.wave, b = x.plane, c = x.mean;
+  const double *const u = y.wave, *const v = y.mean, *const w = y.slope;
   double* const to = powers.data();
   for (std::size_t k = 0; k < powers.size(); ++k) {
     const double amplitude = a * u[k] - b * v[k] - c * w[k];

@@ -110,15 +110,32 @@ std::size_t cell_of(const Response& response, double kappa) {
   return std::min(static_cast<std::size_t>(after) - 1, response.middle.size() - 1);
 }
 
+/// The modes of a scan from one wave number to another with k_x, k_y >= 0, and the power at them.
 struct Quadrant {
+  ScanModes modes;
+  double inner, outer;
   Index count_x, count_y;
+  std::vector<SideModes> along_x, along_y;
   std::vector<double> power;  // [k_x][k_y]
+
+  Quadrant(const ScanModes& of, double from, double to, const std::vector<Taper>& tapers)
+      : modes(of),
+        inner(from),
+        outer(to),
+        count_x(static_cast<Index>(to / of.step_x)),
+        count_y(static_cast<Index>(to / of.step_y)) {
+    for (const Taper taper : tapers) {
+      along_x.emplace_back(taper, modes.step_x, count_x);
+      along_y.emplace_back(taper, modes.step_y, count_y);
+    }
+  }
 };
 
-/// Mean power of the waves of one cell at the modes of the bins first … last−1, times its area.
-void add_waves(const ScanModes& modes, double kappa, double weight, std::vector<SideModes>& along_x,
-               std::vector<SideModes>& along_y, double inner, double outer, bool narrow,
-               Quadrant& quadrant) {
+/// Adds the mean power of the waves of one wave number, times a weight.
+void add_waves(double kappa, double weight, bool narrow, Quadrant& quadrant) {
+  const ScanModes& modes = quadrant.modes;
+  auto &along_x = quadrant.along_x, &along_y = quadrant.along_y;
+  const double inner = quadrant.inner, outer = quadrant.outer;
   const double finest = std::min(modes.step_x, modes.step_y);
   const int angles = std::max(8, static_cast<int>(std::ceil(1.3 * kappa / finest)));
   for (int a = 0; a < angles; ++a) {
@@ -151,9 +168,10 @@ void add_waves(const ScanModes& modes, double kappa, double weight, std::vector<
                                  static_cast<std::size_t>(last - first + 1));
           for (const SideModes& sx : along_x)
             for (const SideModes& sy : along_y)
-              add_squares(sx.wave[at], sx.mean_part[at] + sx.slope_part[at], sx.mean_part[at],
-                          sy.wave.data() + from, sy.mean_part.data() + from,
-                          sy.slope_part.data() + from, share, powers);
+              add_squares(
+                  {sx.wave[at], sx.mean_part[at] + sx.slope_part[at], sx.mean_part[at]},
+                  {sy.wave.data() + from, sy.mean_part.data() + from, sy.slope_part.data() + from},
+                  share, powers);
         }
       }
     }
@@ -170,13 +188,7 @@ void add_full_response(const ScanModes& modes, const std::vector<double>& limits
   const double farthest = hann ? farthest_hann : farthest_tapered;
   const std::size_t cells = std::min(response.middle.size(), cell_of(response, farthest) + 1);
   parallel::for_slabs(static_cast<Index>(cells), [&](Index begin, Index end) {
-    Quadrant quadrant{
-        static_cast<Index>(outer / modes.step_x), static_cast<Index>(outer / modes.step_y), {}};
-    std::vector<SideModes> along_x, along_y;
-    for (const Taper taper : tapers) {
-      along_x.emplace_back(taper, modes.step_x, quadrant.count_x);
-      along_y.emplace_back(taper, modes.step_y, quadrant.count_y);
-    }
+    Quadrant quadrant(modes, inner, outer, tapers);
     for (Index cell = begin; cell < end; ++cell) {
       const auto at = static_cast<std::size_t>(cell);
       const double low = response.limits[at], high = response.limits[at + 1];
@@ -188,8 +200,7 @@ void add_full_response(const ScanModes& modes, const std::vector<double>& limits
         const double a = low + (high - low) * part / parts,
                      b = low + (high - low) * (part + 1) / parts;
         const double kappa = parts == 1 ? response.middle[at] : (a + b) / 2;
-        add_waves(modes, kappa, ring(a, b, response.middle[at]), along_x, along_y, inner, outer,
-                  hann && kappa > flat_above, quadrant);
+        add_waves(kappa, ring(a, b, response.middle[at]), hann && kappa > flat_above, quadrant);
       }
       std::vector<double> sums(last - first), counts(last - first);
       for (Index k = drifts ? drift_modes + 1 : 0; k <= quadrant.count_x; ++k)
