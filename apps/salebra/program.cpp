@@ -62,6 +62,14 @@ std::string help_hint(const CLI::App& app) {
 /// What is wrong with a command line that CLI11 refused. Reports a misspelt option before its
 /// consequences, such as the lack of the right one.
 std::string describe(const CLI::App& app, const CLI::ParseError& error) {
+  // CLI11 counts words: "--angle: At Most 1 required but received 2", "--law: 1 required NAME
+  // missing".
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    const std::string said = error.what(), option = said.substr(0, said.find(':'));
+    if (said.ends_with(" missing")) return option + ": has no value; write one behind it";
+    if (said.find("At Most") != std::string::npos)
+      return option + ": is given more than once; several values go behind one, with commas";
+  }
   const auto chosen = app.get_subcommands();
   const std::vector<std::string> words = app.remaining(true);
   if (chosen.empty()) return error.what();
