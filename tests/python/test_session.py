@@ -13,6 +13,7 @@ import textwrap
 import threading
 import time
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -352,3 +353,12 @@ def test_a_signal_handler_of_the_user_runs_during_a_solve() -> None:
         signal.signal(signal.SIGALRM, before)
     # Python runs a handler that had to wait right after the solve, which is its very end.
     assert called and called[0] - start < 0.9 * (end - start)
+
+
+def test_the_package_runs_the_program_that_lies_in_it() -> None:
+    if not (Path(salebra.__file__).parent / "_program" / "salebra").exists():
+        pytest.skip("the package was built without the program")
+    done = subprocess.run([sys.executable, "-m", "salebra", "--version"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, f"salebra {salebra.version()}\n")
+    refused = subprocess.run([sys.executable, "-m", "salebra", "statistics", "absent.h5"], capture_output=True, text=True)
+    assert refused.returncode == 2 and refused.stderr.startswith("salebra: error: absent.h5")

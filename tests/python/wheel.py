@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """wheel.py SURFACE: the README's example with an installed wheel, a report, and where each of its libraries comes from."""
 
+import json
 import math
 import re
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -50,6 +52,13 @@ if salebra.can_report():
         text = page.read_text()
         if "Plotly" not in text or '<script type="application/json" id="data">{"' not in text:
             sys.exit("the report is no page with figures and numbers")
+
+# The program that the package brings, by both of its names, without a library of the system.
+program = Path(sys.prefix, "bin", "salebra")
+for command in ([sys.executable, "-m", "salebra"], [program]):
+    done = subprocess.run([*command, "statistics", sys.argv[1], "--json"], capture_output=True, text=True)
+    if done.returncode != 0 or not math.isclose(json.loads(done.stdout)["rms_height"], salebra.height_statistics(surface).rms_height, rel_tol=1e-9):
+        sys.exit(f"{command} statistics ends with {done.returncode}: {done.stderr or done.stdout[:200]}")
 
 # Everything that this process has mapped beside the C library and the interpreter comes from the environment.
 allowed = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libutil|libresolv|libgcc_s|libstdc\+\+|libz|libpython|libexpat|libffi|libssl|libcrypto"
