@@ -44,8 +44,7 @@ ResultTable psd_table(const std::string& name, const ConvertedPsd& psd,
           psd.normalisation};
 }
 
-std::vector<ResultTable> height_tables(const Surface& surface) {
-  const BearingCurve curve(surface);
+std::vector<ResultTable> height_tables(const BearingCurve& curve) {
   BearingTable bearing;
   for (int percent = 0; percent <= 100; ++percent) {
     bearing.area_fraction.push_back(percent / 100.0);
@@ -100,21 +99,28 @@ std::vector<ResultTable> spectra(const Surface& complete, const PowerSpectrum& s
   return tables;
 }
 
-/// Those that need no filling.
-std::vector<ResultTable> other_statistics(const Surface& surface) {
-  std::vector<ResultTable> tables;
-  const bool whole = surface.ranks.alone();
-  if (whole) {
-    const CorrelationMap map = correlation_map(surface);
-    tables.push_back(table_of("correlation", lists_of(radial_correlation(map))));
-    tables.push_back(table_of("correlation_x", lists_of(profile_correlation(map, Axis::x))));
-    tables.push_back(table_of("correlation_y", lists_of(profile_correlation(map, Axis::y))));
+/// Areal parameters, and the tables that need no filling. spectrum: of the surface under its own
+/// window, if there is one.
+ArealParameters other_statistics(const Surface& surface, const PowerSpectrum* spectrum,
+                                 std::vector<ResultTable>& tables) {
+  std::optional<CorrelationMap> map;
+  std::optional<BearingCurve> curve;
+  if (surface.ranks.alone()) {
+    map = correlation_map(surface);
+    curve.emplace(surface);
+  }
+  const ArealParameters areal =
+      areal_parameters(surface, {map ? &*map : nullptr, spectrum, curve ? &*curve : nullptr});
+  if (map) {
+    tables.push_back(table_of("correlation", lists_of(radial_correlation(*map))));
+    tables.push_back(table_of("correlation_x", lists_of(profile_correlation(*map, Axis::x))));
+    tables.push_back(table_of("correlation_y", lists_of(profile_correlation(*map, Axis::y))));
   }
   tables.push_back(table_of("scale_x", lists_of(scale_dependence(surface, Axis::x))));
   tables.push_back(table_of("scale_y", lists_of(scale_dependence(surface, Axis::y))));
-  if (whole)
-    for (ResultTable& table : height_tables(surface)) tables.push_back(std::move(table));
-  return tables;
+  if (curve)
+    for (ResultTable& table : height_tables(*curve)) tables.push_back(std::move(table));
+  return areal;
 }
 
 void analyse(const StatisticsArguments& arguments, const Surface& surface, Session& session) {
@@ -140,9 +146,9 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   Json whole = answer;
   if (all) {
     if (!surface.ranks.alone()) session.note(needs_whole);
-    whole["areal"] = json_of(areal_parameters(surface));
+    const bool own = undefined == 0 && window == Window::automatic;
+    whole["areal"] = json_of(other_statistics(surface, own ? &*spectrum : nullptr, tables));
     whole["differences"] = json_of(difference_moments(surface));
-    for (ResultTable& table : other_statistics(surface)) tables.push_back(std::move(table));
   }
   write_tables(session, "statistics", whole, tables);
   if (session.has_plot()) session.plot(surface_figure(surface, {std::move(spectrum), fit.hurst}));

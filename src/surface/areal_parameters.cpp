@@ -59,12 +59,18 @@ double fall_distance(const CorrelationMap& map, double angle, double level) {
   }
 }
 
-void set_correlation_lengths(ArealParameters& result, const Surface& surface) {
-  const CorrelationMap map = correlation_map(surface);
+/// of(angle) of all directions.
+template <class Of>
+std::vector<double> of_directions(const Of& of) {
+  return parallel::map_blocks_of<double>(
+      1, directions, [&](Index k, Index) { return of(pi * static_cast<double>(k) / directions); });
+}
+
+void set_correlation_lengths(ArealParameters& result, const CorrelationMap& map) {
   const double variance = map.autocorrelation(map.origin(), 0);
   double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  for (int k = 0; k < directions; ++k) {
-    const double distance = fall_distance(map, pi * k / directions, correlation_level * variance);
+  for (const double distance : of_directions(
+           [&](double angle) { return fall_distance(map, angle, correlation_level * variance); })) {
     shortest = std::min(shortest, distance);
     longest = std::max(longest, distance);
   }
@@ -96,15 +102,14 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
   }
 }
 
-double strongest_direction(const Surface& surface) {
-  if (surface.undefined_points() > 0) return unknown;
-  const PowerSpectrum spectrum = power_spectrum(surface);
+double strongest_direction(const PowerSpectrum& spectrum) {
+  const std::vector<double> powers =
+      of_directions([&](double angle) { return ray_power(spectrum, angle); });
   double best = 0, direction = unknown;
   for (int k = 0; k < directions; ++k) {
-    const double angle = pi * k / directions;
-    if (const double power = ray_power(spectrum, angle); power > best * (1 + 1e-12)) {
+    if (const double power = powers[static_cast<std::size_t>(k)]; power > best * (1 + 1e-12)) {
       best = power;
-      direction = angle;
+      direction = pi * k / directions;
     }
   }
   return direction;
@@ -126,7 +131,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
            const double *here = rows[ix], *right = rows[ix + 1];
            if (!right) continue;
            for (Index iy = 0; iy < columns; ++iy) {
-             const Index up = (iy + 1) % grid.ny;
+             const Index up = iy + 1 < grid.ny ? iy + 1 : 0;
              const std::array along_x{(right[iy] - here[iy]) * per_dx,
                                       (right[up] - here[up]) * per_dx};
              const std::array along_y{(here[up] - here[iy]) * per_dy,
@@ -155,7 +160,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
 }
 
 /// Those that need the order of all heights, or ways across the whole surface.
-void set_of_whole(ArealParameters& result, const Surface& surface) {
+void set_of_whole(ArealParameters& result, const Surface& surface, const ArealParts& parts) {
   const std::vector<Peak> peaks = significant_peaks(surface, pruning * result.Sz);
   const double count = static_cast<double>(peaks.size());
   double curvature = 0;
@@ -163,10 +168,21 @@ void set_of_whole(ArealParameters& result, const Surface& surface) {
   result.Spd = count / surface.grid.area();
   result.Spc = peaks.empty() ? unknown : curvature / count;
 
-  set_correlation_lengths(result, surface);
-  result.Std = strongest_direction(surface);
-
-  const CoreParameters core = core_parameters(BearingCurve(surface));
+  // Copies of what is there would take longer than its use.
+  const auto use = [&](const auto* part, const auto& make, const auto& with) {
+    part ? with(*part) : with(make(surface));
+  };
+  use(parts.correlation, correlation_map,
+      [&](const CorrelationMap& map) { set_correlation_lengths(result, map); });
+  result.Std = unknown;
+  if (surface.undefined_points() == 0)
+    use(
+        parts.spectrum, [](const Surface& of) { return power_spectrum(of); },
+        [&](const PowerSpectrum& spectrum) { result.Std = strongest_direction(spectrum); });
+  CoreParameters core;
+  use(
+      parts.bearing, [](const Surface& of) { return BearingCurve(of); },
+      [&](const BearingCurve& curve) { core = core_parameters(curve); });
   result.Sk = core.core_height;
   result.Spk = core.peak_height;
   result.Svk = core.valley_depth;
@@ -176,7 +192,7 @@ void set_of_whole(ArealParameters& result, const Surface& surface) {
 
 }  // namespace
 
-ArealParameters areal_parameters(const Surface& surface) {
+ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts) {
   const HeightStatistics heights = height_statistics(surface);
   ArealParameters result;
   result.Sq = heights.rms_height;
@@ -201,7 +217,7 @@ ArealParameters areal_parameters(const Surface& surface) {
   require(surface.grid.ny >= 3, "ny", surface.grid.ny, "must be >= 3 to have peaks");
   set_gradients(result, surface);
   if (surface.ranks.alone()) {
-    set_of_whole(result, surface);
+    set_of_whole(result, surface, parts);
   } else {
     for (double* parameter : {&result.Sal, &result.Str, &result.Std, &result.Sk, &result.Spk,
                               &result.Svk, &result.Smr1, &result.Smr2, &result.Spd, &result.Spc})

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
 
@@ -15,7 +17,7 @@
 namespace salebra {
 namespace {
 
-using Modes = std::vector<std::complex<double>>;
+using PairModes = LargeArray<std::complex<double>>;
 
 using detail::unknown;
 
@@ -23,36 +25,55 @@ using detail::unknown;
 /// padded where it is not periodic.
 class PairSums {
  public:
-  PairSums(Index nx, Index ny) : fft_(nx, ny), buffer_(nx, ny) {}
+  PairSums(Index nx, Index ny)
+      : fft_(nx, ny), buffer_(uninitialised_field(nx, ny)), product_(room()) {}
 
-  Modes transform(const Field& values) {
-    buffer_.setZero();
-    buffer_.topLeftCorner(values.rows(), values.cols()) = values;
-    Modes modes(static_cast<std::size_t>(fft_.nx() * fft_.modes_y()));
-    fft_.forward(buffer_.data(), modes.data());
+  /// Of value(height) of each point.
+  template <class Value>
+  PairModes transform(const Field& heights, const Value& value) {
+    parallel::for_slabs(fft_.nx(), [&](Index begin, Index end) {
+      for (Index row = begin; row < end; ++row) {
+        double* to = buffer_.data() + row * fft_.ny();
+        const Index count = row < heights.rows() ? heights.cols() : 0;
+        const double* from = heights.data() + row * count;
+        std::transform(from, from + count, to, value);
+        std::fill(to + count, to + fft_.ny(), 0.0);
+      }
+    });
+    PairModes modes = room();
+    fft_.forward(buffer_.data(), modes.get());
     return modes;
   }
 
   /// ½ Σ_x [a(x) b(x+r) + b(x) a(x+r)] for the vectors of a map of such a grid.
-  Field correlate(const Modes& a, const Modes& b, const Grid2D& grid) {
-    Modes product(a.size());
-    std::ranges::transform(a, b, product.begin(), [](const auto& left, const auto& right) {
-      return std::complex<double>(std::real(std::conj(left) * right), 0);
+  Field correlate(const PairModes& a, const PairModes& b, const Grid2D& grid) {
+    const Index columns = fft_.modes_y();
+    parallel::for_slabs(fft_.nx(), [&](Index begin, Index end) {
+      for (auto k = static_cast<std::size_t>(begin * columns);
+           k < static_cast<std::size_t>(end * columns); ++k)
+        product_[k] = a[k].real() * b[k].real() + a[k].imag() * b[k].imag();
     });
-    fft_.backward(product.data(), buffer_.data());
+    fft_.backward(product_.get(), buffer_.data());
     const double scale = 1 / static_cast<double>(fft_.nx() * fft_.ny());
     const Index origin = grid.nx / 2;
-    Field sums(2 * origin + 1, grid.ny / 2 + 1);
-    for (Index row = 0; row < sums.rows(); ++row) {
-      const Index lag = row - origin;
-      sums.row(row) = scale * buffer_.row((lag + fft_.nx()) % fft_.nx()).head(sums.cols());
-    }
+    Field sums = uninitialised_field(2 * origin + 1, grid.ny / 2 + 1);
+    parallel::for_slabs(sums.rows(), [&](Index begin, Index end) {
+      for (Index row = begin; row < end; ++row) {
+        const Index lag = row - origin;
+        sums.row(row) = scale * buffer_.row((lag + fft_.nx()) % fft_.nx()).head(sums.cols());
+      }
+    });
     return sums;
   }
 
  private:
   RealFft2D<double> fft_;
   Field buffer_;
+  PairModes product_;
+
+  PairModes room() const {
+    return large_array<std::complex<double>>(static_cast<std::size_t>(fft_.nx() * fft_.modes_y()));
+  }
 };
 
 Index padded(Index n, bool periodic) { return periodic ? n : fast_transform_size(n + n / 2); }
@@ -68,28 +89,44 @@ CorrelationMap correlation_map(const Surface& surface) {
   require_memory(grid, (surface.periodic ? 32 : 80) * static_cast<double>(grid.points()),
                  "a correlation map");
   PairSums sums(padded(grid.nx, surface.periodic), padded(grid.ny, surface.periodic));
-  const Field defined =
-      surface.heights.unaryExpr([](double height) { return std::isnan(height) ? 0.0 : 1.0; });
-  const Field heights = surface.heights.unaryExpr(
-      [&](double height) { return std::isnan(height) ? 0.0 : height - mean; });
-  const Modes height_modes = sums.transform(heights);
-
+  const PairModes height_modes = sums.transform(
+      surface.heights, [&](double height) { return std::isnan(height) ? 0.0 : height - mean; });
   CorrelationMap map{grid, sums.correlate(height_modes, height_modes, grid), {}, {}};
-  if (surface.periodic && surface.undefined_points() == 0) {
-    map.pairs = Field::Constant(map.autocorrelation.rows(), map.autocorrelation.cols(),
-                                static_cast<double>(grid.points()));
-    map.autocorrelation /= map.pairs;
-    map.structure = 2 * (map.autocorrelation(map.origin(), 0) - map.autocorrelation);
+  Field& correlation = map.autocorrelation;
+  map.structure = uninitialised_field(correlation.rows(), correlation.cols());
+  const bool all_alike = surface.periodic && surface.undefined_points() == 0;
+  Field squares;
+  if (all_alike) {
+    map.pairs = uninitialised_field(correlation.rows(), correlation.cols());
   } else {
-    const Modes defined_modes = sums.transform(defined);
-    map.pairs = sums.correlate(defined_modes, defined_modes, grid).round();
-    const Field squares = sums.correlate(defined_modes, sums.transform(heights.square()), grid);
-    map.structure = 2 * (squares - map.autocorrelation);
-    map.structure = (map.pairs > 0).select(map.structure / map.pairs, unknown);
-    map.autocorrelation = (map.pairs > 0).select(map.autocorrelation / map.pairs, unknown);
+    const PairModes defined = sums.transform(
+        surface.heights, [](double height) { return std::isnan(height) ? 0.0 : 1.0; });
+    map.pairs = sums.correlate(defined, defined, grid).round();
+    squares = sums.correlate(
+        defined,
+        sums.transform(surface.heights,
+                       [&](double height) {
+                         return std::isnan(height) ? 0.0 : (height - mean) * (height - mean);
+                       }),
+        grid);
   }
-  // Rounding leaves a trace of either sign where there is nothing.
-  map.structure = map.structure.isNaN().select(map.structure, map.structure.max(0.0));
+  const double variance = correlation(map.origin(), 0) / static_cast<double>(grid.points());
+  parallel::for_slabs(correlation.rows(), [&](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row) {
+      auto of_row = correlation.row(row), structure = map.structure.row(row),
+           pairs = map.pairs.row(row);
+      if (all_alike) {
+        pairs.setConstant(static_cast<double>(grid.points()));
+        of_row /= pairs;
+        structure = 2 * (variance - of_row);
+      } else {
+        structure = (pairs > 0).select(2 * (squares.row(row) - of_row) / pairs, unknown);
+        of_row = (pairs > 0).select(of_row / pairs, unknown);
+      }
+      // Rounding leaves a trace of either sign where there is nothing.
+      structure = structure.isNaN().select(structure, structure.max(0.0));
+    }
+  });
   map.structure(map.origin(), 0) = 0;
   return map;
 }
@@ -114,16 +151,21 @@ Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave) {
   const double longest = std::min(map.grid.lx, map.grid.ly) / 2;
   const detail::RingMeans<2> rings(std::min(map.grid.dx(), map.grid.dy()), longest,
                                    bins_per_octave);
-  std::vector<double> sums(rings.size(), 0.0);
-  for (Index row = 0; row < map.pairs.rows(); ++row) {
-    for (Index column = 0; column < map.pairs.cols(); ++column) {
-      const double pairs = map.pairs(row, column);
-      const double distance = std::hypot(map.lag_x(row), map.lag_y(column));
-      if (!(pairs > 0) || distance > longest * (1 + 1e-12)) continue;
-      rings.add(distance, pairs, {map.autocorrelation(row, column), map.structure(row, column)},
-                sums);
-    }
-  }
+  const std::vector<double> sums = parallel::sum_blocks(
+      Share(map.pairs.rows()), rings.size(),
+      [&](Index begin, Index end, std::span<double> of_block) {
+        for (Index row = begin; row < end; ++row) {
+          std::size_t ring = 0;
+          for (Index column = 0; column < map.pairs.cols(); ++column) {
+            const double pairs = map.pairs(row, column);
+            const double distance = detail::length_of(map.lag_x(row), map.lag_y(column));
+            if (!(pairs > 0) || distance > longest * (1 + 1e-12)) continue;
+            rings.add(distance, pairs,
+                      {map.autocorrelation(row, column), map.structure(row, column)}, of_block,
+                      ring);
+          }
+        }
+      });
   Correlation radial;
   for (const auto& ring : rings.rings(sums)) {
     radial.distance.push_back(ring.radius);

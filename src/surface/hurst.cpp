@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "ring_means.hpp"
 #include "surface/dense_systems.hpp"
 
 namespace salebra {
@@ -137,9 +138,10 @@ class ModesWithin {
     const auto within = [&](Index begin, Index end) {
       std::vector<Mode> modes;
       for (Index i = 0; i < spectrum.grid.nx; ++i) {
+        const double qx = spectrum.wavenumber_x(i);
         for (Index k = begin; k < end; ++k) {
           const Index j = columns_.begin() + k;
-          const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
+          const double q = detail::length_of(qx, spectrum.wavenumber_y(j));
           if (q > 0 && q >= range.low && q <= range.high)
             modes.push_back({std::log(q), spectrum.psd(i, k), spectrum.multiplicity(j) / 2});
         }

@@ -20,16 +20,19 @@
 namespace salebra {
 namespace {
 
-/// Sum of term(height) over the defined heights of all processes.
-template <class Term>
-double sum_defined(const Surface& surface, const Term& term) {
-  return parallel::sum_blocks(surface.share(), [&](Index begin, Index end) {
-    double sum = 0;
-    for (Index ix = begin; ix < end; ++ix)
-      for (Index iy = 0; iy < surface.grid.ny; ++iy)
-        if (const double height = surface.heights(ix, iy); !std::isnan(height)) sum += term(height);
-    return sum;
-  });
+/// What add(sums, height) makes of the defined heights of all processes.
+template <class Sums, class Add>
+Sums sum_defined(const Surface& surface, const Add& add) {
+  Sums total;
+  for (const Sums& block : parallel::map_blocks<Sums>(surface.share(), [&](Index begin, Index end) {
+         Sums sums;
+         for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
+           if (const double height = surface.heights.data()[k]; !std::isnan(height))
+             add(sums, height);
+         return sums;
+       }))
+    total.add(block);
+  return total;
 }
 
 /// Sum of squares over the stencils that touch no undefined point; a NaN of any of their points
@@ -93,37 +96,41 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
 
 HeightStatistics height_statistics(const Surface& surface) {
   collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
-  HeightStatistics result;
-  result.defined_points = static_cast<Index>(sum_defined(surface, [](double) { return 1.0; }));
-  require(result.defined_points > 0, "heights", "all points",
-          "are undefined; there is nothing to measure");
-  const double count = static_cast<double>(result.defined_points);
-  result.mean = sum_defined(surface, [](double height) { return height; }) / count;
-  require(std::isfinite(result.mean), "heights", "infinity", "cannot be averaged; correct it");
-  const auto central = [&](auto power) {
-    return sum_defined(surface, [&](double height) { return power(height - result.mean); }) / count;
-  };
-  const double second = central([](double z) { return z * z; });
-  result.rms_height = std::sqrt(second);
-  result.skewness = central([](double z) { return z * z * z; }) / (second * result.rms_height);
-  result.kurtosis = central([](double z) { return z * z * z * z; }) / (second * second);
   struct Range {
-    double minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
+    double sum = 0, minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
+    Index count = 0;
     void add(const Range& other) {
+      sum += other.sum;
       minimum = std::min(minimum, other.minimum);
       maximum = std::max(maximum, other.maximum);
+      count += other.count;
     }
   };
-  Range range;
-  for (const Range& block :
-       parallel::map_blocks<Range>(surface.share(), [&](Index begin, Index end) {
-         Range found;
-         for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
-           if (const double height = surface.heights.data()[k]; !std::isnan(height))
-             found.add({height, height});
-         return found;
-       }))
-    range.add(block);
+  const auto range = sum_defined<Range>(surface, [](Range& sums, double height) {
+    sums.add({height, height, height, 1});
+  });
+  HeightStatistics result;
+  result.defined_points = range.count;
+  require(range.count > 0, "heights", "all points", "are undefined; there is nothing to measure");
+  const double count = static_cast<double>(range.count);
+  result.mean = range.sum / count;
+  require(std::isfinite(result.mean), "heights", "infinity", "cannot be averaged; correct it");
+  struct Powers {
+    double second = 0, third = 0, fourth = 0;
+    void add(const Powers& other) {
+      second += other.second;
+      third += other.third;
+      fourth += other.fourth;
+    }
+  };
+  const auto powers = sum_defined<Powers>(surface, [&](Powers& sums, double height) {
+    const double z = height - result.mean;
+    sums.add({z * z, z * z * z, z * z * z * z});
+  });
+  const double second = powers.second / count;
+  result.rms_height = std::sqrt(second);
+  result.skewness = powers.third / count / (second * result.rms_height);
+  result.kurtosis = powers.fourth / count / (second * second);
   result.minimum = range.minimum;
   result.maximum = range.maximum;
   return result;
@@ -160,7 +167,7 @@ SpectralMoments difference_moments(const Surface& surface) {
          for (Index ix = begin; ix < end; ++ix) {
            const double *left = rows[ix - 1], *here = rows[ix], *right = rows[ix + 1];
            for (Index iy = 0; iy < grid.ny; ++iy) {
-             const Index up = (iy + 1) % grid.ny, down = (iy + grid.ny - 1) % grid.ny;
+             const Index up = iy + 1 < grid.ny ? iy + 1 : 0, down = iy > 0 ? iy - 1 : grid.ny - 1;
              const bool has_up = surface.periodic || iy + 1 < grid.ny;
              const bool has_down = surface.periodic || iy > 0;
              const double height = here[iy];

@@ -10,6 +10,9 @@
 
 namespace salebra::detail {
 
+/// √(x² + y²) for lengths whose squares are normal numbers, in a fifth of the time of std::hypot.
+inline double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
+
 /// Weighted means over rings about a point, of a spectrum or a correlation. The limits of the rings
 /// are in the ratio 2^(1/rings_per_octave), the first half a ring below `innermost`, so that no
 /// radius of a square lattice lies on a limit where rounding would decide. The radius 0 is a ring
@@ -27,14 +30,22 @@ class RingMeans {
       : innermost_(innermost), rings_per_octave_(rings_per_octave) {
     require(rings_per_octave >= 1, "bins_per_octave", rings_per_octave, "must be >= 1");
     rings_ = number_of(std::max(innermost, outermost)) + 1;
+    for (std::size_t k = 0; k <= rings_; ++k)
+      limits_.push_back(
+          k == 0 ? 0 : innermost * std::exp2((static_cast<double>(k) - 1.5) / rings_per_octave));
   }
 
   /// Numbers that the sums of all rings are.
   std::size_t size() const { return rings_ * stride; }
 
+  /// near: a ring that may be the radius's; afterwards it is.
   void add(double radius, double weight, const std::array<double, quantities>& values,
-           std::span<double> sums) const {
-    const auto sum = sums.subspan(std::min(number_of(radius), rings_ - 1) * stride, stride);
+           std::span<double> sums, std::size_t& near) const {
+    // Well between the limits of a ring, no logarithm is needed to tell it.
+    if (near == 0 ||
+        !(radius > limits_[near] * (1 + 1e-9) && radius < limits_[near + 1] * (1 - 1e-9)))
+      near = std::min(number_of(radius), rings_ - 1);
+    const auto sum = sums.subspan(near * stride, stride);
     sum[0] += weight;
     sum[1] += weight * radius;
     for (std::size_t k = 0; k < quantities; ++k) sum[2 + k] += weight * values[k];
@@ -62,6 +73,7 @@ class RingMeans {
   }
 
   double innermost_;
+  std::vector<double> limits_;  ///< inner ones, and the outer one of the last ring
   int rings_per_octave_;
   std::size_t rings_ = 0;
 };

@@ -2,6 +2,8 @@
 // RMS slope and curvature over distance, and the shortest wavelength that is reliable.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
@@ -9,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "base/elementary.hpp"
+#include "base/special_values.hpp"
 #include "profiles.hpp"
 #include "shape.hpp"
 
@@ -19,17 +23,6 @@ struct Sums {
   double slope = 0, curvature = 0, least = std::numeric_limits<double>::infinity();
   Index slopes = 0, curvatures = 0;
 
-  void add_slope(double difference) {
-    if (std::isnan(difference)) return;
-    slope += difference * difference;
-    ++slopes;
-  }
-  void add_curvature(double second) {
-    if (std::isnan(second)) return;
-    curvature += second * second;
-    least = std::min(least, second);
-    ++curvatures;
-  }
   void add(const Sums& other) {
     slope += other.slope;
     curvature += other.curvature;
@@ -39,16 +32,69 @@ struct Sums {
   }
 };
 
-/// All differences of a profile over `lag` points.
-void add_differences(std::span<const double> h, bool periodic, std::size_t lag, Sums& sums) {
-  const std::size_t n = h.size();
-  for (std::size_t here = 0; here < n; ++here) {
-    const bool ahead = periodic || here + lag < n, behind = periodic || here >= lag;
-    if (!ahead) break;
-    const double rise = h[here + lag < n ? here + lag : here + lag - n] - h[here];
-    sums.add_slope(rise);
-    if (behind) sums.add_curvature(rise - (h[here] - h[here >= lag ? here - lag : here + n - lag]));
+// Places 0 … 3 and 4 … 7 of each eight points: sums of these, which are then added in pairs, have
+// the same bits for every vector width.
+using Four [[gnu::vector_size(32)]] = double;
+using FourCounts [[gnu::vector_size(32)]] = std::int64_t;
+
+struct Lanes {
+  Four slope{}, curvature{}, least = Four{} + std::numeric_limits<double>::infinity();
+  FourCounts slopes{}, curvatures{};
+
+  template <bool tested>
+  SALEBRA_INLINE void add(const double* here, std::ptrdiff_t lag) {
+    Four behind, middle, ahead;
+    std::memcpy(&behind, here - lag, sizeof behind);
+    std::memcpy(&middle, here, sizeof middle);
+    std::memcpy(&ahead, here + lag, sizeof ahead);
+    const Four rise = ahead - middle, second = rise - (middle - behind);
+    least = second < least ? second : least;
+    if constexpr (tested) {
+      const auto is_slope = rise == rise, is_curvature = second == second;
+      slope += is_slope ? rise * rise : Four{};
+      curvature += is_curvature ? second * second : Four{};
+      slopes -= is_slope;
+      curvatures -= is_curvature;
+    } else {
+      slope += rise * rise;
+      curvature += second * second;
+    }
   }
+  Sums sums() const {
+    return {(slope[0] + slope[1]) + (slope[2] + slope[3]),
+            (curvature[0] + curvature[1]) + (curvature[2] + curvature[3]),
+            std::min(std::min(least[0], least[1]), std::min(least[2], least[3])),
+            slopes[0] + slopes[1] + slopes[2] + slopes[3],
+            curvatures[0] + curvatures[1] + curvatures[2] + curvatures[3]};
+  }
+};
+
+template <bool tested>
+SALEBRA_INLINE Sums stencils(const double* heights, std::ptrdiff_t count, std::ptrdiff_t lag) {
+  Lanes left, right;
+  std::ptrdiff_t here = 0;
+  for (; here + 8 <= count; here += 8) {
+    left.add<tested>(heights + here, lag);
+    right.add<tested>(heights + here + 4, lag);
+  }
+  Sums sums = left.sums();
+  sums.add(right.sums());
+  if constexpr (!tested) sums.slopes = sums.curvatures = here;
+  for (; here < count; ++here) {
+    const double rise = heights[here + lag] - heights[here],
+                 second = rise - (heights[here] - heights[here - lag]);
+    if (!std::isnan(rise)) sums.add({.slope = rise * rise, .slopes = 1});
+    if (!std::isnan(second))
+      sums.add({.curvature = second * second, .least = second, .curvatures = 1});
+  }
+  return sums;
+}
+
+/// All differences of a profile over `lag` points, which go on at least as far before and behind
+/// it. tested: whether some of them are undefined.
+SALEBRA_VECTOR_WIDTHS
+Sums differences(const double* heights, std::ptrdiff_t count, std::ptrdiff_t lag, bool tested) {
+  return tested ? stencils<true>(heights, count, lag) : stencils<false>(heights, count, lag);
 }
 
 }  // namespace
@@ -63,8 +109,16 @@ ScaleDependence scale_dependence(const Surface& surface, Axis axis) {
   const auto blocks = detail::map_profiles(
       surface, axis, std::vector<Sums>(lags.size()),
       [&](std::vector<Sums>& sums, std::span<const double> heights) {
+        const auto reach = static_cast<std::size_t>(lags.back());
+        std::vector<double> longer(heights.size() + 2 * reach, detail::unknown);
+        std::ranges::copy(heights, longer.begin() + lags.back());
+        if (surface.periodic) {
+          std::ranges::copy(heights.last(reach), longer.begin());
+          std::ranges::copy(heights.first(reach), longer.end() - lags.back());
+        }
+        const bool tested = std::ranges::any_of(longer, [](double h) { return std::isnan(h); });
         for (std::size_t k = 0; k < lags.size(); ++k)
-          add_differences(heights, surface.periodic, static_cast<std::size_t>(lags[k]), sums[k]);
+          sums[k].add(differences(longer.data() + reach, n, lags[k], tested));
       });
   ScaleDependence result;
   std::vector<Sums> mine(blocks.size());

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "ring_means.hpp"
 #include "surface/dense_systems.hpp"
 
 namespace salebra {
@@ -34,8 +35,9 @@ template <class Body>
 void for_modes(const PowerSpectrum& spectrum, Index begin, Index end, const Body& body) {
   const Index first = spectrum.columns().begin();
   for (Index i = 0; i < spectrum.grid.nx; ++i) {
+    const double qx = spectrum.wavenumber_x(i);
     for (Index k = begin; k < end; ++k) {
-      const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(first + k));
+      const double q = detail::length_of(qx, spectrum.wavenumber_y(first + k));
       if (q > 0) body(q, spectrum.psd(i, k), spectrum.multiplicity(first + k) / 2);
     }
   }

@@ -120,7 +120,7 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
     require_memory(grid,
                    (surface.ranks.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
                    "a power spectrum");
-    spectrum.psd.resize(grid.nx, columns.count());
+    spectrum.psd = uninitialised_field(grid.nx, columns.count());
   });
   double offset = height_statistics(surface).mean;
   std::optional<Weights> weights;
@@ -202,11 +202,13 @@ RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octav
   const std::vector<double> sums = parallel::sum_blocks(
       columns, rings.size(), [&](Index begin, Index end, std::span<double> of_block) {
         for (Index i = 0; i < grid.nx; ++i) {
+          const double qx = spectrum.wavenumber_x(i);
+          std::size_t ring = 0;
           for (Index k = begin; k < end; ++k) {
             const Index j = columns.begin() + k;
             if (i == 0 && j == 0) continue;
-            const double q = std::hypot(spectrum.wavenumber_x(i), spectrum.wavenumber_y(j));
-            rings.add(q, spectrum.multiplicity(j), {spectrum.psd(i, k)}, of_block);
+            const double q = detail::length_of(qx, spectrum.wavenumber_y(j));
+            rings.add(q, spectrum.multiplicity(j), {spectrum.psd(i, k)}, of_block, ring);
           }
         }
       });

@@ -100,7 +100,8 @@ SummitList find_summits(const Surface& surface) {
       if (!lines.front() || !lines.back()) continue;
       const Index ix = share.begin() + row;
       for (Index iy = border; iy < grid.ny - border; ++iy) {
-        const std::array<Index, 3> columns{(iy + grid.ny - 1) % grid.ny, iy, (iy + 1) % grid.ny};
+        const std::array<Index, 3> columns{iy > 0 ? iy - 1 : grid.ny - 1, iy,
+                                           iy + 1 < grid.ny ? iy + 1 : 0};
         Neighbourhood h;
         for (std::size_t a = 0; a < 3; ++a)
           for (std::size_t b = 0; b < 3; ++b) h[a][b] = lines[a][columns[b]];

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/generators/random_phase.hpp>
@@ -11,6 +13,9 @@
 #include <salebra/surface/bearing.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/peaks.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "test_surfaces.hpp"
 
@@ -140,6 +145,70 @@ TEST_CASE("Hills in a chain of known saddles are pruned in the order of their pr
   surface.heights(6, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK(significant_peaks(surface, 0.6).size() == 3);
   CHECK(significant_peaks(surface, 5).empty());
+}
+
+TEST_CASE("Peaks and prominences are those of water that falls point by point", "[peaks]") {
+  // Heights in steps of an eighth: many are equal, and told apart by their place.
+  const bool periodic = GENERATE(true, false);
+  Surface surface = white({22, 17, 22, 17}, periodic, 5);
+  surface.heights = (8 * surface.heights).round() / 8;
+  for (const Index k : {40, 41, 77, 200})
+    surface.heights.data()[k] = std::numeric_limits<double>::quiet_NaN();
+  const double* heights = surface.heights.data();
+  const Index points = surface.grid.points(), nx = surface.grid.nx, ny = surface.grid.ny;
+  std::vector<Index> order;
+  for (Index k = 0; k < points; ++k)
+    if (!std::isnan(heights[k])) order.push_back(k);
+  std::ranges::stable_sort(order, std::greater{}, [&](Index k) { return heights[k]; });
+
+  // By definition: each point ends at the first level at which its hill holds a higher point.
+  std::vector<std::tuple<Index, Index, double>> expected;
+  for (std::size_t summit = 0; summit < order.size(); ++summit) {
+    double prominence = std::numeric_limits<double>::infinity();
+    std::vector<int> above(static_cast<std::size_t>(points), 0);
+    for (std::size_t level = 0; level < order.size(); ++level) {
+      above[static_cast<std::size_t>(order[level])] = 1;
+      if (level < summit) continue;
+      std::vector<Index> hill{order[summit]};
+      std::vector<int> seen = above;
+      seen[static_cast<std::size_t>(order[summit])] = 0;
+      bool ended = false;
+      for (std::size_t k = 0; k < hill.size() && !ended; ++k)
+        for (Index ix = hill[k] / ny - 1; ix <= hill[k] / ny + 1; ++ix)
+          for (Index iy = hill[k] % ny - 1; iy <= hill[k] % ny + 1; ++iy) {
+            if (!periodic && (ix < 0 || iy < 0 || ix >= nx || iy >= ny)) continue;
+            const Index next = (ix + nx) % nx * ny + (iy + ny) % ny;
+            if (!std::exchange(seen[static_cast<std::size_t>(next)], 0)) continue;
+            hill.push_back(next);
+            ended = ended || std::ranges::find(order, next) - order.begin() <
+                                 static_cast<std::ptrdiff_t>(summit);
+          }
+      if (!ended) continue;
+      prominence = heights[order[summit]] - heights[order[level]];
+      if (level == summit) prominence = -1;  // no peak: a higher point is beside it
+      break;
+    }
+    const Index ix = order[summit] / ny, iy = order[summit] % ny;
+    bool listed = prominence >= 0;
+    for (Index a = -1; a <= 1; ++a)
+      for (Index b = -1; b <= 1; ++b) {
+        const bool inside = ix + a >= 0 && ix + a < nx && iy + b >= 0 && iy + b < ny;
+        listed = listed && (periodic || inside) &&
+                 !std::isnan(surface.heights((ix + a + nx) % nx, (iy + b + ny) % ny));
+      }
+    if (listed) expected.emplace_back(ix, iy, prominence);
+  }
+  REQUIRE(expected.size() > 20);
+  std::ranges::sort(expected);
+  for (const int threads : {1, 3, 7}) {
+    parallel::set_threads(threads);
+    std::vector<std::tuple<Index, Index, double>> found;
+    for (const Peak& peak : significant_peaks(surface, 0))
+      found.emplace_back(peak.ix, peak.iy, peak.prominence);
+    std::ranges::sort(found);
+    CHECK(found == expected);
+  }
+  parallel::set_threads(0);
 }
 
 TEST_CASE("An egg box has one peak to a hill, with the curvature of a cosine", "[areal]") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -137,4 +138,25 @@ TEST_CASE("Left to itself, a histogram has the bins of Freedman and Diaconis", "
   const std::size_t bins = height_histogram(BearingCurve(surface), 0).points.size();
   CHECK(bins >= 19);
   CHECK(bins <= 20);
+}
+
+TEST_CASE("Heights of any distribution fall along the bearing curve", "[bearing]") {
+  // Sorting goes by place in the range: one point far away, steps, and numbers of all magnitudes.
+  Surface surface = white({150, 140, 1, 1}, false, 3);
+  SECTION("one point far away") { surface.heights(70, 3) = 1e12; }
+  SECTION("steps") { surface.heights = (3 * surface.heights).round(); }
+  SECTION("all magnitudes") { surface.heights = (300 * surface.heights).exp(); }
+  SECTION("undefined points") {
+    surface.heights.row(17) = std::numeric_limits<double>::quiet_NaN();
+  }
+  std::vector<double> sorted;
+  for (const double height : surface.heights.reshaped())
+    if (!std::isnan(height)) sorted.push_back(height);
+  std::ranges::sort(sorted, std::greater{});
+  const BearingCurve curve(surface);
+  CHECK(curve.heights() == sorted);
+  // The mean of the heights: the polygon is level beyond the first and the last.
+  double mean = 0;
+  for (const double height : sorted) mean += height / static_cast<double>(sorted.size());
+  CHECK(curve.integral(0, 1) == Approx(mean).epsilon(1e-9));
 }

@@ -64,9 +64,20 @@ constexpr void describe(auto&& visit, std::type_identity<ArealParameters>) {
   visit(&S::Spc, Quantity{"Spc", inverse_length, "ISO 25178-2 mean peak curvature"});
 }
 
+class BearingCurve;
+struct CorrelationMap;
+struct PowerSpectrum;
+
+/// Results for the same surface that a caller has at hand; those that are missing are made.
+struct ArealParts {
+  const CorrelationMap* correlation = nullptr;
+  const PowerSpectrum* spectrum = nullptr;  ///< under the window that is used by default
+  const BearingCurve* bearing = nullptr;
+};
+
 /// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points. Of a surface that is
 /// spread over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are NaN, which need it whole;
-/// collective. Cost: the correlation map, a power spectrum and two sorts.
-ArealParameters areal_parameters(const Surface& surface);
+/// collective. Cost: the correlation map, a power spectrum, a sort and the peaks.
+ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts = {});
 
 }  // namespace salebra

@@ -28,7 +28,10 @@ class BearingCurve {
 
  private:
   std::vector<double> heights_;
-  std::vector<double> sums_;  ///< of z_0 … z_{k−1}
+  static constexpr Index stride = 4096;
+  std::vector<double> sums_;  ///< of z_0 … z_{k−1} less z_0, for every k that is a multiple
+
+  double sum_of(Index begin, Index end) const;
 };
 
 /// Core, peaks and valleys of a bearing curve by ISO 25178-2 (and ISO 13565-2). The core is the
