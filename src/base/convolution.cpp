@@ -78,12 +78,15 @@ struct Convolution2D<Real>::Passes {
   Complex* by_columns = nullptr;  // of the rows of other processes
   LargeArray<Complex> own_spectrum;
   struct Table {
-    LargeArray<Real>
-        values;  // [column of this process][i = 0 … period_x/2], over 2·points of the transform
+    // [column of this process][i = 0 … period_x/2], over 2·points of the transform
+    std::shared_ptr<Real[]> values;
     Parity parity = Parity::even;
   };
   std::array<Table, 3> tables;  // K_00, K_01 = K_10, K_11
-  detail::FftwPlan<Real> row_forward, row_backward, column_forward, column_backward;
+  struct Plans {
+    detail::FftwPlan<Real> row_forward, row_backward, column_forward, column_backward;
+  };
+  std::shared_ptr<const Plans> plans;
 
   Passes(const Shape& fields, int number, const Share& rows)
       : shape(fields), components(number), rows_of_all(rows) {
@@ -96,6 +99,15 @@ struct Convolution2D<Real>::Passes {
     require(rows.rows() == shape.nx, "rows", rows.rows(), "must be nx rows in all");
     spread_work();
     make_plans();
+  }
+  // With a spectrum of its own.
+  Passes(const Passes& other)
+      : shape(other.shape),
+        components(other.components),
+        rows_of_all(other.rows_of_all),
+        tables(other.tables),
+        plans(other.plans) {
+    spread_work();
   }
 
   // The rows and columns of each process, and what goes from one to another.
@@ -203,10 +215,9 @@ struct Convolution2D<Real>::Passes {
                             FFTW_ESTIMATE);
       });
     };
-    row_forward = make(shape.period_y, FFTW_FORWARD);
-    row_backward = make(shape.period_y, FFTW_BACKWARD);
-    column_forward = make(shape.period_x, FFTW_FORWARD);
-    column_backward = make(shape.period_x, FFTW_BACKWARD);
+    plans = std::make_shared<const Plans>(
+        make(shape.period_y, FFTW_FORWARD), make(shape.period_y, FFTW_BACKWARD),
+        make(shape.period_x, FFTW_FORWARD), make(shape.period_x, FFTW_BACKWARD));
   }
 
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity) {
@@ -272,7 +283,7 @@ struct Convolution2D<Real>::Passes {
           }
           kernels.interleave(near, far, shape.ny, real(room.row.get()));
           std::fill(room.row.get() + shape.ny, room.row.get() + shape.period_y, Complex{});
-          Api::execute(row_forward.get(), raw(room.row.get()), raw(to));
+          Api::execute(plans->row_forward.get(), raw(room.row.get()), raw(to));
         }
         for_columns(component, block, [&](Index first_column, Index number, Complex* to) {
           kernels.to_columns(real(room.rows.get() + first_column), room.stride, number, real(to),
@@ -294,7 +305,7 @@ struct Convolution2D<Real>::Passes {
                           room.stride);
         });
         for (Index i = 0; i < paired; ++i) {
-          Api::execute(row_backward.get(), raw(room.rows.get() + i * room.stride),
+          Api::execute(plans->row_backward.get(), raw(room.rows.get() + i * room.stride),
                        raw(room.row.get()));
           const Index row = first + i, partner = row + paired;
           Real* near = place(component, row, room.near.get());
@@ -323,7 +334,7 @@ struct Convolution2D<Real>::Passes {
                 separate(column(component, k, rows), column(component, mirrored, rows), rows,
                          numbers.get());
               std::fill(numbers.get() + shape.nx, numbers.get() + shape.period_x, Complex{});
-              Api::execute(column_forward.get(), raw(numbers.get()),
+              Api::execute(plans->column_forward.get(), raw(numbers.get()),
                            raw(scratch.get() + component * stride));
             }
             if (components == 1) {
@@ -332,7 +343,7 @@ struct Convolution2D<Real>::Passes {
               multiply_pair(j, scratch.get(), scratch.get() + stride);
             }
             for (int component = 0; component < components; ++component) {
-              Api::execute(column_backward.get(), raw(scratch.get() + component * stride),
+              Api::execute(plans->column_backward.get(), raw(scratch.get() + component * stride),
                            raw(numbers.get()));
               for (const Rows& rows : rows_of)
                 join(numbers.get(), rows, column(component, k, rows),
@@ -448,6 +459,9 @@ Convolution2D<Real>::Convolution2D(const Shape& shape, int components)
 template <class Real>
 Convolution2D<Real>::Convolution2D(const Shape& shape, int components, const Share& rows)
     : passes_(std::make_unique<Passes>(shape, components, rows)) {}
+template <class Real>
+Convolution2D<Real>::Convolution2D(const Convolution2D& other)
+    : passes_(std::make_unique<Passes>(*other.passes_)) {}
 template <class Real>
 Convolution2D<Real>::Convolution2D(Convolution2D&&) noexcept = default;
 template <class Real>

@@ -40,6 +40,8 @@ class Convolution2D {
   /// collective and sends each number of a spectrum twice. The result has the same bits for every
   /// number of processes.
   Convolution2D(const Shape& shape, int components, const Share& rows);
+  /// Shares the symbols that have been set, and the plans, which are not made again.
+  Convolution2D(const Convolution2D& other);
   Convolution2D(Convolution2D&&) noexcept;
   Convolution2D& operator=(Convolution2D&&) noexcept;
   ~Convolution2D();

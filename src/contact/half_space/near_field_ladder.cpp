@@ -53,20 +53,22 @@ void for_tiles_of(const std::vector<Tile>& tiles, const Body& body) {
 }
 
 template <std::size_t size>
-std::array<float, size> whole_stencil(const LadderStencil& stencil, double scale) {
+std::array<float, size> whole_stencil(const LadderStencil& stencil) {
   std::array<float, size> weights{};
   std::size_t k = 0;
   for (int i = -stencil.radius; i <= stencil.radius; ++i)
     for (int j = -stencil.radius; j <= stencil.radius; ++j)
-      weights[k++] = static_cast<float>(scale * stencil.weight(i, j));
+      weights[k++] = static_cast<float>(stencil.weight(i, j));
   return weights;
 }
 
 }  // namespace
 
-std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const Share& rows,
-                                                     const NormalSymbol& symbol,
-                                                     double contact_modulus, Boundary boundary) {
+std::optional<NearFieldLadder::Plan> NearFieldLadder::Plan::make(const Grid2D& grid,
+                                                                 const Share& rows,
+                                                                 const NormalSymbol& symbol,
+                                                                 double contact_modulus,
+                                                                 Boundary boundary) {
   int depth = 0;
   for (Index x = symbol.period_x, y = symbol.period_y;
        x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= least_period && depth < most_rungs;
@@ -76,34 +78,41 @@ std::optional<NearFieldLadder> NearFieldLadder::make(const Grid2D& grid, const S
   const double ratio = grid.dx() / grid.dy();
   // Beyond 1:8 not even the fit is tried.
   if (ratio > 8 || ratio < 1.0 / 8) return std::nullopt;
-  const auto rungs = ladder_design(ratio, boundary, depth);
-  NearFieldLadder ladder;
-  for (const LadderRung& rung : rungs) ladder.error_ += rung.error;
-  if (!(ladder.error_ < acceptable_error)) return std::nullopt;
-
-  ladder.boundary_ = boundary;
-  ladder.rows_ = rows;
-  ladder.frame_rows_.emplace(frame_rows(rows, boundary));
-  ladder.ny_ = grid.ny;
+  Plan plan{boundary, grid.nx, grid.ny, {}, 0, {}};
   const double scale = std::sqrt(grid.cell_area()) / contact_modulus;
-  ladder.stencil_ = whole_stencil<49>(rungs.front().stencil, scale);
-  const auto scaled = [&](int k) {
-    LadderStencil stencil = rungs[static_cast<std::size_t>(k)].stencil;
+  for (auto& [stencil, error] : ladder_design(ratio, boundary, depth)) {
+    plan.error += error;
     for (double& weight : stencil.weights) weight *= scale;
-    return stencil;
-  };
-  QuarterSymbol left = coarse_symbol(symbol, scaled(0), rows.ranks());
-  Index nx = grid.nx, ny = grid.ny;
-  for (int k = 0; k < depth; ++k) {
-    ladder.add_level(nx, ny);
-    if (k + 1 == depth) break;
-    ladder.levels_.back().stencil =
-        whole_stencil<25>(rungs[static_cast<std::size_t>(k + 1)].stencil, scale);
-    left = coarse_symbol(left, scaled(k + 1));
+    plan.stencils.push_back(std::move(stencil));
   }
-  if (nx > left.period_x || ny > left.period_y) return std::nullopt;
-  ladder.add_coarsest(nx, ny, left);
-  return ladder;
+  if (!(plan.error < acceptable_error)) return std::nullopt;
+  plan.left = coarse_symbol(symbol, plan.stencils.front(), rows.ranks());
+  for (std::size_t k = 1; k < plan.stencils.size(); ++k)
+    plan.left = coarse_symbol(plan.left, plan.stencils[k]);
+  if (boundary == Boundary::free) {
+    Index nx = grid.nx, ny = grid.ny;
+    for (int k = 0; k < depth; ++k) {
+      nx = (nx + 1) / 2 + 2 * reach;
+      ny = (ny + 1) / 2 + 2 * reach;
+    }
+    if (nx > plan.left.period_x || ny > plan.left.period_y) return std::nullopt;
+  }
+  return plan;
+}
+
+NearFieldLadder::NearFieldLadder(const Plan& plan, const Share& rows)
+    : boundary_(plan.boundary),
+      rows_(rows),
+      frame_rows_(frame_rows(rows, plan.boundary)),
+      error_(plan.error),
+      ny_(plan.ny),
+      stencil_(whole_stencil<49>(plan.stencils.front())) {
+  Index nx = plan.nx, ny = plan.ny;
+  for (std::size_t k = 0; k < plan.stencils.size(); ++k) {
+    if (k > 0) levels_.back().stencil = whole_stencil<25>(plan.stencils[k]);
+    add_level(nx, ny);
+  }
+  add_coarsest(nx, ny, plan.left);
 }
 
 // The next level below the last; nx, ny are the cells of that, and then of the new one.

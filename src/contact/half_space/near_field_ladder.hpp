@@ -31,12 +31,29 @@ namespace salebra::detail {
 // it lies on. An application sends the frame of each level, and the rows of the coarsest.
 class NearFieldLadder {
  public:
-  // None where the grid is too small for it, or has no stencils that are good enough: cells longer
-  // than about 1:2, or a period that does not halve.
-  // rows: those of the grid that each process holds.
+  // What the ladders of equal grids have in common.
+  struct Plan {
+    Boundary boundary = Boundary::periodic;
+    Index nx = 0, ny = 0;                 // of the grid
+    std::vector<LadderStencil> stencils;  // T1, T2, … in m/Pa
+    double error = 0;
+    QuarterSymbol left;  // C
+
+    // None where the grid is too small for it, or has no stencils that are good enough: cells
+    // longer than about 1:2, or a period that does not halve.
+    // rows: those of the grid that each process holds.
+    static std::optional<Plan> make(const Grid2D& grid, const Share& rows,
+                                    const NormalSymbol& symbol, double contact_modulus,
+                                    Boundary boundary);
+  };
+  NearFieldLadder(const Plan& plan, const Share& rows);
   static std::optional<NearFieldLadder> make(const Grid2D& grid, const Share& rows,
                                              const NormalSymbol& symbol, double contact_modulus,
-                                             Boundary boundary);
+                                             Boundary boundary) {
+    const auto plan = Plan::make(grid, rows, symbol, contact_modulus, boundary);
+    if (!plan) return std::nullopt;
+    return NearFieldLadder(*plan, rows);
+  }
 
   int depth() const { return static_cast<int>(levels_.size()); }
   double error() const { return error_; }
@@ -66,7 +83,6 @@ class NearFieldLadder {
     std::vector<Tile> tiles;
   };
 
-  NearFieldLadder() = default;
   void add_level(Index& nx, Index& ny);
   void add_coarsest(Index nx, Index ny, const QuarterSymbol& left);
 

@@ -44,17 +44,15 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double con
       frame_rows_(frame_rows(rows, boundary)),
       heights_(heights),
       rms_height_(rms_height),
-      contact_modulus_(contact_modulus),
       cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
-      symbol_(normal_symbol(grid, contact_modulus, boundary, rows)),
-      compliance_(normal_compliance<Real>(grid, symbol_, rows)),
+      operators_(NormalOperators::of(grid, contact_modulus, boundary, rows)),
+      compliance_(operators_->compliance<Real>()),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_(tiles_across(grid.ny)) {
-  const InverseStencil inverse(grid);
   for (int i = -frame; i <= frame; ++i)
     for (int j = -frame; j <= frame; ++j)
       stencil_[static_cast<std::size_t>((i + frame) * (2 * frame + 1) + j + frame)] =
-          static_cast<Real>(contact_modulus * inverse.weight(i, j));
+          static_cast<Real>(contact_modulus * operators_->inverse().weight(i, j));
   static_assert(frame == InverseStencil::radius);
 }
 
@@ -97,7 +95,7 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
   if constexpr (std::is_same_v<Real, double>) {
     return compliance_;
   } else {
-    if (!exact_compliance_) exact_compliance_ = normal_compliance<double>(grid_, symbol_, rows_);
+    if (!exact_compliance_) exact_compliance_ = operators_->compliance<double>();
     // The tiles are listed anew after it is used.
     exact_compliance_->keep_spectrum_in(pool(exact_compliance_->spectrum_bytes()));
     return *exact_compliance_;
@@ -337,8 +335,20 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
     run.level = target.value;
   }
   ladder_share_ = limits.ladder_share;
-  const auto [level, residual] =
+  auto [level, residual] =
       dense_gap(run, false, run.load_given() && !limits.expected_level.has_value());
+  // The start may be the solution, which float does not tell.
+  if (limits.exact && residual < std::max(exact_below, limits.tolerance)) {
+    const ContactResidual exact = dense_gap(run, true, true);
+    level = exact.level;
+    residual = exact.residual;
+    if (residual < limits.tolerance) {
+      run.outcome.residual = residual;
+      run.outcome.level = level;
+      run.outcome.termination = Termination::converged;
+      return run.outcome;
+    }
+  }
   run.level = level;
   choose_tiles(run, widest_margin);
   if (on_ladder_) run.at_refresh = residual;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
@@ -14,7 +15,7 @@
 #include "contact/half_space/framed_field.hpp"
 #include "contact/half_space/half_space.hpp"
 #include "contact/half_space/near_field_ladder.hpp"
-#include "contact/half_space/normal_symbol.hpp"
+#include "contact/half_space/normal_operators.hpp"
 #include "contact_residual.hpp"
 #include "load_correction.hpp"
 #include "tile_kernels.hpp"
@@ -232,9 +233,8 @@ class ActiveSetCg {
   RowExchange frame_rows_;
   Heights heights_;
   double rms_height_;
-  double contact_modulus_;
   double cell_compliance_;
-  NormalSymbol symbol_;
+  std::shared_ptr<NormalOperators> operators_;
   Convolution2D<Real> compliance_;
   std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
   std::array<Real, stencil_size> stencil_;

@@ -100,7 +100,8 @@ void ActiveSetCg<Real>::choose_operator() {
   if constexpr (std::is_same_v<Real, float>) {
     if (!operator_chosen_) {
       operator_chosen_ = true;
-      const double points = static_cast<double>(symbol_.period_x * symbol_.period_y);
+      const double points =
+          static_cast<double>(operators_->symbol().period_x * operators_->symbol().period_y);
       const double most = ladder_share_.value_or(worthwhile_share(points));
       double tile_points = 0;  // of all processes
       for (const double of_block : over_tiles<double>([](Index begin, Index end) {
@@ -108,8 +109,7 @@ void ActiveSetCg<Real>::choose_operator() {
            }))
         tile_points += of_block;
       if (tile_points > most * points) return;
-      if (!ladder_)
-        ladder_ = NearFieldLadder::make(grid_, rows_, symbol_, contact_modulus_, boundary_);
+      if (!ladder_) ladder_ = operators_->ladder();
       on_ladder_ = ladder_.has_value();
     }
     if (on_ladder_) ladder_->list_tiles(in_use_);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <catch2/catch.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/normal.hpp>
+#include <thread>
 #include <tuple>
+#include <vector>
 
 #include "awkward_contacts.hpp"
 #include "contact/normal/active_set_cg.hpp"
@@ -238,7 +241,51 @@ TEST_CASE("A start near the solution saves iterations and gives the same contact
   CHECK(warm.converged());
   CHECK(warm.iterations < cold.iterations);
   CHECK(warm.mean_gap == Approx(cold.mean_gap).epsilon(1e-6));
+  // Its own solution, scaled to the load by a last digit: a look in float and an exact one.
+  CHECK(warm.iterations == 0);
+  CHECK(warm.fft_count == 2);
+  CHECK(warm.residual < options.tolerance);
+  CHECK((warm.contact_pressure - cold.contact_pressure).abs().maxCoeff() <=
+        1e-15 * cold.contact_pressure.maxCoeff());
   const Field wrong = Field::Zero(3, 3);
   options.initial_pressure = &wrong;
   CHECK_THROWS_AS(press(surface, 1e9, {.pressure = 3e6}, options), InvalidInput);
+}
+
+TEST_CASE("What contacts of equal grids share changes none of them", "[normal]") {
+  const Surface surface = rough_surface({256, 256, 1e-3, 1e-3});
+  for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
+    NormalContactOptions options;
+    options.boundary = boundary;
+    const auto once = [&] { return press(surface, 1e9, {.pressure = 3e5}, options); };
+    const auto alone = once();
+    // In use by several threads at a time, in the way of other grids, and made anew after these.
+    std::array<NormalContactState, 4> states;
+    std::vector<std::thread> threads;
+    for (auto& state : states) threads.emplace_back([&] { state = once(); });
+    for (auto& thread : threads) thread.join();
+    press(rough_surface({128, 256, 1e-3, 2e-3}), 1e9, {.pressure = 3e5}, options);
+    detail::NormalOperators::of({3400, 3400, 1, 1}, 1, Boundary::periodic, Share(3400));
+    auto last = once();
+    for (const NormalContactState* state :
+         {&states[0], &states[1], &states[2], &states[3], &last}) {
+      CHECK((state->contact_pressure == alone.contact_pressure).all());
+      CHECK((state->gap == alone.gap).all());
+      CHECK(state->ladder_count == alone.ladder_count);
+    }
+  }
+  const auto of = [](Index side, double modulus) {
+    return detail::NormalOperators::of({side, side, 1, 1}, modulus, Boundary::periodic,
+                                       Share(side));
+  };
+  const auto first = of(64, 1);
+  CHECK(of(64, 1) == first);
+  CHECK(of(64, 2) != first);
+  of(3000, 1);  // 9 of 12 million points
+  CHECK(of(64, 1) == first);
+  of(3400, 1);
+  CHECK(of(64, 1) == first);
+  of(2000, 1);
+  of(3400, 2);
+  CHECK(of(64, 1) != first);
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What contacts on equal grids have in common, made once.
+#include "normal_operators.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+namespace salebra::detail {
+
+NormalOperators::NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary,
+                                 const Share& rows)
+    : grid_(grid),
+      contact_modulus_(contact_modulus),
+      boundary_(boundary),
+      rows_(rows),
+      symbol_(normal_symbol(grid, contact_modulus, boundary, rows)),
+      inverse_(grid) {}
+
+bool NormalOperators::serves(const Grid2D& grid, double contact_modulus, Boundary boundary) const {
+  return grid.nx == grid_.nx && grid.ny == grid_.ny && grid.lx == grid_.lx && grid.ly == grid_.ly &&
+         contact_modulus == contact_modulus_ && boundary == boundary_;
+}
+
+std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double contact_modulus,
+                                                     Boundary boundary, const Share& rows) {
+  constexpr Index most_points = 12'000'000;
+  static std::mutex mutex;
+  static std::vector<std::shared_ptr<NormalOperators>> last;  // those of use lately come last
+  const auto make = [&] {
+    return std::make_shared<NormalOperators>(grid, contact_modulus, boundary, rows);
+  };
+  if (!rows.ranks().alone() || grid.points() > most_points) return make();
+  const std::lock_guard lock(mutex);
+  const auto found = std::ranges::find_if(
+      last, [&](const auto& one) { return one->serves(grid, contact_modulus, boundary); });
+  if (found == last.end())
+    last.push_back(make());
+  else
+    std::rotate(found, found + 1, last.end());
+  Index points = 0;
+  auto first = last.end();
+  while (first != last.begin() && (points += (*(first - 1))->grid_.points()) <= most_points)
+    --first;
+  last.erase(last.begin(), first);
+  return last.back();
+}
+
+template <class Real>
+Convolution2D<Real> NormalOperators::compliance() {
+  const std::lock_guard lock(mutex_);
+  auto& made = [&]() -> auto& {
+    if constexpr (std::is_same_v<Real, float>)
+      return single_;
+    else
+      return exact_;
+  }
+  ();
+  if (!made) made = normal_compliance<Real>(grid_, symbol_, rows_);
+  return *made;
+}
+
+std::optional<NearFieldLadder> NormalOperators::ladder() {
+  const std::lock_guard lock(mutex_);
+  if (!ladder_)
+    ladder_ = NearFieldLadder::Plan::make(grid_, rows_, symbol_, contact_modulus_, boundary_);
+  if (!*ladder_) return std::nullopt;
+  return NearFieldLadder(**ladder_, rows_);
+}
+
+template Convolution2D<float> NormalOperators::compliance<float>();
+template Convolution2D<double> NormalOperators::compliance<double>();
+
+}  // namespace salebra::detail
