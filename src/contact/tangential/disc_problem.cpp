@@ -27,8 +27,9 @@ DiscProblem::DiscProblem(ContactSystem& system, const PointList& points, std::ve
       gradient_length_(cell_stiffness_) {}
 
 double DiscProblem::length(const std::vector<double>& vector, std::size_t point) const {
-  return components() == 1 ? std::abs(vector[point])
-                           : std::hypot(vector[point], vector[count() + point]);
+  if (components() == 1) return std::abs(vector[point]);
+  const double x = vector[point], y = vector[count() + point];
+  return std::sqrt(x * x + y * y);
 }
 
 bool DiscProblem::at_limit(const std::vector<double>& tractions, std::size_t point) const {
@@ -114,7 +115,7 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
   const int before = report.iterations;
   const CgOutcome outcome = conjugate_gradients(
       [&](const std::vector<double>& in, std::vector<double>& out) {
-        system_.response().apply(points_, in.data(), points_, out.data());
+        system_.response().apply_loosely(points_, in.data(), out.data());
         for (std::size_t i = 0; i < unknowns; ++i) out[i] += face.curvature[i % count()] * in[i];
         project_on(face, out);
       },

@@ -4,6 +4,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 #include <utility>
+#include <vector>
 
 namespace salebra {
 namespace {
@@ -40,11 +41,14 @@ Field limit_of(const Field& pressure, double friction) {
 // where that is less than 1.
 Field part_in_contact(const Field& pressure, const ContactSet& entering) {
   const Field squared = entering.select(pressure.square(), 0.0);
-  const double count = static_cast<double>(entering.count());
-  double low = 0, high = 1 / (entering.select(squared, squared.maxCoeff()).minCoeff());
+  std::vector<double> squares;
+  for (Index k = 0; k < squared.size(); ++k)
+    if (entering.data()[k]) squares.push_back(squared.data()[k]);
+  const Eigen::Map<const Eigen::ArrayXd> some(squares.data(), static_cast<Index>(squares.size()));
+  double low = 0, high = 1 / some.minCoeff();
   for (int halving = 0; halving < 100; ++halving) {
     const double factor = (low + high) / 2;
-    ((factor * squared).min(1.0).sum() < count / 2 ? low : high) = factor;
+    ((factor * some).min(1.0).sum() < static_cast<double>(some.size()) / 2 ? low : high) = factor;
   }
   return (high * squared).min(1.0);
 }

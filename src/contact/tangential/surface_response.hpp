@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
@@ -47,12 +48,23 @@ class SurfaceResponse {
   /// displacements (components × read.size()) of tractions (components × loaded.size()).
   void apply(const PointList& loaded, const double* tractions, const PointList& read,
              double* displacements);
+  /// The same in single precision, in half the time, with an error of 1e-6 of the largest
+  /// displacement: for directions of a search, not for residuals. Made at the first call.
+  void apply_loosely(const PointList& points, const double* tractions, double* displacements);
   int fft_count() const { return fft_count_; }
 
  private:
+  template <class Real>
+  void through(Convolution2D<Real>& compliance, double unit_in, const PointList& loaded,
+               const double* tractions, const PointList& read, double unit_out,
+               double* displacements);
+
   CellWindow window_;
   Traction traction_;
   Convolution2D<double> compliance_;
+  double single_unit_;  // m/Pa
+  std::function<Convolution2D<float>()> make_single_;
+  std::optional<Convolution2D<float>> single_;
   int fft_count_ = 0;
 };
 

@@ -204,6 +204,17 @@ TEST_CASE("The fallback finds the same tractions, and an unfinished solve says s
   for (const Index cell : points.cell) limits.push_back(limit.data()[cell]);
   for (const Field* component : {&displacement.x, &displacement.y})
     for (const Index cell : points.cell) targets.push_back(component->data()[cell]);
+  // In any units: float has seven digits, and displacements of 1e-50 m none.
+  for (const double unit : {1.0, 1e-50}) {
+    std::vector<double> shears(targets), exact(targets.size()), loose(targets.size());
+    for (double& shear : shears) shear *= unit;
+    system.response().apply(points, shears.data(), points, exact.data());
+    system.response().apply_loosely(points, shears.data(), loose.data());
+    const double largest = *std::max_element(exact.begin(), exact.end());
+    CHECK(largest > 0);
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      CHECK(std::abs(loose[i] - exact[i]) < 2e-6 * largest);
+  }
   const auto found = [&](bool gradient_only, int max_iterations) {
     detail::DiscProblem problem(system, points, limits, targets, contact_modulus);
     if (gradient_only) problem.use_gradient_steps_only();
