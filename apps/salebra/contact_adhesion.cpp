@@ -98,6 +98,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
     session.doubt(doubt_of_pressure(pressure, material.contact_modulus));
   Branch loading;
   loading.curve.model = "bem";
+  loading.curve.adhesive = true;
   loading.curve.nominal_area = area;
   loading.curve.rms_height = height_statistics(surface).rms_height;
   Branch unloading = loading;

@@ -90,8 +90,13 @@ std::string describe(const CLI::App& app, const CLI::ParseError& error) {
   for (const CLI::Option* known : chosen.front()->get_options())
     for (const std::string& name : known->get_lnames()) options.push_back("--" + name);
   const std::string name = option->substr(0, option->find('='));
+  const bool adhesion = name == "--work-of-adhesion" || name == "--adhesion-range";
   return fmt::format("{}: is not an option of {} {}{}", name, program_name(),
-                     chosen.front()->get_name(), did_you_mean(name, options));
+                     chosen.front()->get_name(),
+                     adhesion ? ": with adhesion, points may be released in another order than "
+                                "they were pressed, for which no loss is known here; use contact, "
+                                "or [adhesion] of a study"
+                              : did_you_mean(name, options));
 }
 
 CLI::Validator validator_of(const std::vector<std::string>& choices) {

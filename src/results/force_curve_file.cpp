@@ -56,6 +56,7 @@ void write_force_curve(ResultGroup& group, const ForceCurve& curve,
   group.attribute("model", curve.model);
   group.attribute("nominal_area", curve.nominal_area);
   group.attribute("rms_height", curve.rms_height);
+  if (curve.adhesive) group.attribute("adhesive", "yes");
 }
 
 std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std::string& group) {
@@ -63,6 +64,7 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   curve.model = reader.text_attribute(group, "model").value_or("");
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
+  curve.adhesive = reader.text_attribute(group, "adhesive").has_value();
   std::size_t length = 0, surfaces = 1;
   bool study = false;
   const auto column = [&](const std::string& name) {

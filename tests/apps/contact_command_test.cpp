@@ -500,7 +500,16 @@ TEST_CASE("A cycle of adhesive contacts has two branches, a pull-off, and the wo
       "--cycle ";
   const auto gaps = test.answer(cycle + "--mean-gap 8:0.1um:12 --stiffness -o cycle.h5");
   CHECK(keys(gaps) ==
-        "curve unloading pull_off_pressure adhesion_work_per_cycle adhesion_work_error tabor");
+        "curve unloading pull_off_pressure adhesion_work_per_cycle adhesion_work_error "
+        "reversible_amplitude reversible_amplitude_error reversible tabor");
+  CHECK(gaps["reversible"] == false);
+  CHECK(gaps["reversible_amplitude_error"] > 0);
+  // A curve with adhesion is no law.
+  const auto damped = test.run(
+      "damping --curve cycle.h5 --poisson 0.3 --pressure 1kPa --normal-amplitude 1nm "
+      "--drag-velocity 1um/s --frequency 1kHz");
+  CHECK(damped.status == 2);
+  CHECK_THAT(damped.err, Contains("is of contacts with adhesion"));
   const std::vector<double> in = gaps["curve"]["force"], out = gaps["unloading"]["force"];
   const std::vector<double> depth = gaps["curve"]["indentation"],
                             back = gaps["unloading"]["indentation"];
@@ -525,6 +534,7 @@ TEST_CASE("A cycle of adhesive contacts has two branches, a pull-off, and the wo
   CHECK(loads["pull_off_pressure"] ==
         Approx(gaps["pull_off_pressure"].get<double>()).epsilon(0.05));
   CHECK(loads["adhesion_work_per_cycle"].is_null());
+  CHECK(loads["reversible"].is_null());
   // A cycle that begins within the attraction does not close.
   const auto open = test.run(cycle + "--mean-gap 1.74:0.1um:6 --json");
   CHECK(open.json()["adhesion_work_per_cycle"].is_null());

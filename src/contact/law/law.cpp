@@ -117,6 +117,10 @@ struct Column {
 };
 
 std::vector<Column> usable_samples(const ForceCurve& curve) {
+  require_that(!curve.adhesive, "curve",
+               "is of contacts with adhesion, whose loading and unloading may differ: points are "
+               "released in another order than they were pressed, and the loss is not that of a "
+               "law; press without adhesion");
   auto force_of = [&](const ForceSample& sample) {
     return std::isnan(sample.force) ? sample.pressure * curve.nominal_area : sample.force;
   };

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "adhesion_reference.hpp"
 #include "anderson.hpp"
 #include "base/memory.hpp"
 #include "contact/half_space/half_space.hpp"
@@ -148,7 +149,7 @@ class AdhesiveSolve {
     mean_depth_ = -height_sums(rows_, surface.heights, highest_).first / cells_;
     target_ = target_of(target);
     require_room(target);
-    reference_ = std::max(contact_modulus * rms_slope_of(surface, rows_), largest());
+    reference_ = detail::adhesion_reference(surface, contact_modulus, adhesion);
   }
 
   AdhesiveContactState go() {
@@ -514,6 +515,12 @@ class AdhesiveSolve {
 };
 
 }  // namespace
+
+double detail::adhesion_reference(const Surface& surface, double contact_modulus,
+                                  const Adhesion& adhesion) {
+  return std::max(contact_modulus * rms_slope_of(surface, surface.share()),
+                  adhesion.largest_tension());
+}
 
 double Adhesion::energy(double gap) const {
   const double ratio = gap / range;

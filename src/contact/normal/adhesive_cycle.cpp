@@ -5,6 +5,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
 
+#include "adhesion_reference.hpp"
+
 namespace salebra {
 namespace {
 
@@ -104,20 +106,51 @@ double error_of_snaps(const AdhesiveCycle& cycle) {
   return largest + second;
 }
 
-void measure(AdhesiveCycle& cycle) {
+/// ∮ of a force that is wrong by `force` times the residual.
+double error_of_tolerance(const std::vector<AdhesiveContactState>& branch, double force) {
+  double error = 0;
+  for (std::size_t k = 0; k + 1 < branch.size(); ++k)
+    error += force * std::max(branch[k].adhesion_residual, branch[k + 1].adhesion_residual) *
+             std::abs(branch[k + 1].indentation - branch[k].indentation);
+  return error;
+}
+
+/// force_of_residual: by which a tension that is wrong everywhere by the unit of residuals changes that of a
+/// state, N.
+void measure(AdhesiveCycle& cycle, double force_of_residual) {
   const auto force = [](const AdhesiveContactState& state) { return std::abs(state.force); };
   double largest = force(std::ranges::max(cycle.loading, {}, force));
   largest = std::max(largest, force(std::ranges::max(cycle.unloading, {}, force)));
+  const std::size_t last = cycle.loading.size() - 1;
+  const auto way_to = [&](std::size_t k) {
+    return (cycle.loading[last].indentation - cycle.loading[k].indentation) / 2;
+  };
+  // Far in, the load is many times the pull: what pulls decides what is seen.
+  const double pull = -std::ranges::min(cycle.unloading, {}, &AdhesiveContactState::force).force;
+  const double seen = meets * (pull > 0 ? pull : largest);
+  for (std::size_t k = last; k-- > 0;)
+    if (std::abs(cycle.loading[k].force - cycle.unloading[last - k].force) > seen) {
+      cycle.reversible_amplitude = way_to(k + 1);
+      cycle.reversible_amplitude_error = way_to(k) - way_to(k + 1);
+      break;
+    }
   const double open = cycle.loading.front().force - cycle.unloading.back().force;
   if (std::abs(open) > meets * largest) return;
   const auto work = [&](std::size_t stride) {
     return work_along(cycle.loading, stride) + work_along(cycle.unloading, stride);
   };
   cycle.adhesion_work_per_cycle = work(1);
-  cycle.adhesion_work_error = std::abs(work(1) - work(2)) + error_of_snaps(cycle);
+  cycle.adhesion_work_error = std::abs(work(1) - work(2)) + error_of_snaps(cycle) +
+                              error_of_tolerance(cycle.loading, force_of_residual) +
+                              error_of_tolerance(cycle.unloading, force_of_residual);
 }
 
 }  // namespace
+
+std::optional<bool> AdhesiveCycleNumbers::reversible() const {
+  if (std::isnan(adhesion_work_per_cycle) && std::isnan(reversible_amplitude)) return {};
+  return std::isnan(reversible_amplitude);
+}
 
 bool AdhesiveCycle::converged() const {
   const auto all = [](const auto& branch) {
@@ -149,7 +182,8 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
       std::ranges::min_element(cycle.unloading, {}, &AdhesiveContactState::mean_pressure);
   if (least != cycle.unloading.begin())
     cycle.pull_off_pressure = std::max(0.0, -least->mean_pressure);
-  measure(cycle);
+  measure(cycle,
+          surface.grid.area() * detail::adhesion_reference(surface, contact_modulus, adhesion));
   return cycle;
 }
 

@@ -315,14 +315,14 @@ TEST_CASE("Without work of adhesion the contact is the ordinary one", "[adhesion
 }
 
 TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
-  // Unloading of an isolated paraboloid, from a contact on. The tension ends at a circle of some 30
-  // cells, which the cells hold back by about half of one: σ 2πc/2 of a cell is a tenth of the
-  // pull-off, and falls with the cell.
-  const double tabor = GENERATE(0.5, 1.0);
+  // Unloading of an isolated paraboloid, from a contact on. The tension w/ρ ends at a circle of the
+  // radius c, some 30 cells, which the cells hold back by about half of one: πcw/ρ of a cell,
+  // c/(ρR) of πwR, a tenth of the pull-off, and it falls with the cell.
+  const double tabor = GENERATE(0.1, 0.5, 1.0, 2.0);
   const auto error_at = [&](Index points) {
     const double cell = 128.0 / static_cast<double>(points);
     const Grid2D grid{points, points, 128, 128};
-    constexpr double radius = 100, work = 0.1;
+    const double radius = tabor > 1 ? 250 : 100, work = 0.1;
     const double range = std::cbrt(radius * work * work) / tabor;
     const Surface sphere = surface_of(grid, [&](double x, double y) {
       return -(std::pow(x - 64 + cell / 2, 2) + std::pow(y - 64 + cell / 2, 2)) / (2 * radius);
@@ -330,10 +330,12 @@ TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
     const Adhesion adhesion{AdhesionPotential::maugis, work, range};
     const MaugisDugdale model(radius, 1, work, range);
     const AdhesivePoint off = model.pull_off();
-    AdhesiveContactOptions options;
+    AdhesiveContactOptions options{.force_coarse = true};  // of the coarse cells at 2
     options.contact.boundary = Boundary::free;
     Field tension;
     double worst = 0, least = 0;
+    const double held_back =
+        model.contact(1.6 * off.contact_radius).zone_radius * cell / (range * radius);
     for (const double a : {1.6, 1.3, 1.15, 1.0}) {
       const AdhesivePoint expected = model.contact(a * off.contact_radius);
       const AdhesiveContactState state =
@@ -341,19 +343,23 @@ TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
       REQUIRE(state.converged());
       worst = std::max(worst, std::abs(state.force - expected.force));
       least = std::min(least, state.force);
+      const double radius_found = std::sqrt(state.contact_area_fraction * grid.area() / pi);
+      CHECK(radius_found == Approx(expected.contact_radius).margin(2 * cell));
       tension = state.tension;
       options.start_tension = &tension;
     }
     CHECK(least > -2 * pi * work * radius);
     CHECK(least < -1.5 * pi * work * radius);
-    CHECK(least == Approx(off.force).epsilon(0.1));
-    return worst / (pi * work * radius);
+    worst /= pi * work * radius;
+    CHECK(least / (pi * work * radius) ==
+          Approx(off.force / (pi * work * radius)).margin(1.5 * held_back));
+    CHECK(worst < 1.5 * held_back);
+    return worst;
   };
   const double coarse = error_at(64), fine = error_at(128);
   CAPTURE(coarse, fine);
-  CHECK(coarse < 0.25);
-  CHECK(fine < 0.15);
-  CHECK(fine < 0.75 * coarse);
+  // At 0.1 both are right to 1 %, by chance.
+  CHECK(fine < std::max(0.75 * coarse, 0.02));
 }
 
 TEST_CASE("A wavy surface of short range is Johnson's", "[adhesion]") {
@@ -470,6 +476,16 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
     });
     CHECK(right == ranks);
   }
+  // So has a cycle, whose states follow from each other.
+  const auto work = [&](int threads) {
+    parallel::set_threads(threads);
+    return adhesive_cycle(steep(32), 1, {{.mean_gap = 9}, {.mean_gap = 5}, {.mean_gap = 3}},
+                          adhesion, {.unload = true});
+  };
+  const AdhesiveCycle cycle = work(1);
+  REQUIRE(cycle.converged());
+  for (const int threads : {2, 3})
+    CHECK(work(threads).unloading.back().force == cycle.unloading.back().force);
   parallel::set_threads(0);
 }
 
@@ -537,22 +553,26 @@ std::vector<Target> way_in(const Surface& surface, double from, int steps, doubl
 
 TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does not stick none",
           "[adhesion]") {
-  const Surface surface = rough_surface(
-      cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
-  const double touch = surface.heights.maxCoeff() - surface.heights.mean();
-  const Adhesion sticky{AdhesionPotential::exponential, 0.3, 2};
-  const AdhesiveCycle lossy =
-      adhesive_cycle(surface, 1, way_in(surface, touch + 30, 48, 0.05), sticky, {.unload = true});
-  REQUIRE(lossy.converged());
-  CHECK(lossy.pull_off_pressure > 0);
-  CHECK(lossy.pull_off_pressure < sticky.largest_tension());
-  CHECK(lossy.adhesion_work_per_cycle > 3 * lossy.adhesion_work_error);
+  // Spots snap in and off, a tenth of E* at a time.
+  const Surface soft = rough_surface(
+      cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 8, .rms_slope = 0.1, .seed = 3});
+  const Adhesion sticky{AdhesionPotential::exponential, 0.2, 0.632};
+  const double soft_touch = soft.heights.maxCoeff() - soft.heights.mean();
+  const auto cycle_of = [&](int steps) {
+    return adhesive_cycle(soft, 1, way_in(soft, soft_touch + 8, steps, 0.05), sticky,
+                          {.unload = true});
+  };
+  const AdhesiveCycle lossy = cycle_of(48), coarser = cycle_of(24);
+  REQUIRE((lossy.converged() && coarser.converged()));
+  CHECK(lossy.adhesion_work_per_cycle > 2 * lossy.adhesion_work_error);
+  CHECK(lossy.reversible() == false);
   // Half of the steps lose the same within what they state.
-  const AdhesiveCycle coarser =
-      adhesive_cycle(surface, 1, way_in(surface, touch + 30, 24, 0.05), sticky, {.unload = true});
   CHECK(std::abs(coarser.adhesion_work_per_cycle - lossy.adhesion_work_per_cycle) <=
         coarser.adhesion_work_error + lossy.adhesion_work_error);
 
+  const Surface surface = rough_surface(
+      cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
+  const double touch = surface.heights.maxCoeff() - surface.heights.mean();
   // A hundredth of the work over four times the range: both branches are one.
   const Adhesion weak{AdhesionPotential::exponential, 0.003, 8};
   const AdhesiveCycle closed = adhesive_cycle(surface, 1, way_in(surface, touch + 120, 24), weak,
@@ -564,6 +584,44 @@ TEST_CASE("A cycle of a sticky surface loses work, one of a surface that does no
              (closed.loading[k + 1].indentation - closed.loading[k].indentation);
   // Both branches are known to the tolerance of their contacts.
   CHECK(std::abs(closed.adhesion_work_per_cycle) < 1e-3 * there);
+  CHECK(std::abs(closed.adhesion_work_per_cycle) <= closed.adhesion_work_error);
+  CHECK(closed.reversible() == true);
+}
+
+TEST_CASE("Out of the closest position no work is lost below the amplitude that a cycle states",
+          "[adhesion]") {
+  // A sphere snaps in and off. From the closest position on, unloading retraces loading as far as
+  // it had snapped in.
+  const Surface sphere = surface_of(cells(64, 64), [](double x, double y) {
+    return -(std::pow(x - 31.5, 2) + std::pow(y - 31.5, 2)) / 80;
+  });
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.5, 1.4};
+  AdhesiveCycleOptions options{
+      .contact = {.contact = {.boundary = Boundary::free}, .force_coarse = true}, .unload = true};
+  std::vector<Field> tensions;
+  options.on_state = [&](bool unloading, const AdhesiveContactState& state) {
+    if (!unloading) tensions.push_back(state.tension);
+  };
+  std::vector<Target> positions;
+  for (int k = 0; k <= 24; ++k) positions.push_back({.indentation = -10 + 0.5 * k});
+  const AdhesiveCycle cycle = adhesive_cycle(sphere, 1, positions, adhesion, options);
+  REQUIRE(cycle.converged());
+  REQUIRE(cycle.reversible() == false);
+  CHECK(cycle.pull_off_pressure * sphere.grid.area() > 1.5 * pi * 0.5 * 40);
+  CHECK(cycle.reversible_amplitude > 1);
+  CHECK(cycle.reversible_amplitude_error == Approx(0.25));
+  // The position where loading had snapped in begins the way that is retraced.
+  const auto place =
+      static_cast<std::size_t>(24 - std::lround(2 * cycle.reversible_amplitude / 0.5));
+  CHECK(cycle.loading[place].force < -2 * std::abs(cycle.loading[place - 1].force));
+  // A cycle of its own from there loses nothing.
+  options.on_state = {};
+  options.contact.start_tension = &tensions[place];
+  const AdhesiveCycle within = adhesive_cycle(
+      sphere, 1, {positions.begin() + static_cast<std::ptrdiff_t>(place), positions.end()},
+      adhesion, options);
+  CHECK(within.reversible() == true);
+  CHECK(std::abs(within.adhesion_work_per_cycle) < 1e-3 * cycle.adhesion_work_per_cycle);
 }
 
 TEST_CASE("Under pressures a cycle pulls until the surfaces part", "[adhesion]") {

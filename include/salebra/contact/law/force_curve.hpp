@@ -48,6 +48,7 @@ struct ForceCurve {
   double nominal_area = 0;                   ///< A0, m²
   double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m
   std::vector<ForceSample> samples;
+  bool adhesive = false;  ///< of contacts with adhesion, which have no law: TabulatedLaw refuses it
 
   /// One member of every sample, such as column(&ForceSample::pressure).
   std::vector<double> column(double ForceSample::*quantity) const;
@@ -59,6 +60,7 @@ constexpr void describe(auto&& visit, std::type_identity<ForceCurve>) {
   visit(&ForceCurve::nominal_area, Quantity{"nominal_area", length_squared, "nominal area"});
   visit(&ForceCurve::rms_height, Quantity{"rms_height", length, "root mean square height"});
   visit(&ForceCurve::samples, Table{"samples", "from the lowest force to the highest"});
+  visit(&ForceCurve::adhesive, Kept{"adhesive", "whether its contacts adhere"});
 }
 
 }  // namespace salebra
