@@ -95,6 +95,35 @@ def _without_self(signature: inspect.Signature) -> inspect.Signature:
     return signature.replace(parameters=list(signature.parameters.values())[1:])
 
 
+class _Signatures:
+    """The signatures of a function, made when one is asked for: of hundreds, a script needs few. inspect finds them as what the
+    function wraps."""
+
+    def __init__(self, native: Any) -> None:
+        self._native = native
+
+    @functools.cached_property
+    def all(self) -> list[inspect.Signature]:
+        return signatures_of(self._native)
+
+    @property
+    def __signature__(self) -> inspect.Signature:
+        return self.all[0]
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        return self._native(*arguments, **keywords)
+
+
+class _ConstructorSignature:
+    """The signature of a class, likewise."""
+
+    def __init__(self, native: Any) -> None:
+        self._signatures = _Signatures(native)
+
+    def __get__(self, made: Any, kind: type) -> inspect.Signature:
+        return _without_self(self._signatures.__signature__).replace(return_annotation=inspect.Signature.empty)
+
+
 def _parts(annotation: str) -> list[str]:
     """The alternatives of a union."""
     parts, depth = [""], 0
@@ -278,7 +307,7 @@ def _missing_file(error: Exception, signature: inspect.Signature, arguments: tup
                 raise missing from None
 
 
-def _warn(name: str, signature: inspect.Signature, result: Any) -> None:
+def _warn(name: str, signatures: _Signatures, result: Any) -> None:
     converged = getattr(result, "converged", True)
     if converged is True or getattr(result, "termination", None) == "interrupted":
         return
@@ -293,7 +322,7 @@ def _warn(name: str, signature: inspect.Signature, result: Any) -> None:
         what += "; its numbers are not an answer"
     else:
         return
-    remedies = " or ".join(option for option in ("max_iterations", "tolerance") if option in signature.parameters)
+    remedies = " or ".join(option for option in ("max_iterations", "tolerance") if option in signatures.__signature__.parameters)
     warnings.warn(f"{name}: {what}" + (f". Raise {remedies}" if remedies else ""), ConvergenceWarning, stacklevel=3)
 
 
@@ -333,9 +362,7 @@ def _once_more(
 
 def function(native: Any, name: str, module: str = "salebra", method: bool = False) -> Callable[..., Any]:
     """A Python function of one of the extension, which a user finds in the module."""
-    overloads = signatures_of(native)
-    whole = overloads[0]
-    signatures = [_without_self(overload) for overload in overloads] if method else overloads
+    signatures = _Signatures(native)
 
     def call(*arguments: Any, **keywords: Any) -> Any:
         try:
@@ -344,16 +371,17 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
             if not _refused(error):
                 raise
             here = functools.partial(native, arguments[0]) if method and arguments else native
-            result = _once_more(here, name, signatures, arguments[1:] if method else arguments, keywords, error)
+            overloads = [_without_self(overload) for overload in signatures.all] if method else signatures.all
+            result = _once_more(here, name, overloads, arguments[1:] if method else arguments, keywords, error)
         except (_core.InvalidInput, _core.IoError) as error:
-            _missing_file(error, whole, arguments, keywords)
+            _missing_file(error, signatures.__signature__, arguments, keywords)
             raise
         if type(result) is list and result and isinstance(result[0], _core.SurfaceDamping):
             from ._show import ResultList
 
             result = ResultList(result)
         _doubt(name, result, arguments, keywords)
-        _warn(name, whole, result)
+        _warn(name, signatures, result)
         _remember(result, name, arguments, keywords)
         return result
 
@@ -361,7 +389,7 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
     call.__qualname__ = name
     call.__module__ = module
     call.__doc__ = native.__doc__.split("\n", 2)[-1].strip() if native.__doc__ else None
-    call.__signature__ = whole  # type: ignore[attr-defined]
+    call.__wrapped__ = signatures  # type: ignore[attr-defined]
     return call
 
 
@@ -480,10 +508,10 @@ def _answer_class(kind: Any) -> None:
     own = vars(kind)
     name = kind.__name__
     if type(own.get("__init__")).__name__ == "nb_method":
-        whole = signatures_of(own["__init__"])[0]
+        signature = _ConstructorSignature(own["__init__"])
         _constructors[name] = function(own["__init__"], name, method=True)
         _core._answer_constructor(kind, name)
-        kind.__signature__ = _without_self(whole).replace(return_annotation=inspect.Signature.empty)
+        kind.__signature__ = signature
     for key, value in list(own.items()):
         if key.startswith("_"):
             continue
