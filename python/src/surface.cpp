@@ -336,7 +336,9 @@ void bind_areal_parameters(nb::module_& m) {
   described_class<ArealParameters>(
       m, "ArealParameters",
       "Areal parameters by the definitions of ISO 25178-2, under their names there.");
-  m.def("areal_parameters", &of_surface<areal_parameters>, nb::arg("surface"),
+  m.def("areal_parameters",
+        &of_surface<[](const Surface& surface) { return areal_parameters(surface); }>,
+        nb::arg("surface"),
         "ISO 25178-2 parameters of the surface as it is given: form is removed by "
         ":meth:`Surface.detrended` alone, no S- or "
         "L-filter is applied.");
