@@ -65,9 +65,9 @@ Json comparison_json(const StudyResult& result, const StudyAnswer& found) {
   Json answer = {{"pressure", result.pressures},
                  {"relative_pressure", theories.relative_pressure},
                  {"theories", theory},
-                 {"spots", spots},
-                 {"damping", damping_json(found)},
-                 {"interval_method", result.interval_method()}};
+                 {"spots", spots}};
+  if (!result.configuration.adhesion) answer["damping"] = damping_json(found);
+  answer["interval_method"] = result.interval_method();
   for (const StudyModel& model : result.models())
     answer["models"][model.name] = model_json(result, model);
   add_ensemble(answer, result, found);
@@ -80,7 +80,7 @@ std::vector<std::size_t> shown_pressures(const StudyResult& result, std::size_t 
   const auto damping = result.damping(&DampingPoint::work_per_cycle);
   std::vector<std::size_t> known, shown;
   for (std::size_t k = 0; k < damping.size(); ++k)
-    if (!std::isnan(damping[k].mean)) known.push_back(k);
+    if (result.configuration.adhesion || !std::isnan(damping[k].mean)) known.push_back(k);
   if (known.size() <= count) return known;
   for (std::size_t i = 0; i < count; ++i)
     shown.push_back(known[i * (known.size() - 1) / (count - 1)]);
@@ -174,9 +174,24 @@ std::string damping_table(const StudyResult& result, const StudyAnswer& found) {
          to_table(rows, 2, true);
 }
 
+/// What draws the surfaces apart, by the models that adhere.
+std::string pull_off_table(const StudyResult& result) {
+  std::vector<std::vector<std::string>> rows{{"model", "pull-off", "95 % interval"}};
+  for (const StudyModel& model : result.models()) {
+    const EnsembleMean mean = result.fitted("pull_off_pressure", model.id);
+    if (!std::isnan(mean.mean))
+      rows.push_back({model.title, format_quantity(mean.mean, Dimension::pressure, 3),
+                      interval(mean, Dimension::pressure, 3)});
+  }
+  return rows.size() == 1 ? "" : "Pull-off\n" + to_table(rows) + "\n";
+}
+
 std::string comparison_text(const StudyResult& result, const StudyAnswer& found) {
-  return heading(result) + slopes_table(result) + law_verdict(result) + "\n" + loads_table(result) +
-         "\n" + damping_table(result, found) + "\n" + premises_of(found, result).text() + "\n" +
+  const std::string contact = heading(result) + slopes_table(result) + law_verdict(result) + "\n" +
+                              loads_table(result) + "\n";
+  if (result.configuration.adhesion)
+    return contact + pull_off_table(result) + ensemble_remarks(result);
+  return contact + damping_table(result, found) + "\n" + premises_of(found, result).text() + "\n" +
          ensemble_remarks(result);
 }
 

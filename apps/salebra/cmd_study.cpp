@@ -24,11 +24,10 @@ Json lengths_json(const StudyResult& result, ContactModel model) {
           {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model))}};
 }
 
-Json study_json(const StudyResult& result, const StudyAnswer& answer) {
-  Json object = lengths_json(result, ContactModel::bem);
+Json damping_of_study(const StudyResult& result, const StudyAnswer& answer) {
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
-  Json& damping = object["damping"];
+  Json damping;
   damping["pressure"] = result.pressures;
   damping["force"] = forces;
   damping.add(damping_json(answer));
@@ -37,6 +36,18 @@ Json study_json(const StudyResult& result, const StudyAnswer& answer) {
   damping.add(
       columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); }));
   damping.erase("damping_constant_error");
+  return damping;
+}
+
+Json study_json(const StudyResult& result, const StudyAnswer& answer) {
+  Json object = lengths_json(result, ContactModel::bem);
+  if (result.configuration.adhesion) {
+    object["curve"]["pressure"] = result.pressures;
+    object["curve"].add(
+        columns_json<ForceSample>([&](const auto& number) { return result.curve(number); }));
+  } else {
+    object["damping"] = damping_of_study(result, answer);
+  }
   for (const StudyModel& model : result.models())
     object["comparison"][model.name] = lengths_json(result, model.id);
   add_ensemble(object, result, answer);
@@ -218,20 +229,64 @@ std::string transport_table(const StudyResult& result, const StudyAnswer& answer
   return "\nThrough the contacts\n" + to_table(rows);
 }
 
+/// The adhesive contact at each load, and the cycle.
+std::string adhesion_table(const StudyResult& result) {
+  const Adhesion& adhesion = result.configuration.adhesion->adhesion;
+  const auto gap = result.curve(&ForceSample::mean_gap);
+  const auto area = result.curve(&ForceSample::contact_area_fraction);
+  std::vector<std::vector<std::string>> rows{
+      {"nominal p", "mean gap", "95 % interval", "A/A0 %", "95 % interval"}};
+  const auto percent = [](EnsembleMean mean) {
+    for (double EnsembleMean::*part :
+         {&EnsembleMean::mean, &EnsembleMean::low, &EnsembleMean::high})
+      mean.*part *= 100;
+    return mean;
+  };
+  for (std::size_t k = 0; k < result.pressures.size(); ++k)
+    rows.push_back({format_quantity(result.pressures[k], Dimension::pressure, 3),
+                    format_quantity(gap[k].mean, Dimension::length, 3),
+                    interval(gap[k], Dimension::length, 3),
+                    fmt::format("{:.3g}", percent(area[k]).mean),
+                    interval(percent(area[k]), Dimension::dimensionless, 3)});
+  std::string text = fmt::format("Adhesion: w = {}, range {}, {}\n{}",
+                                 format_quantity(adhesion.work, Dimension::energy_per_area, 3),
+                                 format_quantity(adhesion.range, Dimension::length, 3),
+                                 word_of(adhesion.potential), to_table(rows));
+  if (result.configuration.adhesion->cycle.empty()) return text;
+  const auto line = [&](const char* name, Dimension dimension,
+                        double AdhesiveCycleNumbers::*number) {
+    const EnsembleMean mean = result.adhesion_cycle(number);
+    const std::string limits = interval(mean, dimension, 3);
+    return fmt::format("{}{}{}", name, format_quantity(mean.mean, dimension, 3),
+                       limits.empty() ? "" : " (95 %: " + limits + ")");
+  };
+  return text + "\nCycle of mean gaps\n" +
+         line("  pull-off       ", Dimension::pressure, &AdhesiveCycleNumbers::pull_off_pressure) +
+         line("\n  adhesion work  ", Dimension::energy,
+              &AdhesiveCycleNumbers::adhesion_work_per_cycle) +
+         line(", by the steps ±", Dimension::energy, &AdhesiveCycleNumbers::adhesion_work_error) +
+         fmt::format("\n  reversible     on {:.3g} % of the surfaces\n",
+                     100 * result.adhesion_cycle(reversible_share).mean);
+}
+
 std::string study_text(const StudyResult& result, const StudyAnswer& answer) {
   const auto count = result.realisations.size();
   const double friction = result.configuration.known.friction_coefficient;
   const bool flowed = std::ranges::any_of(
       result.realisations, [](const Realisation& r) { return r.first_loading.yielded(); });
   std::string text = fmt::format(
-      "{} of {} x {} points, {} x {}, h_rms {}{}\n\nDamping constant: {}{}\n",
+      "{} of {} x {} points, {} x {}, h_rms {}{}\n\n",
       count == 1 ? "1 surface" : fmt::format("{} surfaces", count), result.grid.nx, result.grid.ny,
       format_quantity(result.grid.lx, Dimension::length, 3),
       format_quantity(result.grid.ly, Dimension::length, 3),
       format_quantity(result.mean([](const auto& r) { return r.heights.rms_height; }).mean,
                       Dimension::length, 3),
-      flowed ? ",\nas the first loading left it" : "", motion_text(result.configuration),
-      std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
+      flowed ? ",\nas the first loading left it" : "");
+  if (result.configuration.adhesion)
+    return text + adhesion_table(result) + "\n" + accuracy(result) + law_line(result) +
+           transport_table(result, answer);
+  text += fmt::format("Damping constant: {}{}\n", motion_text(result.configuration),
+                      std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
   return text + answer_table(result, answer) + notes(result, answer) + "\n" +
          premises_of(answer, result).text() + accuracy(result) + law_line(result) +
          transport_table(result, answer);

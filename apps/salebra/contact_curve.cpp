@@ -38,6 +38,7 @@ SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& out
   if (work.loads.empty()) work.loads = {0.05};
   work.normal_stiffness = arguments.wants_stiffness();
   work.tangential_stiffness = arguments.stick;
+  work.adhesive = arguments.adhesive();
   work.boundary = *value_of<Boundary>(arguments.boundary);
   work.groups = groups_of(arguments, work, session);
   return work;

@@ -280,6 +280,12 @@ StudyConfiguration StudyArguments::study() const {
   conduction.validate();
   if (!conduction.conductivity.empty()) study.conduction.conductivity = conduction.conductivity;
   if (!conduction.resistivity.empty()) study.conduction.resistivity = conduction.resistivity;
+  if (study.adhesion)
+    for (const auto& [given, option] : {std::pair(motion.given(), "--normal-amplitude"),
+                                        {levels.has_value(), "--levels"},
+                                        {relative_error.has_value(), "--relative-error"},
+                                        {!seam_error.empty(), "--seam-error"}})
+      require_that(!given, option, std::string(no_damping_with_adhesion));
   const ContactFacts facts = premises.facts({});
   for (double ContactFacts::*fact : {&ContactFacts::friction_coefficient, &ContactFacts::hardness,
                                      &ContactFacts::density, &ContactFacts::excursion})
@@ -774,7 +780,23 @@ void add_transport(Json& answer, const StudyResult& result, const StudyAnswer& f
   flow.add(columns_json<FlowFactors>([&](const auto& number) { return result.flow(number); }));
 }
 
+void add_adhesion(Json& answer, const StudyResult& result) {
+  if (!result.configuration.adhesion || result.configuration.adhesion->cycle.empty()) return;
+  Json& adhesion = answer["adhesion"];
+  adhesion["mean_gap"] = result.configuration.adhesion->cycle;
+  adhesion.add(
+      columns_json<AdhesionSample>([&](const auto& number) { return result.adhesion(number); }));
+  adhesion.add(columns_json<AdhesiveCycleNumbers>(
+      [&](const auto& number) { return result.adhesion_cycle(number); }));
+  adhesion["reversible"] = to_json(result.adhesion_cycle(reversible_share));
+}
+
 }  // namespace
+
+double reversible_share(const AdhesiveCycleNumbers& cycle) {
+  const std::optional<bool> reversible = cycle.reversible();
+  return reversible ? double(*reversible) : ForceSample::unknown;
+}
 
 Json damping_json(const StudyAnswer& answer) {
   Json object = answer_json(answer);
@@ -786,6 +808,7 @@ Json damping_json(const StudyAnswer& answer) {
 
 void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found) {
   add_transport(answer, result, found);
+  add_adhesion(answer, result);
   answer["realisations"] = result.realisations.size();
   Json& flags = answer["flags"] = Json::object();
   for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;
@@ -793,7 +816,7 @@ void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& fo
     answer["first_loading"] = columns_json<FirstLoading>([&](const auto& number) {
       return result.mean([&](const Realisation& r) { return number(r.first_loading); });
     });
-  premises_of(found, result).add_to(answer);
+  if (!result.configuration.adhesion) premises_of(found, result).add_to(answer);
 }
 
 }  // namespace salebra::cli

@@ -74,6 +74,8 @@ Json columns_json(const MeansOf& means) {
   });
   return object;
 }
+/// 1 of a cycle without hysteresis: its mean is the share of the surfaces.
+double reversible_share(const AdhesiveCycleNumbers& cycle);
 /// "low … high"; empty where there is no interval.
 std::string interval(const EnsembleMean& estimate, Dimension dimension, int digits = 4);
 /// Size, roughness and moduli of the surfaces.

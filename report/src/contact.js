@@ -29,6 +29,19 @@ function facts(point) {
   return result;
 }
 
+/** The loop of an adhesive cycle. */
+function adhesionFigure(parent, point) {
+  const adhesion = point.adhesion, gap = adhesion.mean_gap, branches = [["coming closer", "loading_pressure", "bem"], ["drawn apart", "unloading_pressure", "gw_moments"]];
+  addFigure(parent, {
+    id: "adhesion-loop", title: "Pressure over mean gap in a cycle", height: 420,
+    alt: () => `Nominal pressure over mean gap, coming closer and drawn apart; the largest pull is ${quantity(-Math.min(...adhesion.unloading_pressure.mean.filter(known)), "Pa", 3)}.`,
+    caption: "Surfaces that adhere come closer and are drawn apart, gap by gap; below 0 the contact pulls. The area between both is the work that a cycle loses.",
+    axes: {x: {label: "mean gap ‹ū›", short: "‹ū›", unit: "m", log: false}, y: {label: "pressure ‹p›", short: "‹p›", unit: "Pa", log: false}},
+    columns: () => [{label: "mean gap", key: "mean_gap", unit: "m", values: gap}, ...branches.flatMap(([title, name]) => estimateColumns(title, name, "Pa", adhesion[name]))],
+    plot: () => ({series: branches.flatMap(([title, name, style]) => band(title, gap, adhesion[name], styleOf(style), {text: gap.map((g, i) => `${title}: ${quantity(adhesion[name].mean[i], "Pa", 3)}<br><i>ū</i> = ${quantity(g, "m", 3)}`)}))}),
+  });
+}
+
 function forceGapFigure(parent, point) {
   const f = facts(point), gap = point.curve.mean_gap.bem;
   const fitted = known(f.length);

@@ -28,6 +28,8 @@ function cards(point) {
   } else {
     found.push(absent("a fitted force law"));
   }
+  const adhesion = point.adhesion, pull = adhesion?.pull_off_pressure, work = adhesion?.adhesion_work_per_cycle;
+  if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)}, ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} by its steps`]));
   if (!damping) return found;
   const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = point.slip_followed === "yes";
   const shown = slip ? point.answer.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
@@ -160,7 +162,7 @@ function heading(point) {
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
   document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")));
-  const sections = {conclusion: "Conclusion", ...(point.premises ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", damping: "Damping", ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
+  const sections = {conclusion: "Conclusion", ...(point.premises ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
   document.getElementById("bar").replaceChildren(loadChooser(point, "load"), h("ul", {}, Object.entries(sections).map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text)))));
 }
 
@@ -195,6 +197,7 @@ function show(index) {
   section(main, "law", "Force against mean gap", null, (body) => {
     if (!point.curve?.mean_gap?.bem) return void body.append(absent("the force–gap curve of boundary elements"));
     forceGapFigure(body, point);
+    if (point.adhesion) adhesionFigure(body, point);
     localLengthFigure(body, point);
   });
   section(main, "contact", "Contact", null, (body) => {
@@ -211,7 +214,7 @@ function show(index) {
     if (summary) element.insertBefore(summary, body);
     modelFigures(body, point);
   });
-  section(main, "damping", "Damping", null, (body) => {
+  if (!point.adhesion) section(main, "damping", "Damping", null, (body) => {
     if (!point.damping) return void body.append(absent("damping"));
     dampingFigure(body, point);
     dampingRatioFigure(body, point);

@@ -92,6 +92,7 @@ class Point {
     add(json, "fit", fit());
     add(json, "local", local());
     add(json, "damping", damping());
+    add(json, "adhesion", adhesion());
     if (has("answer/pressure")) {
       for (const char* name : {"validity", "conditions", "slip_followed"})
         if (const auto text = file_.text_attribute(where_ + "answer", name)) json[name] = *text;
@@ -336,6 +337,22 @@ class Point {
           "modulus_ratio", "contact_modulus", "friction_coefficient"})
       if (const auto value = file_.number_attribute(where_ + "damping", name))
         json[name] = number(*value);
+    return json;
+  }
+
+  /// The loop of pressure over mean gap, and what the cycle comes to.
+  Json adhesion() const {
+    Json json;
+    const auto gaps = column("adhesion/mean_gap");
+    if (!gaps) return json;
+    json["mean_gap"] = list(*gaps);
+    for (const char* name : {"loading_pressure", "unloading_pressure"})
+      json[name] = estimate(std::string("adhesion/ensemble_") + name, 0, gaps->size());
+    for (const char* name : {"pull_off_pressure", "adhesion_work_per_cycle", "adhesion_work_error"})
+      for (const char* member : {"mean", "low", "high"})
+        if (const auto value = file_.number_attribute(where_ + "adhesion",
+                                                      fmt::format("ensemble_{}_{}", name, member)))
+          json[name][member] = number(*value);
     return json;
   }
 

@@ -76,6 +76,15 @@ std::string validity(const Json& point) {
   return text;
 }
 
+std::string adhesion(const Json& point) {
+  const Json* found = find(point, {"adhesion"});
+  if (found == nullptr) return "";
+  return fmt::format("<p>Adhesion: pull-off at {}; a cycle loses {}, ± {} by its steps.</p>",
+                     with_interval(find(*found, {"pull_off_pressure"}), Dimension::pressure),
+                     with_interval(find(*found, {"adhesion_work_per_cycle"}), Dimension::energy),
+                     shown(find(*found, {"adhesion_work_error", "mean"}), Dimension::energy));
+}
+
 std::string damping(const Json& point) {
   const Json* forces = find(point, {"damping", "force"});
   const Json* pressures = find(point, {"pressure"});
@@ -137,7 +146,7 @@ std::string summary_of(const Json& payload) {
     const bool several = payload["points"].size() > 1;
     text += fmt::format("<section><h2>What came out{}</h2>",
                         several ? fmt::format(", point {}", ++i) : "");
-    text += law(point) + validity(point) + damping(point) + "</section>";
+    text += law(point) + adhesion(point) + validity(point) + damping(point) + "</section>";
   }
   return text;
 }

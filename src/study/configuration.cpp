@@ -307,6 +307,28 @@ void read_compare(TomlTable table, StudyConfiguration& configuration) {
   table.require_no_other_keys();
 }
 
+void read_adhesion(TomlTable table, StudyConfiguration& configuration) {
+  AdhesionPlan plan;
+  plan.adhesion.work = required_positive(table, "work_of_adhesion", Dimension::energy_per_area);
+  plan.adhesion.range = required_positive(table, "range", Dimension::length);
+  if (const auto potential = enumerated<AdhesionPotential>(table, "potential"))
+    plan.adhesion.potential = *potential;
+  plan.cycle = table.values("cycle", Dimension::length);
+  table.check(plan.cycle.size() != 1, "cycle",
+              "1 mean gap is no cycle; give several, \"8um:0.1um:24\"");
+  for (std::size_t k = 0; k < plan.cycle.size(); ++k) {
+    check_positive(table, "cycle", plan.cycle[k]);
+    table.check(k == 0 || plan.cycle[k] < plan.cycle[k - 1], "cycle",
+                "must fall: mean gaps from the widest to the closest");
+  }
+  plan.force_coarse = table.flag("force_coarse").value_or(false);
+  table.require_no_other_keys();
+  configuration.adhesion = std::move(plan);
+  configuration.levels = 0;
+  configuration.compared_models.insert(configuration.compared_models.end(),
+                                       {ContactModel::gw_dmt, ContactModel::gw_jkr});
+}
+
 void read_damping(TomlTable table, StudyConfiguration& configuration) {
   const std::size_t mode = table.choice("mode", {"drag", "equal-frequency"}).value_or(0);
   const double normal_amplitude = required_positive(table, "normal_amplitude", Dimension::length);
@@ -389,8 +411,8 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
                                              const std::filesystem::path& folder) {
   TomlTable root = TomlTable::parse(text, name);
   // Report a misspelt table as such, not as missing.
-  for (const char* table :
-       {"surface", "ensemble", "material", "conduction", "contact", "fit", "damping", "compare"})
+  for (const char* table : {"surface", "ensemble", "material", "conduction", "contact", "adhesion",
+                            "fit", "damping", "compare"})
     root.table(table);
   root.require_no_other_keys();
   StudyConfiguration configuration;
@@ -411,7 +433,12 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   if (auto conduction = root.table("conduction")) read_conduction(*conduction, configuration);
   read_contact(root.required_table("contact"), configuration);
   if (auto fit = root.table("fit")) read_fit(*fit, configuration);
-  read_damping(root.required_table("damping"), configuration);
+  if (auto adhesion = root.table("adhesion")) {
+    root.check(!root.has("damping"), "damping", no_damping_with_adhesion);
+    read_adhesion(*adhesion, configuration);
+  } else {
+    read_damping(root.required_table("damping"), configuration);
+  }
   if (auto compare = root.table("compare")) read_compare(*compare, configuration);
   return configuration;
 }

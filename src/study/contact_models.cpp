@@ -12,6 +12,7 @@
 #include <mutex>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/asperity/adhesive_summits.hpp>
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/asperity/interacting_summits.hpp>
@@ -42,6 +43,57 @@ SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) 
   return statistics;
 }
 
+/// The curve of a model that the surface has none for.
+ModelResult no_curve(const ModelWork& work) {
+  ModelResult result;
+  for (const double pressure : work.pressures)
+    result.curve.samples.push_back({.pressure = pressure, .converged = false});
+  return result;
+}
+
+/// Mean gap by mean gap in and out.
+AdhesionOfSurface cycle_of(const ModelWork& work, const AdhesiveContactOptions& contact) {
+  const AdhesionPlan& plan = *work.configuration.adhesion;
+  std::vector<Target> gaps;
+  for (const double gap : plan.cycle) gaps.push_back({.mean_gap = gap});
+  const AdhesiveCycle cycle =
+      adhesive_cycle(work.surface, work.configuration.material.contact_modulus, gaps, plan.adhesion,
+                     {.contact = contact, .unload = true});
+  AdhesionOfSurface found{cycle, std::vector<AdhesionSample>(gaps.size())};
+  if (!cycle.converged()) return found;
+  for (std::size_t k = 0; k < gaps.size(); ++k) {
+    const AdhesiveContactState &in = cycle.loading[k], &out = cycle.unloading[gaps.size() - 1 - k];
+    found.samples[k] = {in.mean_pressure, out.mean_pressure, in.contact_area_fraction,
+                        out.contact_area_fraction};
+  }
+  return found;
+}
+
+/// Load by load, each contact from the one before, and the cycle.
+ModelResult adhesive_elements(ModelWork& work, const SweepOptions& sweep) {
+  const AdhesionPlan& plan = *work.configuration.adhesion;
+  ModelResult result = no_curve(work);
+  ForceCurve& curve = result.curve;
+  curve.model = "bem";
+  curve.nominal_area = work.surface.grid.area();
+  curve.rms_height = work.realisation.heights.rms_height;
+  curve.adhesive = true;
+  AdhesiveCycleOptions options{
+      .contact = {.contact = {.on_progress = work.progress}, .force_coarse = plan.force_coarse}};
+  std::size_t k = 0;
+  options.on_state = [&](bool, const AdhesiveContactState& state) {
+    curve.samples[k] = force_sample(state, work.surface, work.configuration.material, sweep);
+    sweep.on_state(k++, state);
+  };
+  std::vector<Target> loads;
+  for (const double pressure : work.pressures) loads.push_back({.pressure = pressure});
+  adhesive_cycle(work.surface, work.configuration.material.contact_modulus, loads, plan.adhesion,
+                 options);
+  if (!plan.cycle.empty()) work.realisation.adhesion = cycle_of(work, options.contact);
+  result.pull_off_pressure = work.realisation.adhesion.pull_off_pressure;
+  return result;
+}
+
 ModelResult boundary_elements(ModelWork& work) {
   Realisation& realisation = work.realisation;
   const Surface& surface = work.surface;
@@ -63,15 +115,8 @@ ModelResult boundary_elements(ModelWork& work) {
     const std::scoped_lock lock(picture_guard);
     realisation.picture.add_contact(std::int16_t(k), state, surface);
   };
+  if (work.configuration.adhesion) return adhesive_elements(work, sweep);
   return {.curve = sweep_pressures(surface, work.configuration.material, work.pressures, sweep)};
-}
-
-/// The curve of a model that the surface has none for.
-ModelResult no_curve(const ModelWork& work) {
-  ModelResult result;
-  for (const double pressure : work.pressures)
-    result.curve.samples.push_back({.pressure = pressure, .converged = false});
-  return result;
 }
 
 ModelResult statistical_summits(ModelWork& work) {
@@ -132,6 +177,21 @@ ModelResult two_rough_sides(ModelWork& work) {
   return result;
 }
 
+/// Fuller and Tabor's summits: loads come closer, the pull-off is of summits that are drawn apart.
+template <SummitAdhesion adhesion>
+ModelResult adhesive_summits(ModelWork& work) {
+  if (!work.realisation.has_random_summits() || !work.configuration.adhesion) return no_curve(work);
+  const auto summits = [&](bool unloading) {
+    return AdhesiveSummits(work.realisation.ensemble, work.configuration.material,
+                           work.surface.grid.area(), adhesion,
+                           work.configuration.adhesion->adhesion.work, unloading);
+  };
+  ModelResult result{.curve = curve_at_pressures(summits(false), work.pressures)};
+  result.curve.adhesive = true;
+  result.pull_off_pressure = summits(true).pull_off_pressure();
+  return result;
+}
+
 using enum ContactModel;
 constexpr std::array registry{
     StudyModel{bem, "bem", "boundary elements", 0.218e-6, &boundary_elements},
@@ -144,7 +204,11 @@ constexpr std::array registry{
                &interacting_summits},
     StudyModel{persson, "persson", "Persson's theory", 0, &persson_theory},
     StudyModel{greenwood_tripp, "greenwood_tripp", "Greenwood-Tripp, two equal rough sides", 0,
-               &two_rough_sides}};
+               &two_rough_sides},
+    StudyModel{gw_dmt, "gw_dmt", "GW, summits that adhere by DMT", 0,
+               &adhesive_summits<SummitAdhesion::dmt>},
+    StudyModel{gw_jkr, "gw_jkr", "Fuller-Tabor, summits that adhere by JKR", 0,
+               &adhesive_summits<SummitAdhesion::jkr>}};
 
 static_assert(
     [] {
@@ -183,7 +247,8 @@ std::string_view word_of(ContactModel model) { return registry[std::size_t(model
 
 std::vector<ContactModel> all_contact_models() {
   std::vector<ContactModel> models;
-  for (const StudyModel& model : registry) models.push_back(model.id);
+  for (const StudyModel& model : registry)
+    if (!is_adhesive(model.id)) models.push_back(model.id);
   return models;
 }
 

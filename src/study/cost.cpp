@@ -28,6 +28,8 @@ constexpr double growth = 0.15;                  // iterations grow with this po
 constexpr double level_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
 constexpr double memory_per_cell = 80;           // bytes
 constexpr double memory_per_cell_stick = 155;    // bytes
+constexpr double memory_of_adhesion = 130;       // bytes
+constexpr double contacts_of_adhesion = 8;       // that one costs, from the one before
 constexpr double surface_per_cell = 24;          // bytes, with its transforms
 constexpr double memory_of_program = 22e6;       // bytes
 constexpr double reference_transform = 0.39e-3;  // s, a pair of 256² in double there
@@ -90,9 +92,13 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   cost.levels = levels_of(point, cost.grid);
   double per_cell = (stick ? stick_per_cell : 0) + level_per_cell * cost.levels;
   for (const StudyModel& model : models_of(point)) per_cell += model.seconds_per_cell;
+  if (point.adhesion)
+    per_cell += contact_models()[0].seconds_per_cell * contacts_of_adhesion *
+                (1 + 2.0 * double(point.adhesion->cycle.size()) / double(cost.pressures.size()));
   cost.seconds = static_cast<double>(cost.surfaces * cost.pressures.size()) * per_cell * cells *
                  std::pow(cells / (512.0 * 512.0), growth) / speed;
   cost.memory = cells * (stick ? memory_per_cell_stick : memory_per_cell);
+  if (point.adhesion) cost.memory += cells * memory_of_adhesion;
   return cost;
 }
 
@@ -154,7 +160,8 @@ double contact_seconds(const SurfaceWork& work, double load) {
                           (work.tangential_stiffness ? stick_per_cell : 0);
   const double isolated =
       work.boundary == Boundary::free ? 2.5 : 1;  // transforms of twice the size
-  return isolated * per_cell * cells * std::pow(cells / (512.0 * 512.0), growth) *
+  return (work.adhesive ? contacts_of_adhesion : 1) * isolated * per_cell * cells *
+         std::pow(cells / (512.0 * 512.0), growth) *
          std::pow(felt(load) / mean_load, power_of_load);
 }
 
@@ -171,7 +178,8 @@ double network_seconds(const SurfaceWork& work, double load) {
                               std::pow(felt(load) / 0.02, power_of_load) *
                               (work.normal_stiffness ? 1.5 : 1.0);
   const double messages = transforms * 2 * (ranks - 1) + applications * (30 + 3 * std::log2(ranks));
-  return bytes / nodes * (1 - 1 / nodes) / Cost::bandwidth + messages * Cost::latency;
+  return (work.adhesive ? contacts_of_adhesion : 1) *
+         (bytes / nodes * (1 - 1 / nodes) / Cost::bandwidth + messages * Cost::latency);
 }
 
 }  // namespace
@@ -188,7 +196,8 @@ double surface_memory(const SurfaceWork& work) {
   if (work.loads.empty()) return of_process + (heights + (together ? 4.5 : 0)) * mine;
   const double load = felt(std::ranges::max(work.loads));
   const double contact = (work.tangential_stiffness ? 56 + 196 * std::sqrt(load) : 43 + 62 * load) +
-                         (together && work.normal_stiffness ? 8 : 0) + (isolated ? 36 : 0);
+                         (together && work.normal_stiffness ? 8 : 0) + (isolated ? 36 : 0) +
+                         (work.adhesive ? memory_of_adhesion : 0);
   // What each process makes of the whole grid: the coarser levels of the ladder, or symbols.
   const double whole = together ? (isolated ? 4 : 1.5) * cells : 0;
   // A process that is alone presses a load on each thread.
@@ -245,8 +254,9 @@ double study_memory(const StudyConfiguration& point, const Grid2D& grid, int thr
   const double open = std::min(surfaces, static_cast<double>(threads));
   const double contacts =
       std::min(surfaces * static_cast<double>(point.pressures.size()), double(threads));
-  const double per_contact =
-      (stick_solves(point) ? memory_per_cell_stick : memory_per_cell) - surface_per_cell;
+  const double per_contact = (point.adhesion ? memory_of_adhesion : 0) +
+                             (stick_solves(point) ? memory_per_cell_stick : memory_per_cell) -
+                             surface_per_cell;
   const auto cells = static_cast<double>(grid.points());
   const int halvings =
       surface_damping_options(point, grid, detail::seeds_of(point).front()).refinements;
@@ -276,6 +286,7 @@ SurfaceWork surface_work(const StudyConfiguration& point, const Grid2D& grid,
           .loads = loads,
           .normal_stiffness = true,
           .tangential_stiffness = stick_solves(point),
+          .adhesive = point.adhesion.has_value(),
           .ranks = processes.ranks,
           .nodes = processes.nodes,
           .groups = processes.groups,

@@ -113,6 +113,7 @@ struct SurfaceWork {
   Grid2D grid;
   std::vector<double> loads;  ///< of its contacts, p/(E*h'_rms); none: it is made only
   bool normal_stiffness = false, tangential_stiffness = false;  ///< K; K_t by stick solves
+  bool adhesive = false;
   Boundary boundary = Boundary::periodic;
   int ranks = 1, nodes = 1;  ///< processes, and the machines that they share evenly
   int groups = 1;   ///< of processes, each of which holds the surface and presses some of the loads

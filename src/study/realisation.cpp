@@ -115,6 +115,7 @@ double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& wind
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
   const double modulus_ratio = configuration.material.modulus_ratio();
+  const bool adhesive = configuration.adhesion.has_value();
   std::optional<ExponentialLaw> fitted_law;
   if (std::isfinite(model.fit.decay_length))
     fitted_law.emplace(1, model.fit.decay_length, modulus_ratio);
@@ -132,7 +133,7 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     point.pressure = sample.pressure;
     point.force = sample.force;
     points.push_back(point);
-    if (!sample.converged || !(sample.force > 0)) continue;
+    if (adhesive || !sample.converged || !(sample.force > 0)) continue;
     const AtForce position{sample.force};
     if (fitted_law) {
       const auto by_law = relaxation_damping(*fitted_law, position, configuration.motion, small);
@@ -374,14 +375,26 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
   StudyLoads loads{.pressures = configuration.pressures};
   std::optional<std::string> doubt;
   double slope = 0;
+  Grid2D grid;
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
     slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
     doubt = doubt_of_slope(slope);
+    grid = recipe->grid;
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
-    slope = surface_moments(measured_surface(measured, ranks, &loads.doubts)).rms_slope();
+    const Surface surface = measured_surface(measured, ranks, &loads.doubts);
+    slope = surface_moments(surface).rms_slope();
+    grid = surface.grid;
   }
   const double modulus = configuration.material.contact_modulus;
+  const bool adhesive = configuration.adhesion.has_value();
+  require(adhesive || std::ranges::none_of(configuration.models, is_adhesive), "models",
+          "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");
+  require(!adhesive || std::isnan(configuration.known.hardness), "hardness",
+          configuration.known.hardness, "is not known to adhesion; leave out one of them");
+  if (adhesive)
+    if (const auto coarse = doubt_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
+      loads.doubts.push_back(*coarse);
   loads.contact_scale = modulus * slope;
   if (configuration.relative_pressures)
     for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
@@ -447,7 +460,7 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     result.model = model.id;
     if (bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
-    if (bem && configuration.levels != 0)
+    if (bem && configuration.levels != 0 && !configuration.adhesion)
       resolve_damping(result, surface, configuration, seed, part);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;

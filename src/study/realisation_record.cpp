@@ -15,7 +15,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 11\n";
+constexpr std::string_view magic = "salebra realisation 12\n";
 
 /// Checksum of a file; 0 where there is none.
 std::uint64_t checksum_of(const std::filesystem::path& file) {
@@ -42,7 +42,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
   }
   // The first of several surfaces states the error of all.
   bytes += bytes_of(point.material, point.pressures, point.relative_pressures, point.tolerance,
-                    point.stick, point.flow_factors, point.window, point.models,
+                    point.stick, point.flow_factors, point.window, point.models, point.adhesion,
                     point.known.hardness, point.known.friction_coefficient, point.known.excursion,
                     point.motion, point.damping.hold, point.damping.amplitude,
                     point.damping.tolerance, point.levels, point.relative_error, point.seam,

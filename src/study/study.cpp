@@ -64,7 +64,7 @@ void warn(StudyResult& result) {
                                         "them or give a pressure_window"));
   }
   const auto total = result.realisations.size() * result.pressures.size();
-  if (lost > 0 && std::size_t(lost) == total) {
+  if (!result.configuration.adhesion && lost > 0 && std::size_t(lost) == total) {
     result.warnings.push_back(
         "the normal oscillation leaves the range of the contact at every force: make "
         "normal_amplitude "

@@ -88,6 +88,7 @@ StudyAnswer answer_of(const StudyResult& result) {
       .electrical_conductance = result.conductance(&Conductances::electrical_conductance),
       .slip_followed = !std::isnan(configuration.known.friction_coefficient),
       .premises = std::vector<Premises>(count)};
+  if (configuration.adhesion) return answer;
   const auto* drag = std::get_if<Drag>(&configuration.motion);
   if (drag != nullptr && answer.slip_followed && std::isnan(configuration.known.excursion))
     answer.needs = "excursion";

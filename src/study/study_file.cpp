@@ -342,6 +342,31 @@ void write_flow(Table table, const StudyResult& result) {
       {"pressure"});
 }
 
+/// The cycles of adhesive contacts.
+void write_adhesion(Table table, const StudyResult& result) {
+  table.realisations(result);
+  table.group().coordinate("mean_gap", result.configuration.adhesion->cycle, "m",
+                           std::string(quantity_of<ForceSample>("mean_gap").long_name));
+  std::vector<const AdhesiveCycleNumbers*> cycles;
+  std::vector<const AdhesionSample*> samples;
+  for (const Realisation& realisation : result.realisations) {
+    cycles.push_back(&realisation.adhesion);
+    for (const AdhesionSample& sample : realisation.adhesion.samples) samples.push_back(&sample);
+  }
+  table.columns(samples, {"realisation", "mean_gap"},
+                [&](const NumberOf<AdhesionSample>& number, std::string_view) {
+                  return result.adhesion(number);
+                },
+                {"mean_gap"});
+  table.columns(cycles, {"realisation"});
+  for_each_number<AdhesiveCycleNumbers>([&](const auto& number, const Quantity& quantity) {
+    const EnsembleMean mean = result.adhesion_cycle(number);
+    for (const auto& [end, value] :
+         {std::pair("mean", mean.mean), {"low", mean.low}, {"high", mean.high}})
+      table.group().attribute(fmt::format("ensemble_{}_{}", quantity.name, end), value);
+  });
+}
+
 /// Every model beside the boundary elements on the same surfaces.
 void write_comparison(Table table, const StudyResult& result) {
   table.models(result);
@@ -397,10 +422,14 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_curves(table("curve"), result);
   write_local_decay_lengths(table("local"), result);
   write_fits(table("fit"), result);
-  write_damping(table("damping"), result);
-  const StudyAnswer answer = answer_of(result);
-  write_answer(table("answer"), result, answer);
-  write_premises(output.group(where + "premises"), result, answer);
+  if (!result.configuration.adhesion) {
+    const StudyAnswer answer = answer_of(result);
+    write_damping(table("damping"), result);
+    write_answer(table("answer"), result, answer);
+    write_premises(output.group(where + "premises"), result, answer);
+  } else if (!result.configuration.adhesion->cycle.empty()) {
+    write_adhesion(table("adhesion"), result);
+  }
   write_spots(table("spots"), result);
   if (result.configuration.flow_factors) write_flow(table("flow"), result);
   write_comparison(table("comparison"), result);

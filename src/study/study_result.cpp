@@ -125,6 +125,17 @@ std::vector<EnsembleMean> StudyResult::flow(const NumberOf<FlowFactors>& number)
   });
 }
 
+std::vector<EnsembleMean> StudyResult::adhesion(const NumberOf<AdhesionSample>& number) const {
+  std::vector<EnsembleMean> means;
+  for (std::size_t k = 0; configuration.adhesion && k < configuration.adhesion->cycle.size(); ++k)
+    means.push_back(mean([&](const Realisation& r) { return number(r.adhesion.samples[k]); }));
+  return means;
+}
+
+EnsembleMean StudyResult::adhesion_cycle(const NumberOf<AdhesiveCycleNumbers>& number) const {
+  return mean([&](const Realisation& r) { return number(r.adhesion); });
+}
+
 std::vector<EnsembleMean> StudyResult::conductance(double Conductances::*kind) const {
   const double modulus = configuration.material.contact_modulus;
   if (std::isnan(conductances(1, modulus, configuration.conduction).*kind)) return {};

@@ -52,6 +52,7 @@ const std::map<std::string, Meanings> groups{
     {"answer", meanings_of<DampingPoint, LossWithSlip, StudyAnswer>()},
     {"spots", meanings_of<SpotStatistics>()},
     {"flow", meanings_of<FlowFactors>()},
+    {"adhesion", meanings_of<AdhesionSample, AdhesiveCycleNumbers, ForceSample>()},
     {"convergence", meanings_of<ModelResult>()},
     {"comparison", meanings_of<ForceSample, DampingPoint>()},
     {"ensemble", meanings_of<SelfAffineParameters, Grid2D, ModelResult>()}};
@@ -107,7 +108,7 @@ const Meanings& other_columns() {
   static const Meanings all = [] {
     Meanings found = columns_of_program();
     found.merge(meanings_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture,
-                            DeviationRange, StudyTheories, StudyAnswer>());
+                            AdhesionSample, DeviationRange, StudyTheories, StudyAnswer>());
     return found;
   }();
   return all;
@@ -237,6 +238,7 @@ TEST_CASE("Every dataset of a comparison has the name, unit and meaning of its d
   const json point = run["points"][1];
   check_keys(point["spots"], groups.at("spots"));
   for (const StudyModel& model : contact_models()) {
+    if (is_adhesive(model.id)) continue;
     INFO(model.name);
     json found = point["models"][model.name];
     CHECK(found["title"] == model.title);
@@ -247,6 +249,17 @@ TEST_CASE("Every dataset of a comparison has the name, unit and meaning of its d
     check_keys(found, groups.at("fit"));
     CHECK(found.size() > 20);
   }
+}
+
+TEST_CASE(
+    "Every dataset of a study with adhesion has the name, unit and meaning of its description",
+    "[names][adhesion]") {
+  const ProgramTest test;
+  test.write("sticky.toml", adhesive_study_text());
+  test.done("compare sticky.toml --no-stick --no-report -o sticky.h5");
+  const ResultReader reader(test.folder() / "sticky.h5");
+  for (const std::string& group : reader.groups("/"))
+    if (group != "picture") check_group(reader, group, group);
 }
 
 TEST_CASE("Every column of a sweep has the name and unit of its description", "[names]") {

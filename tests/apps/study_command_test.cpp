@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <salebra/io/result_file.hpp>
 #include <sstream>
 
 #include "run_program.hpp"
@@ -339,4 +340,35 @@ TEST_CASE("A comparison has every model, its ratios and the theories", "[study]"
   CHECK_THAT(words.out, Contains("== H = 0.5 ==") && Contains("Bush, Gibson, Thomas") &&
                             Contains("area less its edge") && Contains("theorem") &&
                             Contains("Note: finite size"));
+}
+
+TEST_CASE("A study with adhesion answers with pull-off, work and loop, and has no damping",
+          "[study][adhesion]") {
+  const ProgramTest test;
+  test.write("sticky.toml", adhesive_study_text());
+  const auto answer = test.answer("study sticky.toml -o sticky.h5");
+  CHECK_FALSE(answer.contains("damping"));
+  CHECK_FALSE(answer.contains("premises"));
+  const auto adhesion = answer["adhesion"];
+  CHECK(adhesion["mean_gap"].size() == 14);
+  CHECK(adhesion["unloading_pressure"]["mean"].size() == 14);
+  CHECK(adhesion["pull_off_pressure"]["low"] > 0);
+  CHECK(adhesion["adhesion_work_error"]["mean"] > 0);
+  CHECK(adhesion.contains("reversible"));
+  CHECK(answer["curve"]["contact_area_fraction"]["low"].size() == 5);
+  const salebra::ResultReader file(test.folder() / "sticky.h5");
+  CHECK_FALSE(file.has("damping"));
+  CHECK(file.numbers("adhesion/ensemble_unloading_pressure_mean") ==
+        adhesion["unloading_pressure"]["mean"].get<std::vector<double>>());
+  CHECK(file.number_attribute("adhesion", "ensemble_pull_off_pressure_mean") ==
+        adhesion["pull_off_pressure"]["mean"]);
+  if (!answer["files"]["report"].is_null())
+    CHECK_THAT(test.read("sticky.html"), Contains("Adhesion: pull-off at"));
+  const auto words = test.done("study sticky.toml --quiet");
+  CHECK_THAT(words.out, Contains("Adhesion: w = ") && Contains("pull-off") && Contains("95 %") &&
+                            !Contains("Damping constant"));
+  CHECK_THAT(test.done("compare sticky.toml --models gw_jkr,gw_dmt --quiet").out,
+             Contains("Fuller-Tabor") && Contains("Pull-off") && !Contains("theorem"));
+  CHECK_THAT(test.run("study sticky.toml --normal-amplitude 1nm").err,
+             Contains("--normal-amplitude: is not known with adhesion"));
 }

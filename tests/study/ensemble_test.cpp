@@ -568,7 +568,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   StudyConfiguration configuration = quick_study(2);
   configuration.models = configuration.compared_models;
   const StudyResult result = run_study(configuration);
-  REQUIRE(result.models().size() == contact_models().size());
+  REQUIRE(result.models().size() == all_contact_models().size());
   for (const StudyModel& model : result.models()) {
     INFO(model.name);
     for (const Realisation& realisation : result.realisations) {

@@ -58,7 +58,7 @@ class FileCheck {
   void of_models(const std::string& name,
                  const std::function<double(const ModelResult&)>& value) const {
     std::vector<double> expected;
-    for (const StudyModel& model : contact_models())
+    for (const StudyModel& model : result_.models())
       for (const Realisation& r : result_.realisations) expected.push_back(value(r.of(model.id)));
     values(name, {"model", "realisation"}, expected);
   }
@@ -66,7 +66,7 @@ class FileCheck {
   using AtLoad = std::function<double(const ModelResult&, std::size_t)>;
   void of_loads(const std::string& name, const AtLoad& value) const {
     std::vector<double> expected;
-    for (const StudyModel& model : contact_models())
+    for (const StudyModel& model : result_.models())
       for (const Realisation& r : result_.realisations)
         for (std::size_t k = 0; k < result_.pressures.size(); ++k)
           expected.push_back(value(r.of(model.id), k));
@@ -90,7 +90,7 @@ class FileCheck {
   using OfModel = std::function<std::vector<EnsembleMean>(ContactModel)>;
   void interval_of_loads(const std::string& name, const OfModel& estimate) const {
     std::vector<EnsembleMean> all;
-    for (const StudyModel& model : contact_models())
+    for (const StudyModel& model : result_.models())
       for (const EnsembleMean& one : estimate(model.id)) all.push_back(one);
     interval(name, {"model", "pressure"}, all);
   }
@@ -168,7 +168,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
                  [](const auto& m) { return m.stiffness_coefficient; });
   file.of_models("fit/area_slope", [](const auto& m) { return m.area_slope; });
   std::vector<EnsembleMean> lengths, ratios, slopes;
-  for (const StudyModel& model : contact_models()) {
+  for (const StudyModel& model : result.models()) {
     lengths.push_back(result.decay_length(model.id));
     ratios.push_back(result.decay_length_over_rms_height(model.id));
     slopes.push_back(result.fitted("area_slope", model.id));
@@ -177,7 +177,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.interval("fit/ensemble_decay_length_over_rms_height", {"model"}, ratios);
   file.interval("fit/ensemble_area_slope", {"model"}, slopes);
   std::vector<double> off, fair;
-  for (const StudyModel& model : contact_models()) {
+  for (const StudyModel& model : result.models()) {
     const std::optional<LawDescription> law = result.law_description(model.id);
     off.push_back(law ? law->law_off_closest : ForceSample::unknown);
     fair.push_back(law ? law->fair : ForceSample::unknown);
@@ -187,7 +187,7 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.values("fit/fair", {"model"}, fair);
 
   std::vector<double> gaps, local_lengths;
-  for (const StudyModel& model : contact_models())
+  for (const StudyModel& model : result.models())
     for (const Realisation& r : result.realisations) {
       LocalDecayLength local = r.of(model.id).local;
       local.mean_gap.resize(11, ForceSample::unknown);

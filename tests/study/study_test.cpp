@@ -374,3 +374,53 @@ TEST_CASE("A study has the flow through the gap of each contact where it is aske
   CHECK(factors[0].mean < 1);
   CHECK(factors[5].mean < factors[0].mean);
 }
+
+TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of each surface",
+          "[study][adhesion]") {
+  StudyConfiguration configuration =
+      parse_study_configuration(adhesive_study_text(), "sticky.toml");
+  configuration.models = configuration.compared_models;
+  REQUIRE(configuration.has(ContactModel::gw_jkr));
+  const AdhesionPlan& plan = *configuration.adhesion;
+  const StudyResult result = run_study(configuration);
+  REQUIRE(result.realisations.size() == 3);
+  const Realisation& first = result.realisations.front();
+  const Surface surface = study_surface(configuration, first.seed);
+  const double modulus = configuration.material.contact_modulus;
+  // The least load begins without a state before, as press_adhesive() does.
+  const ForceCurve& curve = first.of(ContactModel::bem).curve;
+  const AdhesiveContactState light =
+      press_adhesive(surface, modulus, {.pressure = result.pressures[0]}, plan.adhesion);
+  CHECK(curve.adhesive);
+  CHECK(curve.samples[0].mean_gap == Approx(light.mean_gap).epsilon(1e-9));
+  CHECK(curve.samples[0].contact_area_fraction == light.contact_area_fraction);
+  CHECK(curve.samples[0].contact_area_fraction >
+        2 * press(surface, modulus, {.pressure = result.pressures[0]}).contact_area_fraction);
+  CHECK(first.spots[0].spot_count > 0);
+  std::vector<Target> gaps;
+  for (const double gap : plan.cycle) gaps.push_back({.mean_gap = gap});
+  const AdhesiveCycle cycle =
+      adhesive_cycle(surface, modulus, gaps, plan.adhesion, {.unload = true});
+  CHECK(first.adhesion.pull_off_pressure == cycle.pull_off_pressure);
+  CHECK(first.adhesion.adhesion_work_per_cycle == cycle.adhesion_work_per_cycle);
+  CHECK(first.adhesion.samples[3].unloading_pressure ==
+        cycle.unloading[gaps.size() - 4].mean_pressure);
+  // Means have intervals; the pull-off is that of the models that adhere alone.
+  const EnsembleMean pull = result.adhesion_cycle(&AdhesiveCycleNumbers::pull_off_pressure);
+  CHECK(pull.low < pull.mean);
+  CHECK(pull.mean < pull.high);
+  CHECK(result.fitted("pull_off_pressure").mean == pull.mean);
+  CHECK(result.fitted("pull_off_pressure", ContactModel::gw_jkr).mean > 0);
+  CHECK(std::isnan(result.fitted("pull_off_pressure", ContactModel::gw_moments).mean));
+  CHECK(result.adhesion(&AdhesionSample::unloading_pressure).size() == plan.cycle.size());
+  // No loss is known.
+  for (const DampingPoint& point : first.of(ContactModel::bem).damping)
+    CHECK(std::isnan(point.damping_constant_closed_form));
+  for (const std::string more :
+       {"[damping]\nnormal_amplitude = 1e-9\ndrag_velocity = 1e-6\nfrequency = 1\n"})
+    CHECK_THROWS_WITH(parse_study_configuration(adhesive_study_text() + more, "x.toml"),
+                      Catch::Contains("damping: is not known with adhesion"));
+  StudyConfiguration hard = configuration;
+  hard.known.hardness = 1e9;
+  CHECK_THROWS_WITH(run_study(hard), Catch::Contains("hardness"));
+}

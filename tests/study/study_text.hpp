@@ -34,6 +34,17 @@ rms_height = "10nm"
          "\n" + contact_text(loads);
 }
 
+/// The study of a soft body that adheres, with a cycle.
+inline std::string adhesive_study_text() {
+  std::string text = study_text("seeds = [1, 2, 3]", 5);
+  text.resize(text.find("[damping]"));
+  return text.replace(text.find("10GPa"), 5, "10MPa") + R"([adhesion]
+work_of_adhesion = "10mJ/m2"
+range = "20nm"
+cycle = "400nm:5nm:14"
+)";
+}
+
 /// The study at loads so high that no mean gap exceeds the rms height: there is nothing to fit a
 /// decay length to.
 inline std::string close_study_text() {

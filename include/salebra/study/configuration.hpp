@@ -8,6 +8,7 @@
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/normal/adhesion.hpp>
 #include <salebra/contact/normal/conductance.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
@@ -38,7 +39,9 @@ enum class ContactModel {
   gw_monte_carlo,
   gw_interacting,
   persson,
-  greenwood_tripp
+  greenwood_tripp,
+  gw_dmt,
+  gw_jkr
 };
 
 /// A contact model: the name that files, JSON and study files have for it, that of the enumerator;
@@ -59,7 +62,10 @@ std::span<const StudyModel> contact_models();
 /// Finds a model by its name. Throws InvalidInput "models: …" for another.
 ContactModel contact_model(std::string_view name);
 std::string_view word_of(ContactModel model);
+/// Without those of adhesion.
 std::vector<ContactModel> all_contact_models();
+/// Whether a model is of summits that adhere.
+constexpr bool is_adhesive(ContactModel model) { return model >= ContactModel::gw_dmt; }
 /// The models of the names, each once, and the boundary elements, which the others are measured by.
 std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
@@ -131,6 +137,18 @@ constexpr void describe(auto&& visit, std::type_identity<ParameterLists>) {
   keep(visit, &S::hurst, &S::rolloff, &S::short_cutoff, &S::size_x, &S::points);
 }
 
+/// Adhesion of the contacts of a study, and the cycle of each surface.
+struct AdhesionPlan {
+  Adhesion adhesion;
+  std::vector<double> cycle = {};  ///< mean gaps, m, from the widest; none: no cycle
+  bool force_coarse = false;       ///< as AdhesiveContactOptions has it
+};
+
+constexpr void describe(auto&& visit, std::type_identity<AdhesionPlan>) {
+  using S = AdhesionPlan;
+  keep(visit, &S::adhesion, &S::cycle, &S::force_coarse);
+}
+
 /// Everything that decides the result of a study.
 struct StudyConfiguration {
   std::variant<GeneratedSurfaces, MeasuredSurface> surfaces;
@@ -163,6 +181,9 @@ struct StudyConfiguration {
   /// For the conductance of the contacts. It is no part of what is computed of a surface.
   Conduction conduction = {};
   bool flow_factors = false;  ///< of each contact of the boundary elements
+  /// The boundary elements adhere, each load following from the one below, and so do the summits of
+  /// gw_dmt and gw_jkr. There is no damping then: the motion is not looked at.
+  std::optional<AdhesionPlan> adhesion = {};
   Oscillation motion;
   DampingOptions damping;
   /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness
@@ -192,10 +213,16 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
       &S::compared_models,
       Kept{"compared_models",
            "those that the program's command `compare` runs: all, unless the study file chooses"});
-  keep(visit, &S::conduction, &S::flow_factors, &S::motion, &S::damping, &S::known, &S::levels,
-       &S::relative_error, &S::seam);
+  keep(visit, &S::conduction, &S::flow_factors, &S::adhesion, &S::motion, &S::damping, &S::known,
+       &S::levels, &S::relative_error, &S::seam);
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
+
+/// Why a study with adhesion has no damping, after the name of what asks for it.
+inline constexpr const char* no_damping_with_adhesion =
+    "is not known with adhesion: where loading and unloading differ, points are released in "
+    "another "
+    "order than they were pressed; leave it out, or leave out [adhesion]";
 
 /// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on
 /// are numbers in SI units or strings with a unit.

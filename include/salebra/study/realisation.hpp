@@ -9,6 +9,7 @@
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
 #include <salebra/contact/law/force_curve.hpp>
+#include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/damping/quantities.hpp>
@@ -111,6 +112,8 @@ struct ModelResult {
   /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; of
   /// ContactModel::persson.
   double asymptotic_decay_length = ForceSample::unknown;
+  /// Of models that adhere: of the boundary elements that of the cycle, Pa.
+  double pull_off_pressure = ForceSample::unknown;
   std::vector<DampingPoint> damping = {};  ///< for each sample of the curve
 
   /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at
@@ -157,6 +160,8 @@ constexpr void describe(auto&& visit, std::type_identity<ModelResult>) {
   visit(&S::asymptotic_decay_length,
         Quantity{"asymptotic_decay_length", length,
                  "decay length of force with mean gap in the limit of small pressures"});
+  visit(&S::pull_off_pressure,
+        Quantity{"pull_off_pressure", pressure, "mean tension at which the surfaces come off"});
   visit(&S::damping, Kept{"damping", "damping at each pressure"});
   visit(&S::law_bend,
         Quantity{"law_bend", dimensionless,
@@ -208,6 +213,39 @@ constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
                                     "contact spots of min_cells to twice as many cells"});
   visit(&S::largest_spot_share, Quantity{"largest_spot_share", dimensionless,
                                          "area of the largest contact spot over that of all"});
+}
+
+/// Adhesive contact at a mean gap of a cycle, in and out.
+struct AdhesionSample {
+  double loading_pressure = ForceSample::unknown;  ///< Pa; < 0: the contact pulls
+  double unloading_pressure = ForceSample::unknown;
+  double loading_area_fraction = ForceSample::unknown;
+  double unloading_area_fraction = ForceSample::unknown;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<AdhesionSample>) {
+  using enum Dimension;
+  using S = AdhesionSample;
+  visit(&S::loading_pressure,
+        Quantity{"loading_pressure", pressure, "nominal pressure when surfaces come closer"});
+  visit(&S::unloading_pressure,
+        Quantity{"unloading_pressure", pressure, "nominal pressure when surfaces are drawn apart"});
+  visit(&S::loading_area_fraction,
+        Quantity{"loading_area_fraction", dimensionless,
+                 "contact area over nominal area when surfaces come closer"});
+  visit(&S::unloading_area_fraction,
+        Quantity{"unloading_area_fraction", dimensionless,
+                 "contact area over nominal area when surfaces are drawn apart"});
+}
+
+/// The cycle of one surface; unknown where a contact did not converge.
+struct AdhesionOfSurface : AdhesiveCycleNumbers {
+  std::vector<AdhesionSample> samples;  ///< for each mean gap
+};
+
+constexpr void describe(auto&& visit, std::type_identity<AdhesionOfSurface>) {
+  describe(visit, std::type_identity<AdhesiveCycleNumbers>{});
+  visit(&AdhesionOfSurface::samples, Kept{"samples", "at each mean gap"});
 }
 
 /// What a reader wants to see of one surface of a study: its heights and where they touch, its
@@ -307,6 +345,7 @@ struct Realisation {
   /// For each pressure, where the configuration asks for them; unknown where the contact or the flow
   /// did not converge.
   std::vector<FlowFactors> flow;
+  AdhesionOfSurface adhesion;  ///< where the configuration asks for a cycle
   double corrected_area_slope = ForceSample::
       unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
   SurfacePicture
@@ -338,6 +377,7 @@ constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
   visit(&S::models, Kept{"models", "what each contact model says"});
   visit(&S::spots, Kept{"spots", "contact spots of boundary elements at each pressure"});
   visit(&S::flow, Kept{"flow", "flow through the gap at each pressure"});
+  visit(&S::adhesion, Kept{"adhesion", "cycle of the adhesive contact"});
   visit(&S::corrected_area_slope,
         Quantity{"corrected_area_slope", dimensionless,
                  "slope of A/A0, corrected by the perimeter, over p/(E* rms slope)"});

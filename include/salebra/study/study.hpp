@@ -160,6 +160,10 @@ struct StudyResult {
   /// Over the surfaces whose gap lets pass a flow, where the number is one of the flow. The mean of
   /// FlowFactors::percolates_x is the part of the surfaces that do.
   std::vector<EnsembleMean> flow(const NumberOf<FlowFactors>& number) const;
+  /// At each mean gap of the cycle of adhesive contacts, and of the cycle; contacts that did not
+  /// converge take no part.
+  std::vector<EnsembleMean> adhesion(const NumberOf<AdhesionSample>& number) const;
+  EnsembleMean adhesion_cycle(const NumberOf<AdhesiveCycleNumbers>& number) const;
   /// Those that the configuration asks about, of the boundary elements' K; empty: not asked. Each is
   /// K times a constant, and so is its interval.
   std::vector<EnsembleMean> conductance(double Conductances::*kind) const;

@@ -145,6 +145,45 @@ std::vector<double> HeightDensity::breaks() const {
   return heights;
 }
 
+double HeightDensity::density(double height) const {
+  const double h = height / sigma_;
+  switch (distribution_) {
+    case SummitDistribution::gaussian:
+      return std::exp(-h * h / 2) / (std::sqrt(2 * std::numbers::pi) * sigma_);
+    case SummitDistribution::exponential:
+      return h < 0 ? 0 : std::exp(-h) / sigma_;
+    default:
+      break;
+  }
+  const auto above = std::ranges::lower_bound(table_, height, {}, &HeightDensityPoint::height);
+  if (above == table_.begin() || above == table_.end()) return 0;
+  const HeightDensityPoint &low = above[-1], &high = *above;
+  return low.density +
+         (high.density - low.density) * (height - low.height) / (high.height - low.height);
+}
+
+std::vector<double> HeightDensity::support(double from) const {
+  std::vector<double> places;
+  const double h = std::max(0.0, from / sigma_);
+  if (distribution_ == SummitDistribution::gaussian) {
+    // Beyond h the density falls over 1/h.
+    const double reach = std::sqrt(2 * negligible_exponent + h * h);
+    places = {-reach, -3, 0, h > 0 ? h + 3 / (1 + h) : 3, reach};
+    for (double& place : places) place *= sigma_;
+  } else if (distribution_ == SummitDistribution::exponential) {
+    places = {0, (h + 3) * sigma_, (h + negligible_exponent) * sigma_};
+  } else {
+    places = breaks();
+  }
+  std::ranges::sort(places);
+  if (!(from < places.back())) return {};
+  const auto first = std::ranges::upper_bound(places, from);
+  if (first == places.begin()) return places;
+  places.erase(places.begin(), first);
+  places.insert(places.begin(), from);
+  return places;
+}
+
 double HeightDensity::scale() const {
   return distribution_ == SummitDistribution::tabulated
              ? (table_.back().height - table_.front().height) / 4

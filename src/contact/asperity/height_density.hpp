@@ -14,6 +14,10 @@ class HeightDensity {
 
   /// ∫_s^∞ (z−s)^n φ(z) dz, m^n, for n >= −1/2 a multiple of 1/2. Relative error below 1e-10.
   double moment(double exponent, double separation) const;
+  double density(double height) const;  ///< φ(z), 1/m
+  /// From a height on, where φ is more than nothing: both ends, and places between to integrate by;
+  /// empty where no summit is higher.
+  std::vector<double> support(double from) const;
   /// z below which the fraction 0 < probability < 1 of all summits lies, for distributions other
   /// than Gaussian.
   double quantile(double probability) const;
