@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/mdr/adhesive_indenter.hpp>  // closed forms, which are no question
 #include <salebra/io/result_file.hpp>
 #include <salebra/questions/damping.hpp>
 
@@ -31,6 +32,7 @@ struct DampingArguments {
   MaterialOptions material;
   MotionOptions motion;
   std::vector<double> force_amplitude;
+  std::optional<double> work_of_adhesion, adhesion_range;
   int steps = 2000;
   PremiseOptions premises;
   MapOptions maps;
@@ -95,6 +97,46 @@ void follow_file(const DampingArguments& arguments, Session& session) {
   PremiseReport{.cases = {answer.premises},
                 .slip_followed = arguments.premises.friction_coefficient.has_value()}
       .answer(session, json_of(answer.loss));
+}
+
+// An indenter that adheres: by JKR, and a paraboloid whose range is known by all closed forms.
+void answer_adhesion(const DampingArguments& arguments, Session& session) {
+  const auto body = std::get<IndenterContact>(contact_of(arguments, session));
+  const IndenterProfile& profile = *body.profile;
+  const double modulus = body.material.contact_modulus, work = *arguments.work_of_adhesion;
+  require_positive(work, "--work-of-adhesion");
+  require_that(!profile.has_side(), "--law",
+               "of a flat face sticks with all of it, whatever the force; give another shape");
+  require(body.at.values.size() == 1, "--normal-force", body.at.values.size(),
+          "positions are given; a contact at rest takes one");
+  const auto state = [&](const std::function<AdhesivePoint(double)>& contact,
+                         const AdhesivePoint& pull_off) {
+    const AdhesivePoint point = adhesive_equilibrium(contact, pull_off,
+                                                     body.at.quantity == Standing::normal_force
+                                                         ? &AdhesivePoint::force
+                                                         : &AdhesivePoint::indentation,
+                                                     body.at.values.front());
+    Json json = json_of(point);
+    if (!std::isfinite(point.zone_radius)) json.erase("zone_radius");
+    json["pull_off"] = json_of(pull_off);
+    if (!std::isfinite(pull_off.zone_radius)) json["pull_off"].erase("zone_radius");
+    return json;
+  };
+  Json answer{{"jkr", state([&](double a) { return jkr_contact(profile, modulus, work, a); },
+                            jkr_pull_off(profile, modulus, work))}};
+  if (arguments.adhesion_range) {
+    require(arguments.law.indenter.law == "paraboloid", "--adhesion-range",
+            *arguments.adhesion_range, "is of a paraboloid; leave it out with other shapes");
+    const double radius = *arguments.law.indenter.radius, range = *arguments.adhesion_range;
+    const MaugisDugdale model(radius, modulus, work, range);
+    const double tabor = tabor_parameter(radius, modulus, work, range);
+    const auto dmt = [&](double a) { return dmt_contact(radius, modulus, work, a); };
+    answer["dmt"] = state(dmt, dmt(0));
+    answer["maugis_dugdale"] = state([&](double a) { return model.contact(a); }, model.pull_off());
+    answer["tabor"] = tabor;
+    answer["suggested_model"] = word_of(suggested_model(tabor));
+  }
+  session.answer(answer);
 }
 
 // An indenter without a motion.
@@ -305,6 +347,18 @@ void damp(const DampingArguments& arguments, Session& session) {
 }
 
 void run(const DampingArguments& arguments, Session& session) {
+  require_that(arguments.work_of_adhesion || !arguments.adhesion_range, "--adhesion-range",
+               "given without --work-of-adhesion; give both");
+  if (arguments.work_of_adhesion) {
+    require_that(!arguments.motion.given() && arguments.force_amplitude.empty() &&
+                     arguments.trajectory.empty() && !arguments.body.given() &&
+                     !arguments.maps.given() && arguments.law.of_indenter(),
+                 "--work-of-adhesion",
+                 "is of an indenter at rest: in a motion with adhesion, points may be released in "
+                 "another order than they were pressed, for which no loss is known here; leave out "
+                 "one of them");
+    return answer_adhesion(arguments, session);
+  }
   if (!arguments.trajectory.empty()) return follow_file(arguments, session);
   if (arguments.of_damper()) return damp(arguments, session);
   if (!arguments.motion.given() && arguments.force_amplitude.empty() &&
@@ -340,6 +394,13 @@ void add_damping_command(Program& program) {
                    "what stays in the mean; default indentation")
       ->group(normal);
   const std::string path = "Measured motion, and steps";
+  const std::string adhesion = "Adhesion, of an indenter at rest";
+  add_quantity(command, "--work-of-adhesion", arguments->work_of_adhesion,
+               Dimension::energy_per_area, "w: contact and pull-off by JKR; a force may pull")
+      ->group(adhesion);
+  add_quantity(command, "--adhesion-range", arguments->adhesion_range, Dimension::length,
+               "of a paraboloid: also by DMT and Maugis-Dugdale, and which of them suits")
+      ->group(adhesion);
   command
       .add_option("--trajectory", arguments->trajectory,
                   "one period from a file of time, indentation, x and, without slip, y (SI)")

@@ -26,6 +26,7 @@ from ._core import (
     StickStiffness as StickStiffness,
     WindowSensitivity as WindowSensitivity,
     adhesive_cycle as adhesive_cycle,
+    adhesive_equilibrium as adhesive_equilibrium,
     after_first_loading as after_first_loading,
     contact_distributions as contact_distributions,
     contact_spots as contact_spots,

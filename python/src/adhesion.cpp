@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bindings of adhesive contacts: of surfaces, their cycles, and of axisymmetric indenters.
+#include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -29,23 +30,16 @@ constexpr void describe(auto&& visit, std::type_identity<BoundAdhesiveContact>) 
 }
 
 /// The branches as curves, whose stiffnesses are not computed.
-struct BoundCycle {
+struct BoundCycle : AdhesiveCycleNumbers {
   ForceCurve loading, unloading;
-  double pull_off_pressure = 0, adhesion_work_per_cycle = 0, adhesion_work_error = 0;
   bool converged = false;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<BoundCycle>) {
-  using enum Dimension;
   using S = BoundCycle;
+  describe(visit, std::type_identity<AdhesiveCycleNumbers>{});
   visit(&S::loading, Kept{"loading", "force curve from the outermost position to the closest"});
   visit(&S::unloading, Kept{"unloading", "force curve from the closest position outward"});
-  visit(&S::pull_off_pressure,
-        Kept{"pull_off_pressure", "mean tension at which the surfaces come off", pressure});
-  visit(&S::adhesion_work_per_cycle,
-        Kept{"adhesion_work_per_cycle", "energy that adhesion loses in a cycle", energy});
-  visit(&S::adhesion_work_error,
-        Kept{"adhesion_work_error", "error of the work by the steps between positions", energy});
   visit(&S::converged, Kept{"converged", "False: do not use the numbers"});
 }
 
@@ -194,6 +188,7 @@ AdhesiveContactState
               const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
                 ForceCurve curve;
                 curve.model = "bem";
+                curve.adhesive = true;
                 curve.nominal_area = surface.surface.grid.area();
                 for (const AdhesiveContactState& state : branch)
                   curve.samples.push_back(
@@ -201,9 +196,8 @@ AdhesiveContactState
                                    {.contact = options.contact.contact, .stiffness = false}));
                 return curve;
               };
-              return BoundCycle{curve_of(cycle.loading),   curve_of(cycle.unloading),
-                                cycle.pull_off_pressure,   cycle.adhesion_work_per_cycle,
-                                cycle.adhesion_work_error, cycle.converged()};
+              return BoundCycle{cycle, curve_of(cycle.loading), curve_of(cycle.unloading),
+                                cycle.converged()};
             },
             surface.surface.ranks);
       },
@@ -259,6 +253,29 @@ Johnson et al. (1971), doi:10.1098/rspa.1971.0141.
       .def("pull_off", &MaugisDugdale::pull_off, "The state of the least force.")
       .def_prop_ro("transition_parameter", &MaugisDugdale::transition_parameter,
                    "λ, 1.16 times Tabor's parameter.");
+  m.def(
+      "adhesive_equilibrium",
+      [](const std::function<AdhesivePoint(double)>& contact, const AdhesivePoint& pull_off,
+         std::optional<double> force, std::optional<double> indentation) {
+        require_that(force.has_value() != indentation.has_value(), "force",
+                     "exactly one of `force` and `indentation` must be given");
+        return force ? adhesive_equilibrium(contact, pull_off, &AdhesivePoint::force, *force)
+                     : adhesive_equilibrium(contact, pull_off, &AdhesivePoint::indentation,
+                                            *indentation);
+      },
+      nb::arg("contact"), nb::arg("pull_off"), nb::kw_only(), nb::arg("force") = nb::none(),
+      nb::arg("indentation") = nb::none(),
+      R"(The equilibrium under a force, N, or at an indentation, m, on the branch from the pull-off on.
+
+Parameters
+----------
+contact : callable
+    The state of a contact radius, such as ``ball.contact`` of :class:`MaugisDugdale` or ``lambda a: jkr_contact(profile, 1e6, 0.05, a)``.
+pull_off : AdhesivePoint
+    Of the same model.
+force, indentation : float, optional
+    One of them; a force may pull.
+)");
   m.def("tabor_parameter", &tabor_parameter, nb::arg("radius"), nb::arg("contact_modulus"),
         nb::arg("work"), nb::arg("range"), "μ = (R w²/(E*² ρ³))^(1/3).");
   m.def(

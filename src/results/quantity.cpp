@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
+#include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <salebra/contact/normal/conductance.hpp>
 #include <salebra/contact/normal/distributions.hpp>
@@ -49,7 +50,7 @@ const Column* entry_of(std::string_view name) {
       SliderMotion, SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap,
       RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy,
       NonGaussianSurface, Conductances, ContactDistributions, FlowFactors, AdhesionOfState,
-      AdhesiveCycle>(name);
+      AdhesiveCycle, AdhesivePoint>(name);
 }
 
 }  // namespace

@@ -227,6 +227,10 @@ def test_an_adhesive_ball_is_between_jkr_and_dmt() -> None:
     dmt = salebra.contact.dmt_contact(radius, modulus, work, 0.0 + 1e-12).force
     between = salebra.contact.MaugisDugdale(radius, modulus, work, 1e-6).pull_off().force
     assert dmt < between < jkr
+    ball = salebra.contact.MaugisDugdale(radius, modulus, work, 1e-6)
+    pulled = salebra.contact.adhesive_equilibrium(ball.contact, ball.pull_off(), force=0.9 * between)
+    assert pulled.force == pytest.approx(0.9 * between, rel=1e-9)
+    assert pulled.contact_radius > ball.pull_off().contact_radius
     assert salebra.contact.suggested_adhesion_model(salebra.contact.tabor_parameter(radius, modulus, work, 1e-9)) == "jkr"
 
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // JKR, DMT and Maugis and Dugdale's adhesion of axisymmetric indenters.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -135,6 +137,18 @@ AdhesivePoint MaugisDugdale::pull_off() const {
   }
   const AdhesivePoint inside = contact(0.5 * (low + high)), without_contact = contact(0);
   return inside.force < without_contact.force ? inside : without_contact;
+}
+
+AdhesivePoint adhesive_equilibrium(const std::function<AdhesivePoint(double)>& contact,
+                                   const AdhesivePoint& pull_off, double AdhesivePoint::*quantity,
+                                   double value) {
+  const char* name = quantity == &AdhesivePoint::force ? "normal_force" : "indentation";
+  require(value >= pull_off.*quantity, name, value,
+          fmt::format("is less than at the pull-off, {}", pull_off.*quantity));
+  const double low = pull_off.contact_radius;
+  double high = std::max(2 * low, 1e-12);
+  while (contact(high).*quantity < value) high *= 2;
+  return contact(rising_root(low, high, [&](double a) { return contact(a).*quantity - value; }));
 }
 
 double tabor_parameter(double radius, double contact_modulus, double work, double range) {

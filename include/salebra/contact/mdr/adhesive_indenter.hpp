@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
@@ -19,10 +20,10 @@ struct AdhesivePoint {
 
 constexpr void describe(auto&& visit, std::type_identity<AdhesivePoint>) {
   using S = AdhesivePoint;
-  visit(&S::contact_radius, Kept{"contact_radius", "contact radius", Dimension::length});
-  visit(&S::force, Kept{"force", "normal force", Dimension::force});
-  visit(&S::indentation, Kept{"indentation", "indentation", Dimension::length});
-  visit(&S::zone_radius, Kept{"zone_radius", "radius where adhesion ends", Dimension::length});
+  visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
+  visit(&S::indentation, Quantity{"indentation", Dimension::length, "indentation"});
+  visit(&S::contact_radius, Quantity{"contact_radius", Dimension::length, "contact radius"});
+  visit(&S::zone_radius, Quantity{"zone_radius", Dimension::length, "radius where adhesion ends"});
 }
 
 /// JKR, adhesion of no range, of any profile, by its image g(x) [Popov and Heß (2015)]:
@@ -58,6 +59,13 @@ class MaugisDugdale {
   double radius_, work_, lambda_;
   double length_, depth_;  // of A and of δ
 };
+
+/// The equilibrium at which force or indentation, `quantity`, has a value, on the branch from the
+/// pull-off on along which both grow. contact: the state of a contact radius, m. Throws InvalidInput
+/// for less than the pull-off has; as contact does.
+AdhesivePoint adhesive_equilibrium(const std::function<AdhesivePoint(double)>& contact,
+                                   const AdhesivePoint& pull_off, double AdhesivePoint::*quantity,
+                                   double value);
 
 /// μ = (R w²/(E*² ρ³))^(1/3) of Tabor (1977), with the range ρ for the distance of equilibrium.
 double tabor_parameter(double radius, double contact_modulus, double work, double range);
