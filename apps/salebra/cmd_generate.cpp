@@ -9,6 +9,7 @@
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/forecast.hpp>
+#include <salebra/generators/fourier_modes.hpp>
 #include <salebra/generators/non_gaussian.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/io/read_surface.hpp>
@@ -18,6 +19,7 @@
 
 #include "base/memory.hpp"
 #include "dry_run.hpp"
+#include "io/number_table.hpp"
 #include "options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
@@ -29,8 +31,8 @@ namespace salebra::cli {
 namespace {
 
 struct GenerateArguments {
-  std::string points, crop, composite, heights_from, method, exact = "heights";
-  std::optional<double> size_x, size_y, skewness, kurtosis, weibull;
+  std::string points, crop, composite, heights_from, method, fourier, exact = "heights";
+  std::optional<double> size_x, size_y, skewness, kurtosis, weibull, fourier_unit;
   SpectrumOptions spectrum;
   ShapeOptions shape;
   bool profile = false;
@@ -156,6 +158,22 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   return filtered_noise(grid, *spectrum, arguments.seed, session.progress(), session.ranks());
 }
 
+/// Rows of i, j, Re ĥ, Im ĥ.
+Surface surface_of_file(const GenerateArguments& arguments, const Grid2D& grid) {
+  const double unit = arguments.fourier_unit.value_or(1);
+  require_positive(unit, "--fourier-unit");
+  const auto columns = read_number_table(arguments.fourier, 4);
+  std::vector<FourierMode> modes;
+  for (std::size_t k = 0; k < columns[0].size(); ++k) {
+    for (const double wave : {columns[0][k], columns[1][k]})
+      require(wave == std::floor(wave) && std::abs(wave) < 1 << 20, "--fourier", wave,
+              "is no whole number of waves in the period");
+    modes.push_back(
+        {Index(columns[0][k]), Index(columns[1][k]), {unit * columns[2][k], unit * columns[3][k]}});
+  }
+  return surface_of_modes(grid, modes);
+}
+
 Surface cropped(const GenerateArguments& arguments, const Surface& surface) {
   const auto [nx, ny] = counts_of(arguments.crop, "--crop");
   return crop_surface(surface, 0, 0, nx, ny);
@@ -198,6 +216,7 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
 void require_spreadable(const GenerateArguments& arguments, const Session& session) {
   for (const auto& [given, option] : {std::pair(arguments.shape.given(), "--shape"),
                                       {arguments.profile, "--profile"},
+                                      {!arguments.fourier.empty(), "--fourier"},
                                       {arguments.non_gaussian(), "a distribution of heights"},
                                       {!arguments.composite.empty(), "--composite"},
                                       {!arguments.crop.empty(), "--crop"},
@@ -217,6 +236,12 @@ void run(const GenerateArguments& arguments, Session& session) {
   require(!arguments.shape.given() || (!arguments.spectrum.given() && !arguments.profile &&
                                        !arguments.non_gaussian() && arguments.method.empty()),
           "--shape", arguments.shape.shape, "cannot be combined with a spectrum; give one of them");
+  require(arguments.fourier.empty() ||
+              !(arguments.shape.given() || arguments.spectrum.given() || arguments.profile ||
+                arguments.non_gaussian() || !arguments.method.empty()),
+          "--fourier", arguments.fourier, "are the surface; leave out shape and spectrum");
+  require_that(!arguments.fourier_unit || !arguments.fourier.empty(), "--fourier-unit",
+               "given without --fourier");
   if (arguments.profile) return make_profile(arguments, session);
   if (session.has_output()) require_surface_name(session.output());
   const Grid2D grid = grid_of(arguments);
@@ -227,6 +252,9 @@ void run(const GenerateArguments& arguments, Session& session) {
   if (arguments.shape.given()) {
     surface = arguments.shape.surface(grid);
     answer["shape"] = arguments.shape.shape;
+  } else if (!arguments.fourier.empty()) {
+    surface = surface_of_file(arguments, grid);
+    answer["fourier"] = arguments.fourier;
   } else {
     surface = random_surface(arguments, grid, session, answer);
   }
@@ -250,7 +278,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   if (session.stopped()) throw Interrupted("generate: interrupted; no surface was written");
   if (session.has_output()) {
     Provenance provenance = session.provenance();
-    if (!arguments.shape.given()) provenance.seed = arguments.seed;
+    if (!arguments.shape.given() && arguments.fourier.empty()) provenance.seed = arguments.seed;
     provenance.configuration = surface.origin;
     write_surface(session.output(), surface, provenance, session.write_options());
   } else {
@@ -287,6 +315,14 @@ void add_generate_command(Program& program) {
              "Gaussian process, exact mode powers, or exact rms; default filtered-noise");
   add_seed(command, arguments->seed, "any whole number >= 0; default 1");
   arguments->spectrum.add_to(command);
+
+  command.under("Fourier coefficients");
+  command
+      .add_option("--fourier", arguments->fourier,
+                  "the surface of a file of i, j, Re h, Im h: waves in the period along x and y")
+      ->file(FileUse::input);
+  add_quantity(command, "--fourier-unit", arguments->fourier_unit, Dimension::length,
+               "of the coefficients, such as 0.1mm; default 1 m");
 
   command.under("Heights that are not Gaussian");
   add_quantity(command, "--skewness", arguments->skewness, Dimension::dimensionless,
