@@ -67,6 +67,11 @@ const char* parse_comma_number(const char* at, const char* end, double& value) {
   return stop ? at + (stop - buffer.data()) : nullptr;
 }
 
+/// Whether one of two symbols is there, by two fast searches in place of one at each character.
+bool has_one_of(std::string_view line, char a, char b) {
+  return line.find(a) != line.npos || line.find(b) != line.npos;
+}
+
 bool is_separator(char symbol) { return is_blank(symbol) || symbol == ',' || symbol == ';'; }
 
 /// The end of a mark of an undefined point, as instruments write them; null if there is none.
@@ -244,9 +249,10 @@ bool ends_with_separator(std::string_view line, const NumberFormat& format) {
 void settle_format(const std::filesystem::path& file, std::string_view line, int number,
                    std::optional<NumberFormat>& format) {
   line = trimmed(line);
-  const bool point = line.find('.') != std::string_view::npos;
+  const bool point =
+      (format && format->has_decimal_point) || line.find('.') != std::string_view::npos;
   const bool open = !format || (!format->decimal_comma && format->separator != Separator::comma &&
-                                line.find_first_of(",;") != std::string_view::npos);
+                                has_one_of(line, ',', ';'));
   if (open) {
     NumberFormat found = format_of(file, line, number);
     if (format && format->has_decimal_point && found.decimal_comma)
@@ -254,8 +260,7 @@ void settle_format(const std::filesystem::path& file, std::string_view line, int
     if (format && format->has_separator && found.separator != format->separator)
       refuse_line(file, number, "separates its values otherwise than the lines before");
     found.has_decimal_point = format && format->has_decimal_point;
-    found.has_separator =
-        found.separator != Separator::blank || line.find_first_of(" \t") != std::string_view::npos;
+    found.has_separator = found.separator != Separator::blank || has_one_of(line, ' ', '\t');
     format = found;
   }
   format->has_decimal_point = format->has_decimal_point || point;

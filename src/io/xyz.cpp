@@ -29,10 +29,35 @@ bool on_grid(const std::vector<double>& sorted, double step) {
   });
 }
 
-/// Equally spaced values among the coordinates, from the least to the greatest.
-XyzAxis find_axis(const std::filesystem::path& file, std::vector<double> coordinates,
+/// The different ones of every third number from `first` on, which must not be NaN, rising. Points
+/// of a grid come in order: a coordinate is mostly the one before, or follows it as it did before.
+std::vector<double> different(const std::vector<double>& xyz, std::size_t first) {
+  constexpr std::size_t room = 65536;
+  std::vector<double> values;  // rising up to `sorted`
+  std::size_t sorted = 0, at = 0;
+  const auto sort = [&] {
+    std::ranges::sort(values);
+    values.erase(std::ranges::unique(values).begin(), values.end());
+    sorted = values.size();
+  };
+  for (std::size_t k = first; k < xyz.size(); k += 3) {
+    const double value = xyz[k];
+    const auto is_at = [&](std::size_t place) {
+      if (place >= values.size() || values[place] != value) return false;
+      at = place;
+      return true;
+    };
+    if (is_at(at) || is_at(at + 1) || is_at(0)) continue;
+    values.push_back(value);
+    if (values.size() - sorted >= std::max(room, sorted)) sort();
+  }
+  sort();
+  return values;
+}
+
+/// Equally spaced values among the different coordinates, from the least to the greatest.
+XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& coordinates,
                   const char* name) {
-  std::ranges::sort(coordinates);
   const double span = coordinates.back() - coordinates.front();
   if (!std::isfinite(span))
     refuse(file, std::string("has points whose ") + name + " is not a number; remove them");
@@ -81,14 +106,11 @@ void require_points(const std::filesystem::path& file, const Surface& surface) {
 
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz) {
   const std::size_t count = xyz.size() / 3;
-  std::vector<double> x(count), y(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    x[i] = xyz[3 * i];
-    y[i] = xyz[3 * i + 1];
-    if (std::isnan(x[i]) || std::isnan(y[i]))
+  for (std::size_t i = 0; i < count; ++i)
+    if (std::isnan(xyz[3 * i]) || std::isnan(xyz[3 * i + 1]))
       refuse(file, "has an XYZ point without coordinates; remove it");
-  }
-  const XyzAxis along_x = find_axis(file, x, "x"), along_y = find_axis(file, y, "y");
+  const XyzAxis along_x = find_axis(file, different(xyz, 0), "x"),
+                along_y = find_axis(file, different(xyz, 1), "y");
   if (static_cast<std::size_t>(along_x.points) >
       2 * count / static_cast<std::size_t>(along_y.points))
     refuse_unknown(
@@ -102,8 +124,8 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
       Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(along_x.points, along_y.points,
                                                                    false);
   for (std::size_t i = 0; i < count; ++i) {
-    const Index ix = std::lround((x[i] - along_x.first) / along_x.step);
-    const Index iy = std::lround((y[i] - along_y.first) / along_y.step);
+    const Index ix = std::lround((xyz[3 * i] - along_x.first) / along_x.step);
+    const Index iy = std::lround((xyz[3 * i + 1] - along_y.first) / along_y.step);
     if (taken(ix, iy)) refuse(file, "gives an XYZ point twice; remove one of them");
     taken(ix, iy) = true;
     surface.heights(ix, iy) = xyz[3 * i + 2];

@@ -12,7 +12,7 @@ namespace salebra::detail {
 /// that are missing are undefined. size_x is the step times the number of points, so that a grid is
 /// a period long.
 /// Throws InvalidInput if the points are on no regular grid, fill less than half of it, or one is
-/// given twice. Cost: two sorts of the points.
+/// given twice. Cost: two passes of the points, and a sort of those that come in no order.
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz);
 
 }  // namespace salebra::detail
