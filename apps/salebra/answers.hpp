@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/law/fit.hpp>  // a fit has one face, and is no question
@@ -22,16 +21,6 @@ constexpr void describe(auto&& visit, std::type_identity<ContactPressures>) {
   visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
   visit(&S::max_pressure,
         Quantity{"max_pressure", Dimension::pressure, "largest contact pressure"});
-}
-
-/// The summits of a surface with adhesion.
-struct MeanSummit {
-  double tabor = std::numeric_limits<double>::quiet_NaN();
-};
-
-constexpr void describe(auto&& visit, std::type_identity<MeanSummit>) {
-  visit(&MeanSummit::tabor,
-        Quantity{"tabor", Dimension::dimensionless, "Tabor's parameter of the mean summit"});
 }
 
 struct SurfacePoints {

@@ -74,6 +74,18 @@ relative_pressures = "5e-4:0.2:16"   # from, to, how many (evenly in the logarit
 # pressures = "10MPa:1GPa:16"        # instead, nominal pressures
 tolerance = 1e-8                     # of each contact: gap times pressure over mean pressure and rms height
 tangential_stiffness = "stick"       # K_t by a solve on each contact; "proportional": (G*/E*)K, faster, exact at nu = 0 without coupling
+# flow_factors = true                # of the gap of each contact
+
+# [conduction]               # conductance of the contacts
+# conductivity = 50          # thermal, W/(m K): one value for both bodies, or two
+# resistivity = 2e-7         # electrical, ohm m: as conductivity
+
+# [adhesion]                 # in place of [damping]: contacts that adhere
+# work_of_adhesion = "50mJ/m^2"  # of both surfaces together
+# range = "5nm"                  # of the attraction; a cell must be short against range^2 E*/work_of_adhesion
+# potential = "exponential"      # or "maugis", "van-der-waals"
+# cycle = "20nm:2nm:12"          # mean gaps, in and out, for pull-off and hysteresis
+# force_coarse = false           # true: also where the cell is too long
 
 # [fit]
 # pressure_window = ["50MPa", "500MPa"]  # of the exponential law; without it mean gaps from 1 to 2.5 rms heights

@@ -8,9 +8,8 @@
 #include <iterator>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/asperity/greenwood_williamson.hpp>
-#include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/questions/contact.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 
@@ -81,14 +80,6 @@ AdhesiveContactOptions ContactArguments::adhesive_options(Session& session) cons
   return options;
 }
 
-MeanSummit summit_of(const Surface& surface, const Adhesion& adhesion, double contact_modulus) {
-  const SpectralMoments moments = surface_moments(surface);
-  if (!(moments.nayak() >= 1) || !(adhesion.work > 0)) return {};
-  const SummitEnsemble summits =
-      summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
-  return {tabor_parameter(summits.radius, contact_modulus, adhesion.work, adhesion.range)};
-}
-
 void press_adhesively(const ContactArguments& arguments, Session& session) {
   const Material material = arguments.material.material();
   const Surface surface = arguments.surface.read(session);
@@ -140,7 +131,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
           "the branches of the cycle do not meet at its outermost position, and it has no work; "
           "begin farther out");
   }
-  answer.add(json_of(summit_of(surface, adhesion, material.contact_modulus)));
+  answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));
   collectively(session.ranks(), [&] {
     if (!session.has_output() || !session.ranks().is_root()) return;
     if (arguments.cycle)

@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
-#include <salebra/contact/normal/conductance.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/contact/sweep.hpp>  // processes that share a surface have this face alone
 #include <salebra/results/force_curve_file.hpp>
@@ -64,8 +63,6 @@ struct ContactArguments {
 void press_once(const ContactArguments& arguments, Session& session);
 /// The force curve of the surface at several pressures, by boundary elements.
 void press_often(const ContactArguments& arguments, Session& session);
-/// Of a smooth shape unknown.
-MeanSummit summit_of(const Surface& surface, const Adhesion& adhesion, double contact_modulus);
 /// Several positions with adhesion, each from the one before, and back.
 void press_adhesively(const ContactArguments& arguments, Session& session);
 /// The force curve of summits, those of the surface or of parameters.

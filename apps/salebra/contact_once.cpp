@@ -9,7 +9,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/contact/normal/distributions.hpp>
+#include <salebra/contact/normal/distributions.hpp>  // a picture of one state
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/questions/contact.hpp>
@@ -176,7 +176,7 @@ class OnePosition {
 
   void add_adhesion() {
     const AdhesionOfState& adhesion = state_;
-    const MeanSummit summit = summit_of(surface_, arguments_.adhesion(), material_.contact_modulus);
+    const MeanSummit summit = mean_summit(surface_, arguments_.adhesion(), material_.contact_modulus);
     answer_.add(json_of(adhesion));
     answer_.add(json_of(summit));
     put_beside(adhesion);

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>  // the bodies are known to options alone
-#include <salebra/contact/normal/conductance.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/questions/contact.hpp>
 #include <salebra/study/realisation.hpp>

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/asperity/greenwood_williamson.hpp>
+#include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/questions/contact.hpp>
+#include <salebra/surface/moments.hpp>
 #include <utility>
 
 #include "stoppable_law.hpp"
@@ -246,6 +249,14 @@ ContactAnswer ask(ContactQuestion question, const Context& context) {
 
 std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question, const Context& context) {
   return std::visit([&](const auto& body) { return law(body, context); }, question);
+}
+
+MeanSummit mean_summit(const Surface& surface, const Adhesion& adhesion, double contact_modulus) {
+  const SpectralMoments moments = surface_moments(surface);
+  if (!(moments.nayak() >= 1) || !(adhesion.work > 0)) return {};
+  const SummitEnsemble summits =
+      summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
+  return {tabor_parameter(summits.radius, contact_modulus, adhesion.work, adhesion.range)};
 }
 
 LawState state_of(const ContactLaw& law, double indentation) {

@@ -99,7 +99,7 @@ const std::set<std::string> counts{"realisations", "seed"};
 const Meanings& columns_of_program() {
   static const Meanings all =
       meanings_of<Cost, PointCost, DampingQuestion, PathQuestion, DampingAnswer, DamperAnswer,
-                  DeckAnswer, cli::MotionOptions, cli::ContactPressures, cli::MeanSummit,
+                  DeckAnswer, cli::MotionOptions, cli::ContactPressures, MeanSummit,
                   cli::SurfacePoints, cli::BearingTable, cli::Lay, cli::FitChoices>();
   return all;
 }

@@ -11,6 +11,7 @@
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
+#include <salebra/contact/normal/adhesion.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
@@ -146,6 +147,20 @@ constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
 /// What a law says of an indentation, m. Throws as the law.
 LawState state_of(const ContactLaw& law, double indentation);
 IndenterState state_of(const IndenterLaw& law, double indentation);
+
+/// The summits of a surface with adhesion.
+struct MeanSummit {
+  double tabor = ForceSample::unknown;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<MeanSummit>) {
+  visit(&MeanSummit::tabor,
+        Quantity{"tabor", Dimension::dimensionless, "Tabor's parameter of the mean summit"});
+}
+
+/// Of the mean radius that the moments of the surface give its summits [Nayak (1971)]; unknown where
+/// they are not those of a random surface, or nothing adheres.
+MeanSummit mean_summit(const Surface& surface, const Adhesion& adhesion, double contact_modulus);
 
 /// Puts the residual surface of the first loading in place of the surface, and returns what flowed;
 /// without a hardness nothing.
