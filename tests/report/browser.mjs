@@ -391,6 +391,11 @@ for (const {k, mean, error, mine} of judged)
 check(judged.length > 5 && judged.every(({other}) => curveOf(other) === "broken" && Number.isNaN(other.damping_constant) && other.validity === "not valid" && /does not resolve/.test(other.why)), "full.html: has numbers of a curve that contacts do not confirm");
 
 // Another point of a parameter grid.
+const sticky = await open("sticky.html", {viewport: {width: 1280, height: 900}});
+await checkFigures(sticky, "sticky.html", ["force-gap", "adhesion-loop"]);
+check((await sticky.textContent("#conclusion")).includes("a cycle loses"), "sticky.html: no adhesion work");
+check(await sticky.locator("#damping").count() === 0, "sticky.html: damping with adhesion");
+
 const grid = await open("grid.html", {viewport: {width: 1280, height: 900}});
 await checkFigures(grid, "grid.html", ["overview", ...everyFigure]);
 await checkBars(grid, "grid.html");
