@@ -32,3 +32,32 @@ if(salebra_missing)
     "On Debian and Ubuntu, scripts/install-dependencies installs them; docs/install.md has the list. "
     "Libraries in a folder of their own are found with -D CMAKE_PREFIX_PATH=FOLDER.")
 endif()
+
+# HDF5, from its archives where a target says so: the shared library brings those of networks, for files on servers, and with them 40 %
+# of the program's start. An extension of Python needs code that archives need not have.
+if(NOT SALEBRA_ONLY_GENERATORS)
+  option(SALEBRA_HDF5_ARCHIVE "Link HDF5's archives into the program, where there are any" ON)
+  # Those beside the shared library: headers and archive are then of one version.
+  string(REGEX REPLACE "/[^/;]*(;.*)?$" "" beside "${HDF5_C_LIBRARIES}")
+  find_library(HDF5_ARCHIVE NAMES libhdf5.a PATHS ${beside} NO_DEFAULT_PATH)
+  find_library(HDF5_HL_ARCHIVE NAMES libhdf5_hl.a PATHS ${beside} NO_DEFAULT_PATH)
+  set(archives ${HDF5_HL_ARCHIVE} ${HDF5_ARCHIVE} ZLIB::ZLIB sz m ${CMAKE_DL_LIBS})
+  set(shared hdf5::hdf5_hl hdf5::hdf5)
+  if(SALEBRA_HDF5_ARCHIVE AND HDF5_ARCHIVE AND HDF5_HL_ARCHIVE)
+    include(CheckCSourceCompiles)
+    set(CMAKE_REQUIRED_INCLUDES ${HDF5_INCLUDE_DIRS})
+    set(CMAKE_REQUIRED_LIBRARIES ${archives})
+    check_c_source_compiles("#include <hdf5.h>\n#include <hdf5_hl.h>\nint main(void) { return H5open() + H5LTfind_dataset(0, \"\"); }"
+      HDF5_ARCHIVES_SUFFICE)
+    unset(CMAKE_REQUIRED_INCLUDES)
+    unset(CMAKE_REQUIRED_LIBRARIES)
+  endif()
+  if(NOT (SALEBRA_HDF5_ARCHIVE AND HDF5_ARCHIVES_SUFFICE))
+    set(archives ${shared})
+  endif()
+  add_library(salebra_hdf5 INTERFACE)
+  target_include_directories(salebra_hdf5 SYSTEM INTERFACE ${HDF5_INCLUDE_DIRS})
+  target_compile_definitions(salebra_hdf5 INTERFACE ${HDF5_DEFINITIONS})
+  target_link_libraries(salebra_hdf5 INTERFACE
+    "$<IF:$<BOOL:$<TARGET_PROPERTY:SALEBRA_HDF5_ARCHIVE>>,${archives},${shared}>")
+endif()

@@ -9,17 +9,35 @@
 
 #include <cstdlib>
 #include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <string_view>
 
 namespace salebra::cli {
 namespace {
+
+// Not for commands of few numbers, nor for help, nor where there is one thread.
+bool threads_may_run(char** argv) {
+  using namespace std::string_view_literals;
+  if (parallel::threads() == 1 || !argv[0] || !argv[1]) return false;
+  const std::string_view command = argv[1];
+  for (const auto few : {"completion"sv, "export"sv, "fit"sv, "help"sv, "init"sv, "viscoelastic"sv})
+    if (command == few) return false;
+  if (command.starts_with('-')) return false;
+  for (char** word = argv + 2; *word; ++word)
+    if (*word == "--help"sv || *word == "-h"sv || *word == "--threads=1"sv ||
+        (*word == "--threads"sv && word[1] && word[1] == "1"sv))
+      return false;
+  return true;
+}
 
 // By default OpenMP's threads spin while they wait for each other, which makes a run on a shared
 // machine many times slower and gains nothing on a quiet one. Asleep at once they are some 5 %
 // slower than after a thousand looks, which GNU's OpenMP can be told. The choice is read from the
 // environment when the OpenMP library is loaded, before main, so the program starts itself once
-// more with it. Where that fails it continues, more slowly.
+// more with it, which takes 11 ms. Where that fails it continues, more slowly.
 void wait_without_spinning(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+  if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT") || !threads_may_run(argv))
+    return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
   setenv("GOMP_SPINCOUNT", "1000", 1);
   execv("/proc/self/exe", argv);

@@ -26,7 +26,8 @@ struct Launch {
 void require_one_process(const Launch& launch, std::string_view what);
 
 /// What precedes everything else in main(), MPI included: standard streams that are open, and
-/// threads that do not spin while they wait, for which the program starts itself once more.
+/// threads that do not spin while they wait, for which the program starts itself once more where
+/// the command line may use several.
 void prepare_process(char** argv);
 
 }  // namespace salebra::cli
