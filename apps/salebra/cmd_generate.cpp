@@ -231,17 +231,20 @@ void estimate(const GenerateArguments& arguments, const Grid2D& grid, Session& s
                  fmt::format("{}, seed {}", method_of(arguments), arguments.seed), session);
 }
 
-void run(const GenerateArguments& arguments, Session& session) {
-  require_spreadable(arguments, session);
-  require(!arguments.shape.given() || (!arguments.spectrum.given() && !arguments.profile &&
-                                       !arguments.non_gaussian() && arguments.method.empty()),
-          "--shape", arguments.shape.shape, "cannot be combined with a spectrum; give one of them");
-  require(arguments.fourier.empty() ||
-              !(arguments.shape.given() || arguments.spectrum.given() || arguments.profile ||
-                arguments.non_gaussian() || !arguments.method.empty()),
-          "--fourier", arguments.fourier, "are the surface; leave out shape and spectrum");
+void require_one_surface(const GenerateArguments& arguments) {
+  const bool random = arguments.spectrum.given() || arguments.profile || arguments.non_gaussian() ||
+                      !arguments.method.empty();
+  require(!arguments.shape.given() || !random, "--shape", arguments.shape.shape,
+          "cannot be combined with a spectrum; give one of them");
+  require(arguments.fourier.empty() || !(arguments.shape.given() || random), "--fourier",
+          arguments.fourier, "are the surface; leave out shape and spectrum");
   require_that(!arguments.fourier_unit || !arguments.fourier.empty(), "--fourier-unit",
                "given without --fourier");
+}
+
+void run(const GenerateArguments& arguments, Session& session) {
+  require_spreadable(arguments, session);
+  require_one_surface(arguments);
   if (arguments.profile) return make_profile(arguments, session);
   if (session.has_output()) require_surface_name(session.output());
   const Grid2D grid = grid_of(arguments);

@@ -352,6 +352,14 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   run.level = level;
   choose_tiles(run, widest_margin);
   if (on_ladder_) run.at_refresh = residual;
+  go_on(run);
+  if (run.finished || !limits.exact) run.outcome.level = run.level;
+  return run.outcome;
+}
+
+template <class Real>
+void ActiveSetCg<Real>::go_on(Run& run) {
+  const ActiveSetLimits& limits = run.limits;
   for (;;) {
     const bool progressed = iterate(run);
     if (limits.keep_going &&
@@ -375,13 +383,11 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
       // left as it is.
       if (limits.exact)
         gradient_projection(
-            {exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_, target}, limits, p,
-            g, run.outcome);
+            {exact_compliance(), grid_, rows_, boundary_, heights_, rms_height_, run.target},
+            limits, run.p, run.g, run.outcome);
       break;
     }
   }
-  if (run.finished || !limits.exact) run.outcome.level = run.level;
-  return run.outcome;
 }
 
 template class ActiveSetCg<float>;

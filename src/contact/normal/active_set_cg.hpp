@@ -223,6 +223,8 @@ class ActiveSetCg {
   void frame_residual();
   double estimate_of(const StepSums& step, const Run& run, bool with_clipped) const;
   bool iterate(Run& run);
+  // Iterates from tiles that are chosen until the solution, or what ends it before.
+  void go_on(Run& run);
   LoadCorrection correction_over_tiles(const Run& run, double pressure) const;
   void change_set(Run& run, bool truncate, double pressure);
   void refresh(Run& run, bool last);
