@@ -8,8 +8,8 @@
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "base/column_fft.hpp"
 #include "base/convolution.hpp"
-#include "base/fft.hpp"
 #include "base/memory.hpp"
 #include "base/special_values.hpp"
 #include "ring_means.hpp"
@@ -25,55 +25,49 @@ using detail::unknown;
 /// padded where it is not periodic.
 class PairSums {
  public:
-  PairSums(Index nx, Index ny)
-      : fft_(nx, ny), buffer_(uninitialised_field(nx, ny)), product_(room()) {}
+  PairSums(Index nx, Index ny) : nx_(nx), ny_(ny) {}
 
-  /// Of value(height) of each point.
+  /// Of value(height) of each point: column after column.
   template <class Value>
-  PairModes transform(const Field& heights, const Value& value) {
-    parallel::for_slabs(fft_.nx(), [&](Index begin, Index end) {
-      for (Index row = begin; row < end; ++row) {
-        double* to = buffer_.data() + row * fft_.ny();
-        const Index count = row < heights.rows() ? heights.cols() : 0;
-        const double* from = heights.data() + row * count;
-        std::transform(from, from + count, to, value);
-        std::fill(to + count, to + fft_.ny(), 0.0);
-      }
-    });
-    PairModes modes = room();
-    fft_.forward(buffer_.data(), modes.get());
+  PairModes transform(const Field& heights, const Value& value) const {
+    const Index columns = ny_ / 2 + 1;
+    PairModes modes = large_array<std::complex<double>>(static_cast<std::size_t>(nx_ * columns));
+    forward_by_columns(
+        nx_, ny_,
+        [&](Index row, std::span<double> to) {
+          const Index count = row < heights.rows() ? heights.cols() : 0;
+          const double* from = heights.data() + row * count;
+          std::fill(std::transform(from, from + count, to.begin(), value), to.end(), 0.0);
+        },
+        [&](Index j, std::span<std::complex<double>> column) {
+          std::ranges::copy(column, modes.get() + j * nx_);
+        },
+        Share(nx_), Share(columns));
     return modes;
   }
 
   /// ½ Σ_x [a(x) b(x+r) + b(x) a(x+r)] for the vectors of a map of such a grid.
-  Field correlate(const PairModes& a, const PairModes& b, const Grid2D& grid) {
-    const Index columns = fft_.modes_y();
-    parallel::for_slabs(fft_.nx(), [&](Index begin, Index end) {
-      for (auto k = static_cast<std::size_t>(begin * columns);
-           k < static_cast<std::size_t>(end * columns); ++k)
-        product_[k] = a[k].real() * b[k].real() + a[k].imag() * b[k].imag();
-    });
-    fft_.backward(product_.get(), buffer_.data());
-    const double scale = 1 / static_cast<double>(fft_.nx() * fft_.ny());
+  Field correlate(const PairModes& a, const PairModes& b, const Grid2D& grid) const {
+    const Field buffer = backward_by_columns(
+        nx_, ny_, ny_ / 2 + 1, [&](Index j, std::span<std::complex<double>> column) {
+          const std::complex<double>*of_a = a.get() + j * nx_, *of_b = b.get() + j * nx_;
+          for (std::size_t i = 0; i < column.size(); ++i)
+            column[i] = of_a[i].real() * of_b[i].real() + of_a[i].imag() * of_b[i].imag();
+        });
+    const double scale = 1 / static_cast<double>(nx_ * ny_);
     const Index origin = grid.nx / 2;
     Field sums = uninitialised_field(2 * origin + 1, grid.ny / 2 + 1);
     parallel::for_slabs(sums.rows(), [&](Index begin, Index end) {
       for (Index row = begin; row < end; ++row) {
         const Index lag = row - origin;
-        sums.row(row) = scale * buffer_.row((lag + fft_.nx()) % fft_.nx()).head(sums.cols());
+        sums.row(row) = scale * buffer.row((lag + nx_) % nx_).head(sums.cols());
       }
     });
     return sums;
   }
 
  private:
-  RealFft2D<double> fft_;
-  Field buffer_;
-  PairModes product_;
-
-  PairModes room() const {
-    return large_array<std::complex<double>>(static_cast<std::size_t>(fft_.nx() * fft_.modes_y()));
-  }
+  Index nx_, ny_;
 };
 
 Index padded(Index n, bool periodic) { return periodic ? n : fast_transform_size(n + n / 2); }
@@ -88,7 +82,7 @@ CorrelationMap correlation_map(const Surface& surface) {
   // many where it is not periodic.
   require_memory(grid, (surface.periodic ? 32 : 80) * static_cast<double>(grid.points()),
                  "a correlation map");
-  PairSums sums(padded(grid.nx, surface.periodic), padded(grid.ny, surface.periodic));
+  const PairSums sums(padded(grid.nx, surface.periodic), padded(grid.ny, surface.periodic));
   const PairModes height_modes = sums.transform(
       surface.heights, [&](double height) { return std::isnan(height) ? 0.0 : height - mean; });
   CorrelationMap map{grid, sums.correlate(height_modes, height_modes, grid), {}, {}};
