@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "region_report.hpp"
 #include "task_pool.hpp"
 
 namespace salebra::parallel {
@@ -60,15 +61,21 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
   const Index slabs = std::min(rows, slabs_per_thread * threads());
   std::exception_ptr failure;
   std::mutex failure_guard;
+  const detail::RegionReport report = detail::region_report;
+  std::vector<double> seconds(report ? static_cast<std::size_t>(slabs) : 0);
+  const double begun = report ? detail::thread_seconds() : 0;
 #pragma omp parallel for schedule(dynamic) num_threads(threads())
   for (Index slab = 0; slab < slabs; ++slab) {
+    const double before = report ? detail::thread_seconds() : 0;
     try {
       body(rows * slab / slabs, rows * (slab + 1) / slabs);
     } catch (...) {  // an exception must not leave an OpenMP region
       const std::scoped_lock lock(failure_guard);
       if (!failure) failure = std::current_exception();
     }
+    if (report) seconds[static_cast<std::size_t>(slab)] = detail::thread_seconds() - before;
   }
+  if (report) report(begun, seconds, false);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -12,6 +12,8 @@
 #include <salebra/base/parallel.hpp>
 #include <vector>
 
+#include "region_report.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -195,15 +197,24 @@ void TaskLoop::run(Index count, const std::function<void(Index)>& body) {
   } else {
     TaskPool pool;
     const Here caller{&pool, this, depth_};
+    const RegionReport report = region_report;
+    std::vector<double> seconds(report ? static_cast<std::size_t>(threads) : 0);
+    const double begun = report ? thread_seconds() : 0;
 #pragma omp parallel num_threads(threads)
-    if (omp_get_thread_num() == 0) {
-      const Within this_loop(caller);
-      pool.run(*this);
-      pool.end();
-    } else {
-      const Within no_loop({&pool, nullptr, 0});
-      pool.serve();
+    {
+      const double before = report ? thread_seconds() : 0;
+      if (omp_get_thread_num() == 0) {
+        const Within this_loop(caller);
+        pool.run(*this);
+        pool.end();
+      } else {
+        const Within no_loop({&pool, nullptr, 0});
+        pool.serve();
+      }
+      if (report)
+        seconds[static_cast<std::size_t>(omp_get_thread_num())] = thread_seconds() - before;
     }
+    if (report) report(begun, seconds, true);
   }
   if (failure_) std::rethrow_exception(failure_);
 }

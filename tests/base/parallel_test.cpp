@@ -5,12 +5,14 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "base/loop_progress.hpp"
+#include "base/region_report.hpp"
 
 using namespace salebra;
 
@@ -61,6 +63,33 @@ TEST_CASE("More threads than any machine can use are refused before one is made"
   CHECK(parallel::sum_blocks(100, [](Index begin, Index end) { return double(end - begin); }) ==
         100);
   parallel::set_threads(0);
+}
+
+TEST_CASE("A report of regions holds the processor time of their slabs", "[parallel]") {
+  static std::vector<double> heard;
+  static double serial;
+  heard.clear();
+  parallel::set_threads(3);
+  const auto work = [](Index begin, Index end) {
+    const double start = detail::thread_seconds();
+    while (detail::thread_seconds() - start < 1e-4 * static_cast<double>(end - begin)) {
+    }
+  };
+  parallel::for_slabs(48, work);
+  CHECK(heard.empty());
+  detail::region_report = [](double begun, std::span<const double> parts, bool tasks) {
+    if (tasks) return;
+    serial = begun;
+    heard.assign(parts.begin(), parts.end());
+  };
+  const double before = detail::thread_seconds();
+  parallel::for_slabs(48, work);
+  detail::region_report = nullptr;
+  parallel::set_threads(0);
+  CHECK(serial >= before);
+  // Eight slabs for each thread, of two rows and 0.2 ms.
+  REQUIRE(heard.size() == 24);
+  for (const double part : heard) CHECK(part >= 2e-4);
 }
 
 TEST_CASE("An exception in a slab reaches the caller", "[parallel]") {
