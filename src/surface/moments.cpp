@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/fft.hpp"
+#include "base/memory.hpp"
 #include "neighbour_rows.hpp"
 #include "profiles.hpp"
 #include "shape.hpp"
@@ -69,17 +70,23 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const Index n = along_x ? grid.nx : grid.ny;
   const double length = along_x ? grid.lx : grid.ly;
   RealFft2D<double> fft(1, n);
+  // Of each mode, what its power counts in the second moment, and q² times that in the fourth.
+  const auto count = static_cast<std::size_t>(fft.modes_y());
+  std::vector<double> weights(count), squares(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double q = detail::wavenumber(static_cast<Index>(k), n, length);
+    weights[k] = detail::multiplicity(static_cast<Index>(k), n) * q * q;
+    squares[k] = q * q;
+  }
   const std::vector<ProfileMoments> blocks = detail::map_profiles(
       surface, axis, ProfileMoments{}, [&](ProfileMoments& sum, std::span<double> heights) {
         for (double& height : heights) height -= mean;
-        std::vector<std::complex<double>> modes(static_cast<std::size_t>(fft.modes_y()));
-        fft.forward(heights.data(), modes.data());
-        for (Index k = 1; k < fft.modes_y(); ++k) {
-          const double q = detail::wavenumber(k, n, length);
-          const double slope =
-              detail::multiplicity(k, n) * q * q * std::norm(modes[static_cast<std::size_t>(k)]);
+        const auto modes = large_array<std::complex<double>>(count);
+        fft.forward(heights.data(), modes.get());
+        for (std::size_t k = 1; k < count; ++k) {
+          const double slope = weights[k] * std::norm(modes[k]);
           sum.second += slope;
-          sum.fourth += q * q * slope;
+          sum.fourth += squares[k] * slope;
         }
       });
   const double scale = 1 / (static_cast<double>(n) * static_cast<double>(grid.points()));
