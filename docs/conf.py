@@ -109,8 +109,23 @@ def _documented_types(app, what, name, subject, options, signature, returned):
     return tuple(text and re.sub(r"salebra\.(\w+)(?![\w.])", documented, text) for text in (signature, returned))
 
 
+# Functions of the package make their signature when one asks for it, as what they wrap, which autodoc would take for an attribute.
+def _make_signatures():
+    import salebra
+
+    topics = [module for _, module in inspect.getmembers(salebra, inspect.ismodule)]
+    classes = {thing for topic in topics for thing in vars(topic).values() if inspect.isclass(thing)}
+    for holder in (salebra, *topics, *classes):
+        for function in vars(holder).values():
+            function = getattr(function, "__func__", function)
+            if inspect.isfunction(function) and hasattr(function, "__wrapped__"):
+                function.__signature__ = inspect.signature(function)
+                del function.__wrapped__
+
+
 def setup(app):
     if "sphinx.ext.autodoc" in extensions:
+        _make_signatures()
         app.connect("autodoc-process-docstring", _plain_text, priority=400)
         app.connect("autodoc-process-signature", _documented_types)
     app.add_html_math_renderer(

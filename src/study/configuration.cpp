@@ -19,6 +19,11 @@
 #include "toml_reader.hpp"
 
 namespace salebra {
+
+const char* const no_damping_with_adhesion =
+    "is not known with adhesion, where points may be released in another order than they were "
+    "pressed; leave it out, or leave out [adhesion]";
+
 namespace {
 
 using detail::TomlTable;

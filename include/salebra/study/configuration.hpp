@@ -219,9 +219,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
 }
 
 /// Why a study with adhesion has no damping, after the name of what asks for it.
-inline constexpr const char* no_damping_with_adhesion =
-    "is not known with adhesion: where loading and unloading differ, points are released in another"
-    " order than they were pressed; leave it out, or leave out [adhesion]";
+extern const char* const no_damping_with_adhesion;
 
 /// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on
 /// are numbers in SI units or strings with a unit.
