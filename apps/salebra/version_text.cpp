@@ -6,7 +6,6 @@
 #include <gnu/libc-version.h>
 #include <sys/utsname.h>
 
-#include <CLI/Version.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/provenance.hpp>
@@ -27,9 +26,8 @@ std::string version_text(const Launch& launch) {
   };
   line("revision", source_revision().empty() ? "not known" : source_revision());
   line("arithmetic", arithmetic());
-  line("libraries",
-       fmt::format("{}, {}, fmt {}.{}.{}, CLI11 {}", library_versions(), reader_versions(),
-                   FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, CLI11_VERSION));
+  line("libraries", fmt::format("{}, {}, fmt {}.{}.{}", library_versions(), reader_versions(),
+                                FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100));
   line("build", fmt::format("{}, {}", SALEBRA_BUILD_TYPE,
                             can_report() ? "with reports" : "without plotly.js: no reports"));
   line("threads", std::to_string(parallel::threads()));

@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <ctime>
-#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <salebra/io/provenance.hpp>
 #include <string_view>
@@ -34,10 +33,8 @@ std::string library_versions() {
 }
 
 std::string reader_versions() {
-  return fmt::format("libzip {}, zlib {}, pugixml {}.{}, nlohmann-json {}.{}.{}",
-                     zip_libzip_version(), zlibVersion(), PUGIXML_VERSION / 1000,
-                     PUGIXML_VERSION % 1000 / 10, NLOHMANN_JSON_VERSION_MAJOR,
-                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH);
+  return fmt::format("libzip {}, zlib {}, pugixml {}.{}", zip_libzip_version(), zlibVersion(),
+                     PUGIXML_VERSION / 1000, PUGIXML_VERSION % 1000 / 10);
 }
 
 }  // namespace salebra

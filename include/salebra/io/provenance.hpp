@@ -26,8 +26,7 @@ std::string utc_now();
 /// of a result depend on.
 std::string library_versions();
 
-/// "libzip 1.7.3, zlib 1.2.13, pugixml 1.12, nlohmann-json 3.11.2": what files of surfaces are read
-/// with.
+/// "libzip 1.7.3, zlib 1.2.13, pugixml 1.13": what files of surfaces are read with.
 std::string reader_versions();
 
 }  // namespace salebra
