@@ -2,6 +2,8 @@
 """Studies: ensembles of surfaces from one configuration, and checks of the installation."""
 
 from ._core import (
+    AdhesionOfSurface as AdhesionOfSurface,
+    AdhesionSample as AdhesionSample,
     Check as Check,
     DampingPoint as DampingPoint,
     EnsembleMean as EnsembleMean,

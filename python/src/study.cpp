@@ -113,6 +113,10 @@ void bind_realisation(nb::module_& m) {
                                 "Damping at one pressure of a curve, by three routes.");
   described_class<SpotStatistics>(m, "SpotStatistics",
                                   "Contact spots of the boundary elements at one pressure.");
+  described_class<AdhesionSample>(m, "AdhesionSample",
+                                  "An adhesive contact at a mean gap of a cycle, in and out.");
+  described_class<AdhesionOfSurface>(m, "AdhesionOfSurface",
+                                     "The adhesive cycle of one surface of a study.");
   described_class<SurfacePicture>(
       m, "SurfacePicture", "Heights, first contacts, spectrum and distribution of a surface.");
   described_class<ModelResult>(m, "ModelResult", "What one contact model says about one surface.");
