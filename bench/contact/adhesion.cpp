@@ -31,7 +31,9 @@ void draw_sphere_off(double tabor, Index points) {
   constexpr double side = 128, work = 0.1;
   const double cell = side / static_cast<double>(points), radius = tabor > 1 ? 250 : 100;
   const double range = std::cbrt(radius * work * work) / tabor;
-  Surface sphere({points, points, side, side}, Field(points, points));
+  Surface sphere;
+  sphere.grid = {points, points, side, side};
+  sphere.heights = Field(points, points);
   for (Index i = 0; i < points; ++i)
     for (Index j = 0; j < points; ++j) {
       const double middle = 0.5 * static_cast<double>(points - 1);
