@@ -176,7 +176,8 @@ class OnePosition {
 
   void add_adhesion() {
     const AdhesionOfState& adhesion = state_;
-    const MeanSummit summit = mean_summit(surface_, arguments_.adhesion(), material_.contact_modulus);
+    const MeanSummit summit =
+        mean_summit(surface_, arguments_.adhesion(), material_.contact_modulus);
     answer_.add(json_of(adhesion));
     answer_.add(json_of(summit));
     put_beside(adhesion);
