@@ -159,7 +159,7 @@ PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
     for (Size i = 0; i < width; ++i) {
       const Real free = z[i] * m[i];
       z[i] = free;
-      const double x = free, misfit = r[i];
+      const double x = static_cast<double>(free), misfit = static_cast<double>(r[i]);
       const double along = static_cast<double>(m[i]) * static_cast<double>(t[i]);
       sum_z.value[i] += x;
       sum_zw.value[i] += x * static_cast<double>(w[i]);
@@ -201,7 +201,7 @@ CurvatureSums take_image(const TileArrays<Real>& a, Size begin, Size end, const 
         const Real *m = a.m + place.packed, *t = a.t + place.packed, *cells = row + place.column;
         Real* w = a.w + place.packed;
         for (Size i = 0; i < width; ++i) {
-          const double y = cells[i];
+          const double y = static_cast<double>(cells[i]);
           w[i] = cells[i];
           sum_tw.value[i] += static_cast<double>(t[i]) * y;
           sum_w.value[i] += static_cast<double>(m[i]) * y;
@@ -229,7 +229,7 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           const double y = g[i] - alpha * static_cast<double>(w[i]);
           p[i] = x;
           g[i] = y;
-          const double free = m[i], apart = y - level;
+          const double free = static_cast<double>(m[i]), apart = y - level;
           r[i] = static_cast<Real>(free * apart);
           const double above = x < 0 ? 0 : x;
           const double held_in = above < bound ? above : bound;
@@ -283,7 +283,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
     Real* m = a.m + place.packed;
     const double *p = a.p + place.packed, *g = a.g + place.packed;
     for (Size i = 0; i < width; ++i) {
-      const double free = freed(m[i], p[i], g[i], level, bound);
+      const double free = static_cast<double>(freed(m[i], p[i], g[i], level, bound));
       m[i] = static_cast<Real>(free);
       count.value[i] += free;
       sum.value[i] += free * g[i];
@@ -311,7 +311,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double within = above < bound ? above : bound;
       const double kept = p[i] < full_from ? within : bound;
-      const double free = freed(m[i], p[i], g[i], level, bound);
+      const double free = static_cast<double>(freed(m[i], p[i], g[i], level, bound));
       // A held cell that the correction of the load took off its bound is free again.
       const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;
       m[i] = static_cast<Real>(inside > free ? inside : free);
