@@ -283,7 +283,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
     Real* m = a.m + place.packed;
     const double *p = a.p + place.packed, *g = a.g + place.packed;
     for (Size i = 0; i < width; ++i) {
-      const double free = static_cast<double>(freed(m[i], p[i], g[i], level, bound));
+      const double free = freed(static_cast<double>(m[i]), p[i], g[i], level, bound);
       m[i] = static_cast<Real>(free);
       count.value[i] += free;
       sum.value[i] += free * g[i];
@@ -311,7 +311,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double within = above < bound ? above : bound;
       const double kept = p[i] < full_from ? within : bound;
-      const double free = static_cast<double>(freed(m[i], p[i], g[i], level, bound));
+      const double free = freed(static_cast<double>(m[i]), p[i], g[i], level, bound);
       // A held cell that the correction of the load took off its bound is free again.
       const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;
       m[i] = static_cast<Real>(inside > free ? inside : free);
