@@ -109,6 +109,11 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
                "of a flat face sticks with all of it, whatever the force; give another shape");
   require(body.at.values.size() == 1, "--normal-force", body.at.values.size(),
           "positions are given; a contact at rest takes one");
+  const auto shown = [](const AdhesivePoint& point) {
+    Json json = json_of(point);
+    if (!std::isfinite(point.zone_radius)) json.erase("zone_radius");
+    return json;
+  };
   const auto state = [&](const std::function<AdhesivePoint(double)>& contact,
                          const AdhesivePoint& pull_off) {
     const AdhesivePoint point = adhesive_equilibrium(contact, pull_off,
@@ -116,10 +121,8 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
                                                          ? &AdhesivePoint::force
                                                          : &AdhesivePoint::indentation,
                                                      body.at.values.front());
-    Json json = json_of(point);
-    if (!std::isfinite(point.zone_radius)) json.erase("zone_radius");
-    json["pull_off"] = json_of(pull_off);
-    if (!std::isfinite(pull_off.zone_radius)) json["pull_off"].erase("zone_radius");
+    Json json = shown(point);
+    json["pull_off"] = shown(pull_off);
     return json;
   };
   Json answer{{"jkr", state([&](double a) { return jkr_contact(profile, modulus, work, a); },

@@ -83,7 +83,7 @@ tangential_stiffness = "stick"       # K_t by a solve on each contact; "proporti
 # [adhesion]                 # in place of [damping]: contacts that adhere
 # work_of_adhesion = "50mJ/m^2"  # of both surfaces together
 # range = "5nm"                  # of the attraction; a cell must be short against range^2 E*/work_of_adhesion
-# potential = "exponential"      # or "maugis", "van-der-waals"
+# potential = "exponential"      # or "maugis", "van_der_waals"
 # cycle = "20nm:2nm:12"          # mean gaps, in and out, for pull-off and hysteresis
 # force_coarse = false           # true: also where the cell is too long
 

@@ -93,6 +93,31 @@ TEST_CASE("A study file made by init is run by study as it is, and names every k
   test.done("init my.toml --overwrite");
 }
 
+TEST_CASE("What init offers for adhesion and conduction is accepted, word by word", "[init]") {
+  const ProgramTest test;
+  test.done("init my.toml");
+  std::string text = test.read("my.toml");
+  text = text.substr(0, text.find("\n[damping]"));
+  text = std::regex_replace(
+      text,
+      std::regex("\n# (\\[(?:adhesion|conduction)\\]|(?:work_of_adhesion|range|potential|cycle|"
+                 "force_coarse|conductivity|resistivity|flow_factors) = )"),
+      "\n$1");
+  const auto line = text.find("\npotential = ");
+  REQUIRE(line != std::string::npos);
+  const std::string potentials = text.substr(line + 1, text.find('\n', line + 1) - line - 1);
+  const std::regex word("\"[^\"]+\"");
+  int words = 0;
+  for (auto found = std::sregex_iterator(potentials.begin(), potentials.end(), word);
+       found != std::sregex_iterator(); ++found, ++words) {
+    INFO(found->str());
+    test.write("sticky.toml", text.substr(0, line) + "\npotential = " + found->str() +
+                                  text.substr(line + 1 + potentials.size()));
+    test.done("study sticky.toml --dry-run");
+  }
+  CHECK(words == 3);
+}
+
 TEST_CASE("init for a measured surface names it from where the study file lies", "[init]") {
   const ProgramTest test;
   test.done(
