@@ -37,7 +37,7 @@ std::vector<double> different(const std::vector<double>& xyz, std::size_t first)
   std::size_t sorted = 0, at = 0;
   const auto sort = [&] {
     std::ranges::sort(values);
-    values.erase(std::ranges::unique(values).begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     sorted = values.size();
   };
   for (std::size_t k = first; k < xyz.size(); k += 3) {
