@@ -88,8 +88,8 @@ void check_adhesion(const ContactArguments& arguments, std::size_t positions,
     require_that(adhesive || !given, option, "given without --work-of-adhesion; give both");
   if (!adhesive) return;
   required(arguments.adhesion_range, "--adhesion-range", "--work-of-adhesion needs it");
-  require_that(!arguments.hardness, "--hardness",
-               "with adhesion is not known: flow under a tension differs; leave out one of them");
+  require_that(!arguments.hardness || (positions <= 1 && !arguments.cycle), "--hardness",
+               "with adhesion is of a first loading; give one pressure or normal force");
   for (const auto& [given, option] : {std::pair(!arguments.initial.empty(), "--initial"),
                                       {!arguments.checkpoint.file.empty(), "--checkpoint"},
                                       {arguments.groups > 0, "--groups"}})

@@ -107,8 +107,10 @@ class OnePosition {
     start();
     const auto start = std::chrono::steady_clock::now();
     if (arguments_.adhesive()) {
+      AdhesiveContactOptions options = arguments_.adhesive_options(session_);
+      options.contact.hardness = options_.hardness;
       state_ = press_adhesive(surface_, material_.contact_modulus, target_of(arguments_, surface_),
-                              arguments_.adhesion(), arguments_.adhesive_options(session_));
+                              arguments_.adhesion(), options);
       session_.doubt(
           doubt_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
     } else {
@@ -186,8 +188,11 @@ class OnePosition {
 
   void add_residual() {
     if (!arguments_.hardness) return;
+    const double modulus = material_.contact_modulus;
     const ResidualSurface residual =
-        residual_surface(surface_, material_.contact_modulus, state_, options_);
+        arguments_.adhesive()
+            ? residual_surface(surface_, modulus, state_, arguments_.adhesion(), options_)
+            : residual_surface(surface_, modulus, state_, options_);
     if (!arguments_.residual.empty())
       write_surface(arguments_.residual, residual.surface, session_.provenance(),
                     session_.write_options());
@@ -196,8 +201,11 @@ class OnePosition {
 
   void add_stiffness() {
     const double area = surface_.grid.area();
-    const ForceSample sample =
-        force_sample(state_, surface_, material_, {.contact = options_, .stick = arguments_.stick});
+    SweepOptions options{.contact = options_, .stick = arguments_.stick};
+    // Cells that flow carry the tension as well.
+    if (arguments_.adhesive())
+      options.contact.hardness += arguments_.adhesion().largest_tension();
+    const ForceSample sample = force_sample(state_, surface_, material_, options);
     const Json columns = json_of(sample, area);
     for (const char* name :
          {"normal_stiffness", "normal_stiffness_per_area", "tangential_stiffness"})

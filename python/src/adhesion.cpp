@@ -5,6 +5,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <limits>
 #include <memory>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
@@ -87,14 +88,15 @@ void bind_press(nb::module_& m) {
       [](const BoundSurface& surface, const MaterialArgument& material, const Adhesion& adhesion,
          std::optional<double> pressure, std::optional<double> mean_gap,
          std::optional<double> indentation, std::optional<double> force, double tolerance,
-         int max_outer_iterations, const Choice<Boundary>& boundary,
+         int max_outer_iterations, const Choice<Boundary>& boundary, double hardness,
          const BoundAdhesiveContact* start, bool force_coarse, const ProgressArgument& progress) {
         const double contact_modulus = material.material().contact_modulus;
-        AdhesiveContactOptions options{.tolerance = tolerance,
-                                       .max_outer_iterations = max_outer_iterations,
-                                       .contact = {.boundary = boundary.value("boundary")},
-                                       .start_tension = start ? &start->tension : nullptr,
-                                       .force_coarse = force_coarse};
+        AdhesiveContactOptions options{
+            .tolerance = tolerance,
+            .max_outer_iterations = max_outer_iterations,
+            .contact = {.boundary = boundary.value("boundary"), .hardness = hardness},
+            .start_tension = start ? &start->tension : nullptr,
+            .force_coarse = force_coarse};
         return interruptible(
             progress,
             [&](Progress told) {
@@ -114,7 +116,8 @@ void bind_press(nb::module_& m) {
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
       nb::arg("tolerance") = AdhesiveContactOptions().tolerance,
       nb::arg("max_outer_iterations") = AdhesiveContactOptions().max_outer_iterations,
-      nb::arg("boundary") = "periodic", nb::arg("start") = nb::none(),
+      nb::arg("boundary") = "periodic",
+      nb::arg("hardness") = std::numeric_limits<double>::infinity(), nb::arg("start") = nb::none(),
       nb::arg("force_coarse") = false, nb::arg("progress") = false,
       R"(Adhesive contact of a rigid rough surface with an elastic half-space.
 
@@ -136,6 +139,8 @@ tolerance : float
 max_outer_iterations : int
     Ordinary contacts.
 boundary : {"periodic", "free"}
+hardness : float
+    Of a first loading under a pressure or force > 0: pressure less tension rises to it and no further, Pa.
 start : AdhesiveContactState, optional
     State whose branch is followed, for loading and unloading.
 force_coarse : bool

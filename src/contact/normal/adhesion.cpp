@@ -7,6 +7,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/contact/normal/adhesion.hpp>
 #include <utility>
 #include <vector>
@@ -106,8 +107,7 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
   require(adhesion.work >= 0 && std::isfinite(adhesion.work), "work_of_adhesion", adhesion.work,
           "must be >= 0 and finite, J/m²; 0: no adhesion");
   require_positive(adhesion.range, "adhesion_range");
-  require(std::isinf(options.contact.hardness), "hardness", options.contact.hardness,
-          "is not known to adhesion; leave it out");
+  require(options.contact.hardness > 0, "hardness", options.contact.hardness, "must be > 0");
   require(options.tolerance >= 1e-10 && options.tolerance <= 1e-1, "tolerance", options.tolerance,
           "must lie in 1e-10 … 1e-1");
   require(options.max_outer_iterations >= 1, "max_outer_iterations", options.max_outer_iterations,
@@ -226,6 +226,9 @@ class AdhesiveSolve {
 
  private:
   double largest() const { return adhesion_.largest_tension(); }
+  bool yields() const { return std::isfinite(options_.contact.hardness); }
+  // Of p where p − t is the hardness.
+  double bound() const { return options_.contact.hardness + largest(); }
 
   AdhesiveTarget target_of(const Target& target) const {
     const auto& [pressure, mean_gap, indentation, force] = target;
@@ -247,8 +250,15 @@ class AdhesiveSolve {
       require(nominal <= 1e12 * modulus_, name, value,
               fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
                           modulus_));
+      const double hardness = options_.contact.hardness;
+      require(!yields() || (nominal > 0 && nominal < hardness), name, value,
+              fmt::format("must be > 0 and below the hardness, {}, on the nominal area: a first "
+                          "loading presses",
+                          format_quantity(hardness, Dimension::pressure)));
       return {true, nominal};
     }
+    require(!yields(), name, value,
+            "is not held in a first loading; with a hardness give a pressure or a force");
     require(!mean_gap || periodic_, "boundary", "free",
             "has no mean gap; give a force or an indentation");
     require(!mean_gap || value > 0, "mean_gap", value, "must be > 0");
@@ -327,6 +337,7 @@ class AdhesiveSolve {
     ++state_.fft_count;
     raised_.heights += surface_.heights;
     const HeightSums sums = height_sums(rows_, raised_.heights, highest_);
+    highest_raised_ = sums.highest;
     const double mean = sums.first / cells_;
     rms_raised_ = std::sqrt(std::max(0.0, sums.second / cells_ - mean * mean));
     const double mean_tension = mean_of(tension_);
@@ -352,6 +363,7 @@ class AdhesiveSolve {
     inner.tolerance = tolerance;
     inner.on_checkpoint = {};
     inner.initial_pressure = nullptr;
+    inner.hardness = bound();
     if (!first_) {
       start_pressure_ = std::move(state_.contact_pressure);
       inner.initial_pressure = &start_pressure_;
@@ -416,8 +428,12 @@ class AdhesiveSolve {
   Measure measure() {
     struct Sums {
       double work = 0, displacement = 0, adhesive = 0, contact = 0, tension = 0, gap = 0;
-      double change = 0;
+      double sunk = 0, change = 0;
     };
+    if (yields()) {
+      compliance_->apply(state_.contact_pressure.data(), next_.data());
+      ++state_.fft_count;
+    }
     Sums total;
     for (const Sums& part : parallel::map_blocks<Sums>(
              rows_,
@@ -428,6 +444,11 @@ class AdhesiveSolve {
                for (Index k = begin * columns; k < end * columns; ++k) {
                  double &p = state_.contact_pressure.data()[k], &t = tension_.data()[k];
                  const double gap = p > 0 ? 0.0 : std::max(0.0, state_.gap.data()[k]);
+                 // next_ is still Gp: what of the raised heights is above the body has sunk in.
+                 const double sunk =
+                     p < bound() ? 0.0
+                                 : std::max(0.0, raised_.heights.data()[k] - highest_raised_ +
+                                                     state_.indentation - next_.data()[k]);
                  // Where surfaces touch, a tension that is not yet that of g = 0 is missing in p
                  // alone.
                  if (p > 0) {
@@ -435,7 +456,7 @@ class AdhesiveSolve {
                    t = top;
                  }
                  const double next = adhesion_.tension(gap);
-                 const double displaced = gap + surface_.heights.data()[k] - highest_;
+                 const double displaced = gap + surface_.heights.data()[k] - highest_ - sunk;
                  next_.data()[k] = next;
                  if (!(p > 0)) sums.change = std::max(sums.change, std::abs(next - t));
                  sums.work += displaced * (p - t);
@@ -444,6 +465,7 @@ class AdhesiveSolve {
                  sums.contact += p;
                  sums.tension += t;
                  sums.gap += gap;
+                 sums.sunk += sunk;
                }
                return sums;
              },
@@ -454,10 +476,12 @@ class AdhesiveSolve {
       total.contact += part.contact;
       total.tension += part.tension;
       total.gap += part.gap;
+      total.sunk += part.sunk;
       total.change = std::max(total.change, part.change);
     }
     const double pressure = (total.contact - total.tension) / cells_;
-    const double mean_gap = total.gap / cells_;
+    const double mean_gap = total.gap / cells_, sunk = total.sunk / cells_;
+    const double plastic = yields() ? options_.contact.hardness * sunk : 0;
     // u = displaced + offset; of a free contact, the plane stands at the indentation.
     const double offset = periodic_ ? -total.displacement / cells_ : indentation();
     const double elastic = 0.5 * (total.work / cells_ + offset * pressure);
@@ -466,14 +490,14 @@ class AdhesiveSolve {
     state_.mean_pressure = pressure;
     state_.force = pressure * area;
     state_.mean_gap = mean_gap;
-    state_.indentation = periodic_ ? mean_depth_ - mean_gap : indentation();
+    state_.indentation = periodic_ ? mean_depth_ + sunk - mean_gap : indentation();
     state_.elastic_energy = elastic * area;
     state_.adhesive_energy = adhesive * area;
     state_.tension_force = total.tension / cells_ * area;
     const double load = target_.load_given ? target_.value : pressure;
-    const double potential = load * (periodic_ ? mean_gap : -state_.indentation);
-    state_.total_energy = (elastic + adhesive + potential) * area;
-    return {elastic + adhesive + (target_.load_given ? potential : 0.0), total.change,
+    const double potential = load * (periodic_ ? mean_gap - sunk : -state_.indentation);
+    state_.total_energy = (elastic + adhesive + plastic + potential) * area;
+    return {elastic + adhesive + plastic + (target_.load_given ? potential : 0.0), total.change,
             total.contact / cells_};
   }
 
@@ -481,7 +505,7 @@ class AdhesiveSolve {
   double indentation() {
     if (!target_.load_given) return target_.value;
     // state_.indentation is that of the raised heights until measure() replaces it.
-    return state_.indentation - height_sums(rows_, raised_.heights, highest_).highest + highest_;
+    return state_.indentation - highest_raised_ + highest_;
   }
 
   AdhesiveContactState finish() {
@@ -505,7 +529,7 @@ class AdhesiveSolve {
   const AdhesiveContactOptions& options_;
   const bool periodic_;
   AdhesiveTarget target_;
-  double highest_ = 0, mean_depth_ = 0, reference_ = 1;
+  double highest_ = 0, highest_raised_ = 0, mean_depth_ = 0, reference_ = 1;
   double rms_raised_ = 0;
   bool first_ = true;
   std::optional<Convolution2D<double>> compliance_;

@@ -19,7 +19,7 @@ namespace {
 
 /// Lowers the heights by w and returns what was done.
 FirstLoading sink_in(Field& heights, const Field& displacement, const NormalContactState& state,
-                     double hardness) {
+                     double bound) {
   const double highest = heights.maxCoeff();
   struct Sums {
     double cells = 0, depth = 0, deepest = 0;
@@ -30,7 +30,7 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
            [&](Index begin, Index end) {
              Sums sums;
              for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
-               if (state.contact_pressure.data()[k] < hardness) continue;
+               if (state.contact_pressure.data()[k] < bound) continue;
                double& height = heights.data()[k];
                // Within the solver's tolerance, a saturated cell may stand off the plane.
                const double depth =
@@ -78,9 +78,12 @@ std::optional<NormalContactState> at_top(const Surface& residual, double contact
 
 }  // namespace
 
-ResidualSurface residual_surface(Surface surface, double contact_modulus,
-                                 const NormalContactState& state,
-                                 const NormalContactOptions& options) {
+namespace {
+
+// Where p reaches the bound the body is displaced by `traction`, and the rest has sunk in.
+ResidualSurface residual_of(Surface surface, double contact_modulus,
+                            const NormalContactState& state, const Field& traction, double bound,
+                            Boundary boundary) {
   surface.require_whole("a residual surface");
   require(state.contact_pressure.rows() == surface.grid.nx &&
               state.contact_pressure.cols() == surface.grid.ny,
@@ -88,7 +91,7 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
   ResidualSurface residual{
       .surface = std::move(surface), .first_loading = {}, .termination = state.termination};
   if (!state.converged()) return residual;
-  if ((state.contact_pressure < options.hardness).all()) {
+  if ((state.contact_pressure < bound).all()) {
     residual.first_loading = {.pressure = state.mean_pressure,
                               .yielded_area_fraction = 0,
                               .mean_plastic_depth = 0,
@@ -99,10 +102,27 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
   require_memory(grid, 3 * sizeof(double) * static_cast<double>(grid.points()),
                  "a residual surface");
   Field displacement(grid.nx, grid.ny);
-  normal_compliance<double>(grid, contact_modulus, options.boundary)
-      .apply(state.contact_pressure.data(), displacement.data());
-  residual.first_loading = sink_in(residual.surface.heights, displacement, state, options.hardness);
+  normal_compliance<double>(grid, contact_modulus, boundary)
+      .apply(traction.data(), displacement.data());
+  residual.first_loading = sink_in(residual.surface.heights, displacement, state, bound);
   return residual;
+}
+
+}  // namespace
+
+ResidualSurface residual_surface(Surface surface, double contact_modulus,
+                                 const NormalContactState& state,
+                                 const NormalContactOptions& options) {
+  return residual_of(std::move(surface), contact_modulus, state, state.contact_pressure,
+                     options.hardness, options.boundary);
+}
+
+ResidualSurface residual_surface(Surface surface, double contact_modulus,
+                                 const AdhesiveContactState& state, const Adhesion& adhesion,
+                                 const NormalContactOptions& options) {
+  return residual_of(std::move(surface), contact_modulus, state,
+                     state.contact_pressure - state.tension,
+                     options.hardness + adhesion.largest_tension(), options.boundary);
 }
 
 ResidualSurface after_first_loading(Surface surface, double contact_modulus,

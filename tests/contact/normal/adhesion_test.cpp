@@ -11,6 +11,7 @@
 #include <salebra/base/share.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
+#include <salebra/contact/normal/first_loading.hpp>
 #include <string>
 #include <vector>
 
@@ -431,6 +432,87 @@ TEST_CASE("A sticky surface comes off later than it snapped on, a detached one i
   CHECK(unloading.contact_area_fraction >= loading.contact_area_fraction);
 }
 
+TEST_CASE("A first loading with adhesion is the adhesive contact of the surface that it leaves",
+          "[adhesion][first_loading]") {
+  // A fifth to a half of what touches flows. Both solvers stop at 1e-8 of the tension.
+  const Adhesion adhesion{all_potentials[GENERATE(0, 1, 2)], 0.1, 3};
+  const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
+  Surface surface = steep(48);
+  if (boundary == Boundary::free) {  // a cap, whose edge nothing holds
+    for (Index i = 0; i < 48; ++i)
+      for (Index j = 0; j < 48; ++j) surface.heights(i, j) -= std::hypot(i - 24.0, j - 24.0) * 3;
+    surface.periodic = false;
+  }
+  const double hardness = 0.3, pressure = boundary == Boundary::free ? 0.001 : 0.05;
+  AdhesiveContactOptions options{.tolerance = 1e-8};
+  options.contact = {.boundary = boundary, .hardness = hardness};
+  const AdhesiveContactState state =
+      press_adhesive(surface, 1, {.pressure = pressure}, adhesion, options);
+  REQUIRE(state.converged());
+  const ResidualSurface left = residual_surface(surface, 1, state, adhesion, options.contact);
+  CHECK(left.first_loading.yielded_area_fraction > 0.15 * state.contact_area_fraction);
+  CHECK((state.contact_pressure - state.tension).maxCoeff() == Approx(hardness));
+
+  options.contact.hardness = std::numeric_limits<double>::infinity();
+  options.start_tension = &state.tension;
+  const AdhesiveContactState elastic =
+      press_adhesive(left.surface, 1, {.pressure = pressure}, adhesion, options);
+  REQUIRE(elastic.converged());
+  CHECK((elastic.contact_pressure - state.contact_pressure).abs().maxCoeff() < 1e-6);
+  CHECK(elastic.elastic_energy == Approx(state.elastic_energy).epsilon(1e-7));
+  CHECK(elastic.adhesive_energy == Approx(state.adhesive_energy).epsilon(1e-7));
+  // Both indentations count from the highest point of their own surface.
+  const double lower = surface.heights.maxCoeff() - left.surface.heights.maxCoeff();
+  CHECK(elastic.indentation + lower == Approx(state.indentation).epsilon(1e-7));
+}
+
+TEST_CASE("What sinks in under adhesion makes the energy least", "[adhesion][first_loading]") {
+  // By its definition, with another transform. A wrong bound, such as one of p alone, makes one of
+  // the changes lower it: the first derivative is then a tenth of the change.
+  const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 3};
+  const double hardness = 0.3, pressure = 0.05;
+  const Surface surface = steep(48);
+  AdhesiveContactOptions options{.tolerance = 1e-8};
+  options.contact.hardness = hardness;
+  const AdhesiveContactState state =
+      press_adhesive(surface, 1, {.pressure = pressure}, adhesion, options);
+  REQUIRE(state.converged());
+  const Field sunk = surface.heights -
+                     residual_surface(surface, 1, state, adhesion, options.contact).surface.heights;
+  const Field gap = (state.contact_pressure > 0).select(0, state.gap.max(0.0));
+  const auto energy_of = [&](const Field& depth) {
+    Surface lowered = surface;
+    lowered.heights -= depth;
+    return EnergyOfGap(lowered, adhesion, pressure)(gap) + (hardness - pressure) * depth.mean();
+  };
+  const double least = energy_of(sunk);
+  CHECK(state.total_energy / surface.grid.area() == Approx(least).epsilon(1e-8));
+  Lcg random(3);
+  for (const double change : {-0.02, 0.02}) {
+    CHECK(energy_of(sunk * (1 + change)) > least);
+    Field other = sunk;
+    for (Index k = 0; k < other.size(); ++k)
+      if (state.contact_pressure.data()[k] > 0)
+        other.data()[k] = std::max(0.0, other.data()[k] + change * random.uniform());
+    CHECK(energy_of(other) > least);
+  }
+}
+
+TEST_CASE("Under a tension that reaches far a first loading is that of the load and the tension",
+          "[adhesion][first_loading]") {
+  // The tension of Maugis's potential is w/ρ at each gap below ρ: a load more, and a bound more.
+  const Adhesion adhesion{AdhesionPotential::maugis, 10, 100};
+  const Surface surface = steep(48);
+  AdhesiveContactOptions options;
+  options.contact.hardness = 0.4;
+  const AdhesiveContactState state =
+      press_adhesive(surface, 1, {.pressure = 0.02}, adhesion, options);
+  const NormalContactState pulled = press(surface, 1, {.pressure = 0.12}, {.hardness = 0.5});
+  REQUIRE((state.converged() && pulled.converged()));
+  CHECK((state.contact_pressure - pulled.contact_pressure).abs().maxCoeff() < 1e-6);
+  CHECK(state.mean_gap == Approx(pulled.mean_gap).epsilon(1e-6));
+}
+
 TEST_CASE("An adhesive plane is in full contact under what its tension allows", "[adhesion]") {
   Surface plane{cells(16, 16), Field::Constant(16, 16, 3.0), true, "test"};
   const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 2};
@@ -518,7 +600,11 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
   const Field short_start = Field::Zero(3, 3);
   CHECK(message(load, good, {.start_tension = &short_start}).find("start_tension") == 0);
   AdhesiveContactOptions hard;
-  hard.contact.hardness = 1;
+  hard.contact.hardness = 0.005;
+  CHECK(message(load, good, hard).find("pressure") == 0);
+  CHECK(message({.pressure = -0.001}, good, hard).find("pressure") == 0);
+  CHECK(message({.mean_gap = 1}, good, hard).find("mean_gap") == 0);
+  hard.contact.hardness = 0;
   CHECK(message(load, good, hard).find("hardness") == 0);
   AdhesiveContactOptions isolated;
   isolated.contact.boundary = Boundary::free;

@@ -57,8 +57,8 @@ struct AdhesiveContactOptions {
   /// this part of max(E*·rms slope, φ'(0)); 1e-10 … 1e-1.
   double tolerance = 1e-5;
   int max_outer_iterations = 500;  ///< ordinary contacts, >= 1
-  /// Of the contacts; their tolerance, start and checkpoints are the solver's own, and adhesion
-  /// knows no hardness.
+  /// Of the contacts; their tolerance, start and checkpoints are the solver's own. With a hardness
+  /// the state is that of a first loading.
   NormalContactOptions contact = {};
   /// Tension of another state of the same surface, Pa, from which to follow its branch: that of the
   /// state before, for loading and for unloading. nullptr: from the contact without adhesion, or from
@@ -72,7 +72,8 @@ struct AdhesionOfState {
   Field tension;               ///< t, as contact_pressure, Pa, >= 0
   double tension_force = 0;    ///< ∫t dA, N
   double adhesive_energy = 0;  ///< ∫φ(g) dA, J
-  /// Elastic and adhesive energy and that of the load: P ū A (periodic) or −F·indentation (free), J.
+  /// Elastic and adhesive energy, that of the load, P ū A (periodic) or −F·indentation (free), and
+  /// the plastic work of a first loading, J.
   double total_energy = 0;
   double adhesion_residual = std::numeric_limits<double>::infinity();
   double cells_in_process_zone = 0;
@@ -89,7 +90,8 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionOfState>) {
         Quantity{"tension_force", Dimension::force, "force by which adhesion pulls"});
   visit(&S::adhesive_energy, Quantity{"adhesive_energy", energy, "energy of adhesion"});
   visit(&S::total_energy,
-        Quantity{"total_energy", energy, "elastic and adhesive energy and that of the load"});
+        Quantity{"total_energy", energy,
+                 "elastic and adhesive energy, that of the load, and plastic work"});
   visit(&S::adhesion_residual,
         Quantity{"adhesion_residual", dimensionless, "residual of the adhesive tension"});
   visit(&S::cells_in_process_zone,
@@ -118,11 +120,15 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 /// from any start [difference-of-convex programming, Le Thi and Pham Dinh (2018)]. Anderson's
 /// extrapolation [Anderson (1965)] of t is taken where E fell. Solutions are local minima and depend
 /// on the start; with start_tension the first steps are plain ones, down the valley of that state.
+/// hardness   H, of a first loading: p − t rises to H and no further. Where it is H, the surface
+///            sinks in by w >= 0, and E has H⟨w⟩ and −P⟨w⟩ more. The contacts have the bound
+///            H + φ'(0). The gap is that over the heights h − w, of which the state is an adhesive
+///            contact without a hardness: residual_surface() returns them
 /// target     as of press(), but for signs: a pressure or force may pull, an indentation may be < 0
 ///            (out of first touch). Under a pull that nothing holds the state is detached. At a
 ///            given mean gap, and of a free contact at an indentation, the force passes its minimum
 /// throws     InvalidInput before any work as press(); for less than 1.4 cells in the process zone,
-///            unless forced; for a hardness; for a free boundary at which the undeformed gap has
+///            unless forced; with a hardness for anything but a load > 0 below it; for a free boundary at which the undeformed gap has
 ///            more than 1e-2 of the largest tension. Non-convergence is returned, not thrown
 /// cost       10 to 40 contacts that start from each other, of some pairs each; 130 bytes a cell
 ///            in addition to those of press(). Collective where the surface is spread, with the same

@@ -3,7 +3,7 @@
 
 #include <limits>
 #include <salebra/base/describe.hpp>
-#include <salebra/contact/normal/normal.hpp>
+#include <salebra/contact/normal/adhesion.hpp>
 
 /// A first loading during which the highest parts of a surface flow, and the surface that it
 /// leaves. Pressures rise to the hardness H and no further. Where p = H, the surface sinks in by
@@ -54,11 +54,16 @@ struct ResidualSurface {
 
 /// The surface that is left after a contact with a hardness, at any load. Heights of cells below
 /// the hardness keep their bits.
-/// state    of this surface, modulus and options, by press() or press()
+/// state    of this surface, modulus and options, by press()
 /// throws   InvalidInput for a state of another grid
 /// cost     one transform pair in double; 24 bytes a cell
 ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const NormalContactState& state,
+                                 const NormalContactOptions& options);
+
+/// The same of a state by press_adhesive() with these options.
+ResidualSurface residual_surface(Surface surface, double contact_modulus,
+                                 const AdhesiveContactState& state, const Adhesion& adhesion,
                                  const NormalContactOptions& options);
 
 /// The surface that is left after a first loading to a nominal pressure, and by an oscillation of
