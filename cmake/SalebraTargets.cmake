@@ -59,7 +59,9 @@ function(salebra_compile_fast target)
   if(NOT CMAKE_CXX_FLAGS MATCHES "-O" AND CMAKE_CXX_FLAGS_RELEASE STREQUAL "-O3 -DNDEBUG")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
     if(ARGN)
-      set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O2>)
+      # Headers that are compiled already are of the other optimisation: GCC 13 would refuse them, with a warning.
+      set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target} PROPERTIES
+        COMPILE_OPTIONS $<$<CONFIG:Release>:-O2> SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endif()
 endfunction()

@@ -164,8 +164,8 @@ void archive(Archive& through, T& value) {
     bool there = own.has_value();
     archive(through, there);
     if constexpr (Archive::reads) {
-      own.reset();
-      if (there) own.emplace();
+      if (!there) own.reset();
+      if (there && !own) own.emplace();
     }
     if (own) archive(through, *own);
   } else if constexpr (requires { own.first, own.second; }) {
