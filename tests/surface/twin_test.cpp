@@ -11,7 +11,7 @@
 #include "surface/twin_fit.hpp"
 
 using namespace salebra;
-using Catch::Matchers::Contains;
+using Catch::Contains;
 using std::numbers::pi;
 
 namespace {

@@ -8,6 +8,18 @@
 #include <utility>
 
 namespace salebra {
+namespace {
+
+// What a solve may leave, in tolerances of its own, as part of the change of the sweep before in
+// tolerances of the sweeps. Most sweeps change a thirtieth of what the last one did, and the fourth
+// is then the first with solves as sharp as the options ask, and the last.
+constexpr double inner_share = 0.005;
+constexpr double loosest_contact = 1e-2;
+constexpr double first_looseness = 1000;
+// A sweep that changed less was lucky.
+constexpr double least_fall = 0.1;
+
+}  // namespace
 
 struct CoupledContact::Parts {
   Surface surface;
@@ -40,14 +52,15 @@ struct CoupledContact::Parts {
   // Presses to the same rigid approach above a surface that the tractions have displaced by `sunk`;
   // cells `out` stay out of the contact, so that the others carry what these would. Their gap may
   // be below 0.
-  NormalContactState press(double approach, const Field& sunk, Field guess,
-                           const ContactSet& out) const {
+  NormalContactState press(double approach, const Field& sunk, Field guess, const ContactSet& out,
+                           double looseness) const {
     Surface lowered{surface.grid, surface.heights - sunk, surface.periodic, surface.origin};
     const double depth =
         std::abs(approach) + lowered.heights.maxCoeff() - lowered.heights.minCoeff();
     lowered.heights -= out.select(Field::Constant(out.rows(), out.cols(), depth), 0.0);
     guess = out.select(0.0, guess);
     NormalContactOptions contact = options.contact;
+    contact.tolerance = std::min(loosest_contact, contact.tolerance * looseness);
     if ((guess > 0).any()) contact.initial_pressure = &guess;
     const double from_first_touch = approach + lowered.heights.maxCoeff() - highest;
     if (!(from_first_touch > 0)) {
@@ -86,7 +99,8 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   // if the solves resolve them.
   const double scale =
       std::hypot(move.x, move.y) + std::abs(p.dundurs) * std::max(indentation, 0.0);
-  if (scale > 0) p.sliding.set_motion_scale(std::min(p.options.sliding.motion_scale, scale));
+  const double motion_scale =
+      scale > 0 ? std::min(p.options.sliding.motion_scale, scale) : p.options.sliding.motion_scale;
   CoupledReport report;
   SlidingContact::Increment increment;
   increment.contact_pressure = p.sliding.contact_pressure();
@@ -97,10 +111,16 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   // left once too often stays out.
   constexpr int patience = 8;
   ContactSet barred = ContactSet::Constant(p.surface.grid.nx, p.surface.grid.ny, false);
-  while (report.sweeps < p.options.max_sweeps) {
+  bool still = false;
+  double looseness = p.dundurs == 0 ? 1 : first_looseness;
+  while (!still && report.sweeps < p.options.max_sweeps) {
+    // Solves become sharper with the sweeps, and the last ones are as sharp as the options ask.
+    if (report.sweeps > 0)
+      looseness = std::clamp(inner_share * report.change / p.options.tolerance, 1.0, looseness);
+    p.sliding.set_motion_scale(looseness * motion_scale);
     NormalContactState state =
         p.press(indentation, p.coupling.normal_displacement(increment.traction),
-                increment.contact_pressure, barred);
+                increment.contact_pressure, barred, looseness);
     if (report.sweeps > patience)
       barred = barred || (increment.contact_pressure > 0 && state.contact_pressure <= 0);
     const TangentialField shift = p.coupling.tangential_displacement(state.contact_pressure);
@@ -113,14 +133,16 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     increment = std::move(next);
     gap = std::move(state.gap);
     solved = std::max(state.termination, increment.report.termination);
+    const double before = report.change;
     report.change = total > 0 ? change / total : 0;
     ++report.sweeps;
-    // Round-off of the last digits apart, nothing that is less than the solvers' own error can be
-    // asked for.
-    if (solved == Termination::interrupted || report.change < p.options.tolerance) break;
+    // What remains, where the sweeps to come fall as this one fell from the last. Round-off of the
+    // last digits apart, nothing that is less than the solvers' own error can be asked for.
+    const double fall = std::max(least_fall, report.sweeps > 1 ? report.change / before : 1);
+    still = looseness == 1 && report.change * fall < (1 - fall) * p.options.tolerance;
+    if (solved == Termination::interrupted) break;
   }
-  report.termination =
-      report.change < p.options.tolerance ? solved : std::max(solved, Termination::iteration_limit);
+  report.termination = still ? solved : std::max(solved, Termination::iteration_limit);
   p.termination = std::max(p.termination, report.termination);
   const Field &pressure = p.sliding.contact_pressure(), &next_pressure = increment.contact_pressure;
   const Field across = (pressure <= 0).select(next_pressure * p.gap, 0.0) -

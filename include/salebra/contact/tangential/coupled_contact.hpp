@@ -14,7 +14,8 @@ struct CoupledContactOptions {
   /// β/(πE*), 1/Pa, such as coupling_constant() of the two bodies; default:
   /// coupling_constant(material).
   std::optional<double> coupling_constant = {};
-  /// Stop the sweeps where (Σ|Δp| + Σ|Δτ|)/Σp < tolerance from one to the next; 1e-12 … 1e-1.
+  /// Stop the sweeps where what remains of (Σ|Δp| + Σ|Δτ|)/Σp is < tolerance, 1e-12 … 1e-1: the
+  /// sum of the changes to come, which fall as the last two did.
   double tolerance = 1e-6;
   int max_sweeps = 60;  ///< of each increment, >= 1
 };
