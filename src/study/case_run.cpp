@@ -142,7 +142,7 @@ class CaseRun {
   std::optional<Realisation> analysed(std::size_t i, const std::vector<std::size_t>& turn) {
     const Communicator& own = run_.groups.own();
     try {
-      Realisation realisation = analyse_realisation(
+      Realisation realisation = realise(
           result_.configuration, seeds_[i], result_.pressures,
           [&](const ProgressReport& report) {
             for (const std::size_t place : turn) fractions_[place] = report.fraction;
@@ -171,11 +171,11 @@ class CaseRun {
     if (!is_wanted(i) || restored(i)) return;
     const auto start = Clock::now();
     try {
-      Realisation realisation = analyse_realisation(
-          result_.configuration, seeds_[i], result_.pressures, [&](const ProgressReport& sweep) {
-            fractions_[i] = sweep.fraction;
-            return loop_.going_on() && is_wanted(i);
-          });
+      Realisation realisation = realise(result_.configuration, seeds_[i], result_.pressures,
+                                        [&](const ProgressReport& sweep) {
+                                          fractions_[i] = sweep.fraction;
+                                          return loop_.going_on() && is_wanted(i);
+                                        });
       if (run_.parts)
         run_.parts->write(StudyParts::key(result_.configuration, seeds_[i]), realisation);
       const std::scoped_lock lock(guard_);
@@ -276,6 +276,16 @@ void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& p
       fmt::format("none of its {} surfaces belongs to this study; the settings or the program have "
                   "changed since, restore them or remove the folder",
                   parts.count()));
+}
+
+Realisation realise(const StudyConfiguration& configuration, std::uint64_t seed,
+                    const std::vector<double>& pressures, const Progress& progress,
+                    const Communicator& ranks) {
+  const Progress begun = [&](const ProgressReport&) {
+    return !progress || progress({.stage = "realisation"});
+  };
+  return analyse_realisation(study_surface(configuration, seed, begun, ranks), configuration, seed,
+                             pressures, progress);
 }
 
 bool PrecisionRule::met_with(const Realisation& realisation) {

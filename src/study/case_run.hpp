@@ -20,6 +20,12 @@ std::vector<std::uint64_t> keys_of(const std::vector<StudyConfiguration>& points
 /// one refuses them before any work.
 void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& points);
 
+/// Makes the surface of the seed and analyses it. progress: of both, as analyse_realisation() reports
+/// it. ranks: the processes over which the surface is spread; collective. Throws as both do.
+Realisation realise(const StudyConfiguration& configuration, std::uint64_t seed,
+                    const std::vector<double>& pressures, const Progress& progress,
+                    const Communicator& ranks = {});
+
 /// The rule by which a precision ends an ensemble.
 class PrecisionRule {
  public:

@@ -10,9 +10,6 @@
 #include <salebra/base/share.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/generators/filtered_noise.hpp>
-#include <salebra/generators/random_phase.hpp>
-#include <salebra/io/read_surface.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <type_traits>
@@ -21,18 +18,9 @@
 #include "base/memory.hpp"
 #include "case_run.hpp"
 #include "contact_models.hpp"
-#include "surface/plausibility.hpp"
 
 namespace salebra {
 namespace {
-
-Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
-                 const Communicator& ranks) {
-  const auto spectrum = recipe.spectrum_of(seed);
-  return recipe.method == GenerationMethod::random_phase
-             ? random_phase(recipe.grid, *spectrum, seed, progress, ranks)
-             : filtered_noise(recipe.grid, *spectrum, seed, progress, ranks);
-}
 
 /// Root mean square of the steps between opposite edges, which a periodic continuation turns into
 /// cliffs.
@@ -203,18 +191,13 @@ void require_converged(const ForceCurve& curve, const StudyConfiguration& config
 }
 
 /// The surface that the models press: after the first loading, where a hardness is known.
-ResidualSurface surface_to_press(const StudyConfiguration& configuration, std::uint64_t seed,
-                                 double largest_pressure, const Progress& progress,
-                                 const Communicator& ranks) {
-  const Progress part = [&](const ProgressReport&) {
-    return !progress || progress({.stage = "realisation"});
-  };
-  Surface surface = study_surface(configuration, seed, part, ranks);
+ResidualSurface first_loaded(Surface surface, const StudyConfiguration& configuration,
+                             double largest_pressure, const Progress& progress) {
   if (std::isnan(configuration.known.hardness)) return {.surface = std::move(surface)};
   NormalContactOptions options;
   options.tolerance = configuration.tolerance;
   options.hardness = configuration.known.hardness;
-  options.on_progress = part;
+  options.on_progress = progress;
   ResidualSurface residual = after_first_loading(
       std::move(surface), configuration.material.contact_modulus, largest_pressure, options,
       std::visit([](const auto& motion) { return motion.normal_amplitude; }, configuration.motion));
@@ -324,104 +307,25 @@ ModelResult& Realisation::of(ContactModel model) {
   return const_cast<ModelResult&>(std::as_const(*this).of(model));
 }
 
-Surface measured_surface(const MeasuredSurface& recipe, const Communicator& ranks,
-                         std::vector<std::string>* remarks) {
-  require_that(!recipe.file.empty(), "surface",
-               "none is given; name a file, or describe surfaces to generate");
-  ReadOptions options = recipe.reading();
-  options.remarks = remarks;
-  Surface surface = read_surface(recipe.file, options, ranks);
-  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
-  const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
-  return detrended(std::move(surface), trend);
-}
-
-Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
-                      const Progress& progress, const Communicator& ranks) {
-  if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
-    return generate(*recipe, seed, progress, ranks);
-  return measured_surface(std::get<MeasuredSurface>(configuration.surfaces), ranks);
-}
-
-namespace {
-
-/// Leaves out the loads that no surface of that hardness carries, where they are a default.
-void require_below_hardness(const StudyConfiguration& configuration, StudyLoads& loads) {
-  const double hardness = configuration.known.hardness;
-  std::vector<double>& pressures = loads.pressures;
-  const auto text = [](double pressure) {
-    return format_quantity(pressure, Dimension::pressure, 3);
+Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configuration,
+                                std::uint64_t seed, const std::vector<double>& pressures,
+                                const Progress& progress) {
+  const std::vector<StudyModel> models = models_of(configuration);
+  double cost = 0, spent = 0;
+  for (const StudyModel& model : models) cost += model.seconds_per_cell;
+  bool stopped = false;
+  const auto part = [&](double share) -> Progress {
+    return [&, share](const ProgressReport& report) {
+      stopped = stopped ||
+                (progress && !progress({.stage = "realisation",
+                                        .fraction = (spent + share * report.fraction) / cost}));
+      return !stopped;
+    };
   };
-  const auto below =
-      std::ranges::count_if(pressures, [&](double pressure) { return !(pressure > hardness / 2); });
-  constexpr std::ptrdiff_t least = 4;  // make a curve
-  if (configuration.pressures_below_hardness && below < std::ssize(pressures) && below >= least) {
-    loads.doubts.push_back(fmt::format(
-        "loads end at {}, {} of the {} by default: at half of the hardness of {}",
-        text(pressures[std::size_t(below) - 1]), below, pressures.size(), text(hardness)));
-    pressures.resize(std::size_t(below));
-  }
-  require(!(pressures.back() > hardness), "hardness", text(hardness),
-          fmt::format(
-              "is below the largest of the loads, {}; end them below it{}", text(pressures.back()),
-              loads.contact_scale > 0 ? fmt::format(", which is {:.2g} of E* times the rms slope",
-                                                    hardness / loads.contact_scale)
-                                      : ""));
-}
-
-}  // namespace
-
-StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
-  StudyLoads loads{.pressures = configuration.pressures};
-  std::optional<std::string> doubt;
-  double slope = 0;
-  Grid2D grid;
-  if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
-    slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
-    doubt = doubt_of_slope(slope);
-    grid = recipe->grid;
-  } else {
-    const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
-    const Surface surface = measured_surface(measured, ranks, &loads.doubts);
-    slope = surface_moments(surface).rms_slope();
-    grid = surface.grid;
-  }
-  const double modulus = configuration.material.contact_modulus;
-  const bool adhesive = configuration.adhesion.has_value();
-  require(adhesive || std::ranges::none_of(configuration.models, is_adhesive), "models",
-          "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");
-  require(!adhesive || std::isnan(configuration.known.hardness), "hardness",
-          configuration.known.hardness, "is not known to adhesion; leave out one of them");
-  if (adhesive)
-    if (const auto coarse = doubt_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
-      loads.doubts.push_back(*coarse);
-  loads.contact_scale = modulus * slope;
-  if (configuration.relative_pressures)
-    for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
-  // Where the slope is doubted, relative pressures are too large with it.
-  if (!doubt && !(configuration.relative_pressures && slope > 1))
-    doubt = doubt_of_pressure(loads.pressures.back(), modulus);
-  if (doubt) loads.doubts.push_back(*doubt);
-  require_below_hardness(configuration, loads);
-  require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
-          "levels", 0,
-          "levels state no error; use 4 or more, or leave out `relative_error` and the error of "
-          "the seam");
-  if (const auto& window = configuration.window) {
-    const auto inside = std::ranges::count_if(
-        loads.pressures, [&](double pressure) { return window->contains(pressure); });
-    require(inside >= 3, "pressure_window", inside,
-            "pressures lie in it and a fit needs 3; widen it or compute more of them");
-  }
-  return loads;
-}
-
-Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
-                                const std::vector<double>& pressures, const Progress& progress,
-                                const Communicator& ranks) {
   const ResidualSurface loaded =
-      surface_to_press(configuration, seed, pressures.back(), progress, ranks);
+      first_loaded(std::move(drawn), configuration, pressures.back(), part(0));
   const Surface& surface = loaded.surface;
+  const Communicator& ranks = surface.ranks;
   SummitList summits = find_summits(surface);
   Realisation realisation = described(loaded, summits);
   realisation.seed = seed;
@@ -436,18 +340,9 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
   std::vector<RoughnessShell> shells;
   if (configuration.has(ContactModel::persson)) shells = detail::shells_of(surface);
 
-  const std::vector<StudyModel> models = models_of(configuration);
-  double cost = 0, spent = 0;
-  for (const StudyModel& model : models) cost += model.seconds_per_cell;
-  bool stopped = false;
   for (const StudyModel& model : models) {
-    const Progress part = [&, share = model.seconds_per_cell](const ProgressReport& report) {
-      stopped = stopped ||
-                (progress && !progress({.stage = "realisation",
-                                        .fraction = (spent + share * report.fraction) / cost}));
-      return !stopped;
-    };
-    detail::ModelWork work{configuration, surface, summits, shells, pressures, realisation, part};
+    const Progress share = part(model.seconds_per_cell);
+    detail::ModelWork work{configuration, surface, summits, shells, pressures, realisation, share};
     const bool bem = model.id == ContactModel::bem;
     ModelResult result;
     if (bem)
@@ -461,7 +356,7 @@ Realisation analyse_realisation(const StudyConfiguration& configuration, std::ui
     if (bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
     if (bem && configuration.levels != 0 && !configuration.adhesion)
-      resolve_damping(result, surface, configuration, seed, part);
+      resolve_damping(result, surface, configuration, seed, share);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }

@@ -157,7 +157,7 @@ class ShardRun {
     const auto start = Clock::now();
     const Point& point = points_[taken.item.point];
     try {
-      const Realisation realisation = analyse_realisation(
+      const Realisation realisation = detail::realise(
           point.configuration, taken.item.seed, point.pressures, [&](const ProgressReport& sweep) {
             fractions_[taken.slot] = sweep.fraction;
             return loop_.going_on();

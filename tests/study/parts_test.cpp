@@ -229,7 +229,8 @@ TEST_CASE("Surfaces that another kind of processor computed are refused, and kep
   // is.
   setenv("SALEBRA_VECTOR_WIDTH", "baseline", 1);
   const std::string baseline = arithmetic();
-  parts.write(StudyParts::key(study, 2), analyse_realisation(study, 2, pressures));
+  parts.write(StudyParts::key(study, 2),
+              analyse_realisation(study_surface(study, 2), study, 2, pressures));
   unsetenv("SALEBRA_VECTOR_WIDTH");
   const auto resume = [&] {
     return run_ensembles(study, {.on_progress = {}, .on_realisation = {}, .parts = &parts});

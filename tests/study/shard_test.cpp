@@ -170,7 +170,8 @@ TEST_CASE("A merge finds damaged parts, and those of other settings and versions
   {
     const auto parts = StudyParts::of_shard(scratch.parts, {2, 3});
     const std::vector<double> pressures = study_loads(other).pressures;
-    parts->write(StudyParts::key(other, 1), analyse_realisation(other, 1, pressures));
+    parts->write(StudyParts::key(other, 1),
+                 analyse_realisation(study_surface(other, 1), other, 1, pressures));
     std::ofstream(scratch.parts / "000000000000002a.realisation", std::ios::binary)
         << detail::encode({{"0.0.9", "an abacus", "elsewhere", "1/2"}, Realisation()}, 42);
     std::ofstream(scratch.parts / "000000000000002b.realisation") << "of a form that nobody reads";

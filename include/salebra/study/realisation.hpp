@@ -425,15 +425,15 @@ struct StudyLoads {
 /// collective. Cost: that of reading it.
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks = {});
 
-/// Surface → statistics → contact models → exponential law → damping for one surface of the
-/// configuration, whose ensemble lists are empty. With a hardness the surface is first loaded to
-/// the largest pressure and by the oscillation about it, and all that follows is of the residual
-/// surface. progress: of this surface, "realisation"; a stop throws Interrupted.
+/// Statistics → contact models → exponential law → damping for one surface of the configuration,
+/// whose ensemble lists are empty: for study_surface() of that seed. With a hardness the surface is
+/// first loaded to the largest pressure and by the oscillation about it, and all that follows is of
+/// the residual surface. progress: of this surface, "realisation"; a stop throws Interrupted.
 /// Throws NotConverged where fewer than four contacts of a sweep converged, or the first loading
-/// did not. ranks: the processes over which the surface is spread. The first of them gets the
-/// realisation, with the bits of one process; the others what they know of it. Collective.
-Realisation analyse_realisation(const StudyConfiguration& configuration, std::uint64_t seed,
-                                const std::vector<double>& pressures, const Progress& progress = {},
-                                const Communicator& ranks = {});
+/// did not. Of a surface that is spread over processes the first one gets the realisation, with the
+/// bits of one process; the others what they know of it. Collective.
+Realisation analyse_realisation(Surface surface, const StudyConfiguration& configuration,
+                                std::uint64_t seed, const std::vector<double>& pressures,
+                                const Progress& progress = {});
 
 }  // namespace salebra

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The surfaces of a study, and the loads that press them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <salebra/base/error.hpp>
+#include <salebra/generators/filtered_noise.hpp>
+#include <salebra/generators/random_phase.hpp>
+#include <salebra/io/read_surface.hpp>
+#include <salebra/study/realisation.hpp>
+#include <string>
+#include <utility>
+
+#include "surface/plausibility.hpp"
+
+namespace salebra {
+namespace {
+
+Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
+                 const Communicator& ranks) {
+  const auto spectrum = recipe.spectrum_of(seed);
+  return recipe.method == GenerationMethod::random_phase
+             ? random_phase(recipe.grid, *spectrum, seed, progress, ranks)
+             : filtered_noise(recipe.grid, *spectrum, seed, progress, ranks);
+}
+
+}  // namespace
+
+Surface measured_surface(const MeasuredSurface& recipe, const Communicator& ranks,
+                         std::vector<std::string>* remarks) {
+  require_that(!recipe.file.empty(), "surface",
+               "none is given; name a file, or describe surfaces to generate");
+  ReadOptions options = recipe.reading();
+  options.remarks = remarks;
+  Surface surface = read_surface(recipe.file, options, ranks);
+  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
+  const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
+  return detrended(std::move(surface), trend);
+}
+
+Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
+                      const Progress& progress, const Communicator& ranks) {
+  if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
+    return generate(*recipe, seed, progress, ranks);
+  return measured_surface(std::get<MeasuredSurface>(configuration.surfaces), ranks);
+}
+
+namespace {
+
+/// Leaves out the loads that no surface of that hardness carries, where they are a default.
+void require_below_hardness(const StudyConfiguration& configuration, StudyLoads& loads) {
+  const double hardness = configuration.known.hardness;
+  std::vector<double>& pressures = loads.pressures;
+  const auto text = [](double pressure) {
+    return format_quantity(pressure, Dimension::pressure, 3);
+  };
+  const auto below =
+      std::ranges::count_if(pressures, [&](double pressure) { return !(pressure > hardness / 2); });
+  constexpr std::ptrdiff_t least = 4;  // make a curve
+  if (configuration.pressures_below_hardness && below < std::ssize(pressures) && below >= least) {
+    loads.doubts.push_back(fmt::format(
+        "loads end at {}, {} of the {} by default: at half of the hardness of {}",
+        text(pressures[std::size_t(below) - 1]), below, pressures.size(), text(hardness)));
+    pressures.resize(std::size_t(below));
+  }
+  require(!(pressures.back() > hardness), "hardness", text(hardness),
+          fmt::format(
+              "is below the largest of the loads, {}; end them below it{}", text(pressures.back()),
+              loads.contact_scale > 0 ? fmt::format(", which is {:.2g} of E* times the rms slope",
+                                                    hardness / loads.contact_scale)
+                                      : ""));
+}
+
+}  // namespace
+
+StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
+  StudyLoads loads{.pressures = configuration.pressures};
+  std::optional<std::string> doubt;
+  double slope = 0;
+  Grid2D grid;
+  if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
+    slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
+    doubt = doubt_of_slope(slope);
+    grid = recipe->grid;
+  } else {
+    const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
+    const Surface surface = measured_surface(measured, ranks, &loads.doubts);
+    slope = surface_moments(surface).rms_slope();
+    grid = surface.grid;
+  }
+  const double modulus = configuration.material.contact_modulus;
+  const bool adhesive = configuration.adhesion.has_value();
+  require(adhesive || std::ranges::none_of(configuration.models, is_adhesive), "models",
+          "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");
+  require(!adhesive || std::isnan(configuration.known.hardness), "hardness",
+          configuration.known.hardness, "is not known to adhesion; leave out one of them");
+  if (adhesive)
+    if (const auto coarse = doubt_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
+      loads.doubts.push_back(*coarse);
+  loads.contact_scale = modulus * slope;
+  if (configuration.relative_pressures)
+    for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
+  // Where the slope is doubted, relative pressures are too large with it.
+  if (!doubt && !(configuration.relative_pressures && slope > 1))
+    doubt = doubt_of_pressure(loads.pressures.back(), modulus);
+  if (doubt) loads.doubts.push_back(*doubt);
+  require_below_hardness(configuration, loads);
+  require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
+          "levels", 0,
+          "levels state no error; use 4 or more, or leave out `relative_error` and the error of "
+          "the seam");
+  if (const auto& window = configuration.window) {
+    const auto inside = std::ranges::count_if(
+        loads.pressures, [&](double pressure) { return window->contains(pressure); });
+    require(inside >= 3, "pressure_window", inside,
+            "pressures lie in it and a fit needs 3; widen it or compute more of them");
+  }
+  return loads;
+}
+
+}  // namespace salebra
