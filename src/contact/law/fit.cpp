@@ -57,6 +57,9 @@ std::vector<Point> points_in_window(const ForceCurve& curve,
 /// Sets the weights, and sorts by gap.
 void weigh(std::vector<Point>& points, FitWeights weights) {
   std::ranges::sort(points, {}, &Point::mean_gap);
+  require(points.front().mean_gap < points.back().mean_gap, "curve.mean_gap",
+          points.front().mean_gap,
+          "is the same in all samples of the window; compute samples at different loads");
   const std::size_t last = points.size() - 1;
   const double greatest = std::ranges::max(points, {}, &Point::pressure).pressure;
   double sum = 0;
@@ -77,8 +80,6 @@ void weigh(std::vector<Point>& points, FitWeights weights) {
     }
     sum += points[i].weight;
   }
-  require(sum > 0, "curve.mean_gap", points.front().mean_gap,
-          "is the same in all samples of the window; compute samples at different loads");
   for (Point& point : points) point.weight *= static_cast<double>(points.size()) / sum;
 }
 
@@ -108,9 +109,6 @@ struct Regression {
 Regression regress(const std::vector<Point>& points) {
   const double count = static_cast<double>(points.size());
   Regression fit;
-  const auto [closest, farthest] = std::ranges::minmax(points, {}, &Point::mean_gap);
-  require(closest.mean_gap < farthest.mean_gap, "curve.mean_gap", closest.mean_gap,
-          "is the same in all samples of the window; compute samples at different loads");
   for (const Point& point : points) {
     fit.mean_x += point.weight * point.mean_gap / count;
     fit.mean_y += point.weight * std::log(point.pressure) / count;
