@@ -281,7 +281,7 @@ friction_coefficient: μ.
           return simulated_joint_loss(
               boundary_element_pressures(Surface(surface.surface), material.contact_modulus,
                                          {.boundary = options.stick.boundary, .on_progress = told}),
-              surface.surface.grid, material, mean_indentation, motion, normal_amplitude, phase,
+              surface.surface.grid, material, mean_indentation, {motion, normal_amplitude, phase},
               options);
         });
       },

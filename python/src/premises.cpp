@@ -173,9 +173,10 @@ void bind_joint(nb::module_& m) {
             tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})
                              : TangentialOscillation(TangentialAmplitude{*tangential_amplitude});
         return unlocked([&] {
-          return normal_amplitude == 0 ? joint_loss(law, position, motion, friction_coefficient)
-                                       : joint_loss(law, position, motion, friction_coefficient,
-                                                    normal_amplitude, phase, steps);
+          return normal_amplitude == 0
+                     ? joint_loss(law, position, motion, friction_coefficient)
+                     : joint_loss(law, position, {motion, normal_amplitude, phase},
+                                  friction_coefficient, steps);
         });
       },
       nb::arg("law"), nb::kw_only(), nb::arg("friction_coefficient"),

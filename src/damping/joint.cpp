@@ -122,15 +122,15 @@ struct JointPath {
   std::vector<double> level = {}, target = {};  // indentation, and that
 };
 
-JointPath path_of(double mean, const TangentialOscillation& motion, double normal_amplitude,
-                  double phase, int steps) {
-  JointPath path{.lowest = mean - normal_amplitude, .highest = mean + normal_amplitude};
-  path.by_force = std::holds_alternative<TangentialForce>(motion);
-  std::visit([&](const auto& one) { path.amplitude = one.amplitude; }, motion);
+JointPath path_of(double mean, const JointMotion& motion, int steps) {
+  JointPath path{.lowest = mean - motion.normal_amplitude,
+                 .highest = mean + motion.normal_amplitude};
+  path.by_force = std::holds_alternative<TangentialForce>(motion.tangential);
+  std::visit([&](const auto& one) { path.amplitude = one.amplitude; }, motion.tangential);
   for (int i = 0; i <= steps; ++i) {
     const double angle = pi + 2 * pi * double(i % steps) / steps;
-    path.level.push_back(mean + normal_amplitude * std::cos(angle));
-    path.target.push_back(path.amplitude * std::cos(angle + phase));
+    path.level.push_back(mean + motion.normal_amplitude * std::cos(angle));
+    path.target.push_back(path.amplitude * std::cos(angle + motion.phase));
   }
   return path;
 }
@@ -343,21 +343,18 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   return losses;
 }
 
-JointLoss joint_loss(const ContactLaw& law, const Position& position,
-                     const TangentialOscillation& motion, double friction_coefficient,
-                     double normal_amplitude, double phase, int steps,
-                     const Progress& on_progress) {
-  check(motion, friction_coefficient);
-  require(std::isfinite(normal_amplitude) && normal_amplitude >= 0, "normal_amplitude",
-          normal_amplitude, "must be >= 0");
-  require(std::isfinite(phase), "phase", phase, "must be finite");
+JointLoss joint_loss(const ContactLaw& law, const Position& position, const JointMotion& motion,
+                     double friction_coefficient, int steps, const Progress& on_progress) {
+  check(motion.tangential, friction_coefficient);
+  require(std::isfinite(motion.normal_amplitude) && motion.normal_amplitude >= 0,
+          "normal_amplitude", motion.normal_amplitude, "must be >= 0");
+  require(std::isfinite(motion.phase), "phase", motion.phase, "must be finite");
   require(steps >= 16, "steps", steps, "must be >= 16");
   const double mean = indentation_of(law, position);
   const auto at = [&](double factor) {
-    TangentialOscillation scaled = motion;
-    std::visit([&](auto& one) { one.amplitude *= factor; }, scaled);
-    return follow(law, path_of(mean, scaled, normal_amplitude, phase, steps), friction_coefficient,
-                  on_progress);
+    JointMotion scaled = motion;
+    std::visit([&](auto& one) { one.amplitude *= factor; }, scaled.tangential);
+    return follow(law, path_of(mean, scaled, steps), friction_coefficient, on_progress);
   };
   const Followed one = at(1), less = at(0.99);
   JointLoss loss;
@@ -376,17 +373,17 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 
 JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
                                const Material& material, double indentation,
-                               const TangentialOscillation& motion, double normal_amplitude,
-                               double phase, const CycleOptions& options) {
-  check(motion, options.friction_coefficient);
+                               const JointMotion& motion, const CycleOptions& options) {
+  check(motion.tangential, options.friction_coefficient);
   require(std::isfinite(options.friction_coefficient), "friction_coefficient",
           options.friction_coefficient, "must be finite");
-  const auto* by_force = std::get_if<TangentialForce>(&motion);
+  const bool by_force = std::holds_alternative<TangentialForce>(motion.tangential);
   const double amplitude =
-      by_force ? by_force->amplitude : std::get<TangentialAmplitude>(motion).amplitude;
+      std::visit([](const auto& one) { return one.amplitude; }, motion.tangential);
   // A constant normal force has no phase, and the steps then meet the turning points of the motion.
-  Trajectory path = trajectory_of(
-      EqualFrequency{normal_amplitude, amplitude, normal_amplitude > 0 ? phase : 0}, indentation);
+  Trajectory path = trajectory_of(EqualFrequency{motion.normal_amplitude, amplitude,
+                                                 motion.normal_amplitude > 0 ? motion.phase : 0},
+                                  indentation);
   if (by_force) std::swap(path.tangential, path.tangential_force);
   const CycleResult cycle = simulate_frictional_cycle(levels, grid, material, path, options);
 

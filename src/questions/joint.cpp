@@ -26,8 +26,9 @@ std::vector<JointLoss> simulate(const JointQuestion& question, const Surface& su
   options.on_progress = context.on_progress;
   std::vector<JointLoss> losses;
   for (const TangentialOscillation& motion : question.motions) {
-    losses.push_back(simulated_joint_loss(levels, surface.grid, material, indentation, motion,
-                                          question.normal_amplitude, question.phase, options));
+    losses.push_back(simulated_joint_loss(levels, surface.grid, material, indentation,
+                                          {motion, question.normal_amplitude, question.phase},
+                                          options));
     if (context.stopped && context.stopped())
       throw Interrupted("joint: stopped before all motions were done");
   }
@@ -46,8 +47,9 @@ std::vector<JointLoss> losses_of_law(const JointQuestion& question, const Contac
   };
   for (const TangentialOscillation& motion : question.motions)
     losses.push_back(question.normal_amplitude != 0
-                         ? joint_loss(law, position, motion, friction, question.normal_amplitude,
-                                      question.phase, question.steps, of_all)
+                         ? joint_loss(law, position,
+                                      {motion, question.normal_amplitude, question.phase}, friction,
+                                      question.steps, of_all)
                          : joint_loss(law, position, motion, friction));
   return losses;
 }

@@ -121,11 +121,11 @@ TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[fr
   const double force = levels(indentation).force, phase = 1.1;
   const TangentialForce motion{part * friction * force};
   const JointLoss simulated =
-      simulated_joint_loss(levels, grid, material, indentation, motion, normal_amplitude, phase,
+      simulated_joint_loss(levels, grid, material, indentation, {motion, normal_amplitude, phase},
                            free_boundary(friction, 32));
   const JointLoss springs =
       normal_amplitude > 0
-          ? joint_loss(law, AtForce{force}, motion, friction, normal_amplitude, phase, 400)
+          ? joint_loss(law, AtForce{force}, {motion, normal_amplitude, phase}, friction, 400)
           : joint_loss(law, AtForce{force}, motion, friction);
   REQUIRE(simulated.converged);
   CHECK(simulated.tangential_force == motion.amplitude);
@@ -138,9 +138,9 @@ TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[fr
   CHECK(simulated.relaxation_work == 0);
   // By the displacement that it answered with, it is the same loop, now over a harmonic
   // displacement.
-  const JointLoss again = simulated_joint_loss(levels, grid, material, indentation,
-                                               TangentialAmplitude{simulated.tangential_amplitude},
-                                               0, phase, free_boundary(friction, 32));
+  const JointLoss again = simulated_joint_loss(
+      levels, grid, material, indentation,
+      {TangentialAmplitude{simulated.tangential_amplitude}, 0, phase}, free_boundary(friction, 32));
   CHECK(again.tangential_force == Approx(simulated.tangential_force).epsilon(2e-3));
   CHECK(again.work_per_cycle == Approx(simulated.work_per_cycle).epsilon(5e-3));
   CHECK(again.storage_stiffness == Approx(springs.storage_stiffness).epsilon(5e-3));
@@ -155,7 +155,7 @@ TEST_CASE("A rough surface under a tangential force obeys Masing's rule on its o
   const PressureLevels levels = boundary_element_pressures(rough_surface(grid), contact_modulus);
   const double indentation = 63e-9, friction = 0.4, force = levels(indentation).force;
   const TangentialForce motion{0.6 * friction * force};
-  const JointLoss loss = simulated_joint_loss(levels, grid, material, indentation, motion, 0, 0,
+  const JointLoss loss = simulated_joint_loss(levels, grid, material, indentation, {motion},
                                               {.friction_coefficient = friction, .steps = 32});
   REQUIRE(loss.converged);
   const auto first_loading = [&](double x) {

@@ -105,8 +105,8 @@ TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[jo
   const JointLoss loss =
       joint_loss(cone, AtIndentation{1e-6}, TangentialAmplitude{amplitude}, friction);
   // Sums over the steps of a smooth half loop have no error of any power of the step.
-  const JointLoss followed =
-      joint_loss(cone, AtIndentation{1e-6}, TangentialAmplitude{amplitude}, friction, 0, 0, 200);
+  const JointLoss followed = joint_loss(cone, AtIndentation{1e-6},
+                                        JointMotion{TangentialAmplitude{amplitude}}, friction, 200);
   CHECK(followed.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-9));
   CHECK(followed.tangential_force == Approx(loss.tangential_force).epsilon(1e-9));
   CHECK(followed.slip_work == Approx(loss.slip_work).epsilon(1e-9));
@@ -137,7 +137,7 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   const ExponentialLaw law(2, 2e-7, ratio);
   const double u_z = 5e-8, u_x = 2e-8;
   const auto at = [&](double friction, double phase) {
-    return joint_loss(law, AtForce{2}, TangentialAmplitude{u_x}, friction, u_z, phase, 2000);
+    return joint_loss(law, AtForce{2}, {TangentialAmplitude{u_x}, u_z, phase}, friction);
   };
   // In phase nothing slips above μ = g u_x/u_z; out of phase and without slip the loss is
   // relaxation damping's, to the steps' second order.
@@ -153,9 +153,9 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   // Both ways of control have one loop where the other's is harmonic: at small amplitude.
   const double small = 1e-11;
   const JointLoss moved =
-      joint_loss(law, AtForce{2}, TangentialAmplitude{small}, 0.3, u_z, pi / 2, 1000);
+      joint_loss(law, AtForce{2}, {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
   const JointLoss again =
-      joint_loss(law, AtForce{2}, TangentialAmplitude{small}, 0.3, u_z, pi / 2, 1000);
+      joint_loss(law, AtForce{2}, {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
   CHECK(moved.work_per_cycle == again.work_per_cycle);
 }
 
@@ -165,18 +165,19 @@ TEST_CASE("A joint under a tangential force is the one under the displacement it
   const double friction = 0.3;
   // Without a normal oscillation both are known in closed form.
   const JointLoss exact = joint_loss(law, AtForce{2}, TangentialForce{0.3}, friction);
-  const JointLoss followed = joint_loss(law, AtForce{2}, TangentialForce{0.3}, friction, 0, 0, 400);
+  const JointLoss followed =
+      joint_loss(law, AtForce{2}, JointMotion{TangentialForce{0.3}}, friction, 400);
   CHECK(followed.work_per_cycle == Approx(exact.work_per_cycle).epsilon(1e-8));
   CHECK(followed.tangential_amplitude == Approx(exact.tangential_amplitude).epsilon(1e-8));
   // With one the force is met at every step, and the balance of energy closes: W = ∮T dx.
   const JointLoss both =
-      joint_loss(law, AtForce{2}, TangentialForce{0.2}, friction, 3e-8, pi / 3, 400);
+      joint_loss(law, AtForce{2}, {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 400);
   CHECK(both.tangential_force == Approx(0.2).epsilon(1e-12));
   const JointLoss finer =
-      joint_loss(law, AtForce{2}, TangentialForce{0.2}, friction, 3e-8, pi / 3, 1600);
+      joint_loss(law, AtForce{2}, {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 1600);
   CHECK(finer.work_per_cycle == Approx(both.work_per_cycle).epsilon(1e-2));
   CHECK_THROWS_WITH(
-      joint_loss(law, AtForce{2}, TangentialForce{0.55}, friction, 1e-7, pi, 400),
+      joint_loss(law, AtForce{2}, {TangentialForce{0.55}, 1e-7, pi}, friction, 400),
       Catch::Contains("at which the contact slides in the course of the normal oscillation"));
 }
 
@@ -188,5 +189,5 @@ TEST_CASE("Joints that cannot be are refused", "[joint]") {
   CHECK_THROWS_WITH(at(TangentialAmplitude{0}, 0.3), Catch::Contains("tangential_amplitude"));
   CHECK_THROWS_WITH(at(TangentialForce{-1}, 0.3), Catch::Contains("tangential_force"));
   CHECK_THROWS_WITH(at(TangentialForce{0.1}, 0), Catch::Contains("friction_coefficient"));
-  CHECK_THROWS_AS(joint_loss(law, AtForce{2}, TangentialForce{0.1}, 0.3, -1e-9, 0), InvalidInput);
+  CHECK_THROWS_AS(joint_loss(law, AtForce{2}, {TangentialForce{0.1}, -1e-9, 0}, 0.3), InvalidInput);
 }

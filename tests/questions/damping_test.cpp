@@ -99,7 +99,7 @@ TEST_CASE("A joint is that of its law, and what a surface alone has is refused o
   question.phase = pi / 2;
   const JointAnswer shaken = ask(question);
   CHECK(shaken.losses.at(0).work_per_cycle ==
-        joint_loss(law, AtForce{1}, question.motions[0], 0.3, 2e-8, pi / 2).work_per_cycle);
+        joint_loss(law, AtForce{1}, {question.motions[0], 2e-8, pi / 2}, 0.3).work_per_cycle);
   CHECK(shaken.simulated.empty());
 
   question.direct_steps = 16;

@@ -55,6 +55,14 @@ struct TangentialForce {
 };
 using TangentialOscillation = std::variant<TangentialAmplitude, TangentialForce>;
 
+/// The tangential oscillation beside a normal one, δ + u_z cosωt: the displacement is x cos(ωt + φ0),
+/// or the force T cos(ωt + φ0).
+struct JointMotion {
+  TangentialOscillation tangential;
+  double normal_amplitude = 0;  ///< u_z >= 0, m
+  double phase = 0;             ///< φ0, rad
+};
+
 /// Partial slip under a constant normal force, by superposition of the springs of the law. With K_t
 /// of the law, g = G*/E*, the greatest depth of slip c = gx/μ and δ(θ) = δ − c(1 − cosθ)/2,
 ///     T = (x/2) ∫_0^π K_t(δ(θ)) sinθ dθ  ( = μ[F(δ) − F(δ − c)] with K_t = gK ),
@@ -87,18 +95,16 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
                                           double friction_coefficient,
                                           const Progress& on_progress = {});
 
-/// Adds a normal oscillation δ + u_z cosωt while the displacement is x cos(ωt + φ0), or the force T
-/// cos(ωt + φ0). Followed step by step to the steady state: exact for straight steps, of second
-/// order in their length. The exponent is that of ±1 % of the motion.
+/// The same beside a normal oscillation, about δ. Followed step by step to the steady state: exact
+/// for straight steps, of second order in their length. The exponent is that of ±1 % of the motion.
 /// steps    in a period, >= 16
 /// throws   NotConverged where a force leads to no steady state within 200 periods; InvalidInput
 ///          also where the normal force falls to what slides
 /// on_progress  a stop throws Interrupted
 /// cost     two periods of a displacement, O(steps); of a force some tens of evaluations of the
 ///          state for each step, and periods until the loss is steady to 1e-9
-JointLoss joint_loss(const ContactLaw& law, const Position& position,
-                     const TangentialOscillation& motion, double friction_coefficient,
-                     double normal_amplitude, double phase, int steps = 2000,
+JointLoss joint_loss(const ContactLaw& law, const Position& position, const JointMotion& motion,
+                     double friction_coefficient, int steps = 2000,
                      const Progress& on_progress = {});
 
 /// Simulates the joint in three dimensions: cells with Coulomb's friction, through the motion until
@@ -109,7 +115,6 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 /// throws     InvalidInput as above
 JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
                                const Material& material, double indentation,
-                               const TangentialOscillation& motion, double normal_amplitude,
-                               double phase, const CycleOptions& options);
+                               const JointMotion& motion, const CycleOptions& options);
 
 }  // namespace salebra
