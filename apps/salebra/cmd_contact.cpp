@@ -157,6 +157,72 @@ void run(const ContactArguments& arguments, Session& session) {
   return positions > 1 ? press_often(arguments, session) : press_once(arguments, session);
 }
 
+void add_boundary_elements(Command& command, ContactArguments& arguments) {
+  command.under(boundary_elements);
+  command.add_flag("--stiffness", arguments.stiffness,
+                   "also K by a linear solve on the contact set, and K_t = (G*/E*)K where G* is "
+                   "known; null in full contact of a periodic surface, where both are infinite");
+  command.add_flag("--stick", arguments.stick,
+                   "with --stiffness: K_t by a stick solve on each contact");
+  command.add_flag("--flow-factors", arguments.flow_factors,
+                   "also how a fluid passes the gap: whether the gap percolates, its pressure flow "
+                   "factors, and the effective gap; null where nothing flows");
+  add_choice<Boundary>(command, "--boundary", arguments.boundary, "default periodic");
+  add_quantity(command, "--hardness", arguments.hardness, Dimension::pressure,
+               "of the softer body: cells saturate there and sink in. One position ends the first "
+               "loading; of several, the largest is first loaded to, and the curve is that of "
+               "unloading; default none");
+  add_quantity(command, "--tolerance", arguments.tolerance, Dimension::dimensionless,
+               "of the complementarity residual; default 1e-10. With adhesion of the tension; "
+               "default 1e-5");
+  command.add_option("--max-iterations", arguments.max_iterations,
+                     fmt::format("on the finest grid; default {}", arguments.max_iterations));
+  add_choice<Precision>(command, "--precision", arguments.precision,
+                        "of the iterations; residuals are in double always; default mixed");
+}
+
+void add_adhesion(Command& command, ContactArguments& arguments) {
+  command.under(adhesion);
+  add_quantity(command, "--work-of-adhesion", arguments.work_of_adhesion,
+               Dimension::energy_per_area,
+               "w, the energy per area that parts the surfaces. One pressure or force may pull; of "
+               "several positions each contact follows from the one before");
+  add_quantity(command, "--adhesion-range", arguments.adhesion_range, Dimension::length,
+               "of the tension between surfaces with a gap");
+  add_choice<AdhesionPotential>(command, "--adhesion", arguments.potential,
+                                "tension over the gap; default exponential");
+  command.add_flag("--cycle", arguments.cycle,
+                   "of several positions: in and out again, with the pull-off and, at mean gaps or "
+                   "indentations, the work that a cycle loses");
+  command.add_flag("--force-coarse", arguments.force_coarse,
+                   "compute where cells, not surfaces, decide what sticks");
+}
+
+void add_one_position(Command& command, ContactArguments& arguments) {
+  command.under(once);
+  command
+      .add_option("--residual", arguments.residual,
+                  "with --hardness: write the surface that unloading leaves, whose later contacts "
+                  "up to this load are elastic; read it back with --detrend none")
+      ->file(FileUse::output);
+  command
+      .add_option("--initial", arguments.initial,
+                  "result of this command to start from, of the same grid; saves iterations and "
+                  "changes no result")
+      ->file(FileUse::input);
+  arguments.checkpoint.add_to(command);
+  command
+      .add_option("--distributions", arguments.distributions,
+                  "densities of contact pressure and of gap in so many bins of equal width; 100 "
+                  "without a number")
+      ->value_without("100")
+      ->range(1, 100000);
+  add_choice(command, "--fields", arguments.fields, {"none", "pressure", "all"},
+             "of the output: none leaves its numbers; default all");
+  add_choice(command, "--field-type", arguments.field_type, {"double", "float"},
+             "of the fields of the output; default double");
+}
+
 }  // namespace
 
 void add_contact_command(Program& program) {
@@ -183,66 +249,9 @@ void add_contact_command(Program& program) {
   arguments->material.add_to(command);
   add_conduction(command, arguments->conduction);
 
-  command.under(boundary_elements);
-  command.add_flag("--stiffness", arguments->stiffness,
-                   "also K by a linear solve on the contact set, and K_t = (G*/E*)K where G* is "
-                   "known; null in full contact of a periodic surface, where both are infinite");
-  command.add_flag("--stick", arguments->stick,
-                   "with --stiffness: K_t by a stick solve on each contact");
-  command.add_flag("--flow-factors", arguments->flow_factors,
-                   "also how a fluid passes the gap: whether the gap percolates, its pressure flow "
-                   "factors, and the effective gap; null where nothing flows");
-  add_choice<Boundary>(command, "--boundary", arguments->boundary, "default periodic");
-  add_quantity(command, "--hardness", arguments->hardness, Dimension::pressure,
-               "of the softer body: cells saturate there and sink in. One position ends the first "
-               "loading; of several, the largest is first loaded to, and the curve is that of "
-               "unloading; default none");
-  add_quantity(command, "--tolerance", arguments->tolerance, Dimension::dimensionless,
-               "of the complementarity residual; default 1e-10. With adhesion of the tension; "
-               "default 1e-5");
-  command.add_option("--max-iterations", arguments->max_iterations,
-                     fmt::format("on the finest grid; default {}", arguments->max_iterations));
-  add_choice<Precision>(command, "--precision", arguments->precision,
-                        "of the iterations; residuals are in double always; default mixed");
-
-  command.under(adhesion);
-  add_quantity(command, "--work-of-adhesion", arguments->work_of_adhesion,
-               Dimension::energy_per_area,
-               "w, the energy per area that parts the surfaces. One pressure or force may pull; of "
-               "several positions each contact follows from the one before");
-  add_quantity(command, "--adhesion-range", arguments->adhesion_range, Dimension::length,
-               "of the tension between surfaces with a gap");
-  add_choice<AdhesionPotential>(command, "--adhesion", arguments->potential,
-                                "tension over the gap; default exponential");
-  command.add_flag("--cycle", arguments->cycle,
-                   "of several positions: in and out again, with the pull-off and, at mean gaps or "
-                   "indentations, the work that a cycle loses");
-  command.add_flag("--force-coarse", arguments->force_coarse,
-                   "compute where cells, not surfaces, decide what sticks");
-
-  command.under(once);
-  command
-      .add_option("--residual", arguments->residual,
-                  "with --hardness: write the surface that unloading leaves, whose later contacts "
-                  "up to this load are elastic; read it back with --detrend none")
-      ->file(FileUse::output);
-  command
-      .add_option("--initial", arguments->initial,
-                  "result of this command to start from, of the same grid; saves iterations and "
-                  "changes no result")
-      ->file(FileUse::input);
-  arguments->checkpoint.add_to(command);
-  command
-      .add_option("--distributions", arguments->distributions,
-                  "densities of contact pressure and of gap in so many bins of equal width; 100 "
-                  "without a number")
-      ->value_without("100")
-      ->range(1, 100000);
-  add_choice(command, "--fields", arguments->fields, {"none", "pressure", "all"},
-             "of the output: none leaves its numbers; default all");
-  add_choice(command, "--field-type", arguments->field_type, {"double", "float"},
-             "of the fields of the output; default double");
-
+  add_boundary_elements(command, *arguments);
+  add_adhesion(command, *arguments);
+  add_one_position(command, *arguments);
   command.under(often);
   add_groups(command, arguments->groups,
              "holds the surface and presses some of the loads; default: with --recipe as many as "

@@ -293,6 +293,22 @@ void run(const GenerateArguments& arguments, Session& session) {
   session.answer(whole);
 }
 
+void add_heights(Command& command, GenerateArguments& arguments) {
+  command.under("Heights that are not Gaussian");
+  add_quantity(command, "--skewness", arguments.skewness, Dimension::dimensionless,
+               "of Johnson's distribution; default 0");
+  add_quantity(command, "--kurtosis", arguments.kurtosis, Dimension::dimensionless,
+               "the same; 3 for a Gaussian");
+  add_quantity(command, "--weibull", arguments.weibull, Dimension::dimensionless,
+               "shape of Weibull's distribution");
+  command
+      .add_option("--heights-from", arguments.heights_from,
+                  "the distribution of heights of this surface, less its trend")
+      ->file(FileUse::input);
+  add_choice<Exact>(command, "--exact", arguments.exact,
+                    "which of the two holds exactly; default heights");
+}
+
 }  // namespace
 
 void add_generate_command(Program& program) {
@@ -327,20 +343,7 @@ void add_generate_command(Program& program) {
   add_quantity(command, "--fourier-unit", arguments->fourier_unit, Dimension::length,
                "of the coefficients, such as 0.1mm; default 1 m");
 
-  command.under("Heights that are not Gaussian");
-  add_quantity(command, "--skewness", arguments->skewness, Dimension::dimensionless,
-               "of Johnson's distribution; default 0");
-  add_quantity(command, "--kurtosis", arguments->kurtosis, Dimension::dimensionless,
-               "the same; 3 for a Gaussian");
-  add_quantity(command, "--weibull", arguments->weibull, Dimension::dimensionless,
-               "shape of Weibull's distribution");
-  command
-      .add_option("--heights-from", arguments->heights_from,
-                  "the distribution of heights of this surface, less its trend")
-      ->file(FileUse::input);
-  add_choice<Exact>(command, "--exact", arguments->exact,
-                    "which of the two holds exactly; default heights");
-
+  add_heights(command, *arguments);
   arguments->shape.add_to(command);
 
   command.under("Post-processing");

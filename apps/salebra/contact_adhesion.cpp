@@ -25,13 +25,14 @@ struct Branch {
   ForceCurve curve;
   std::vector<AdhesionOfState> adhesion;
   std::vector<FlowFactors> flow;
+  std::vector<CurveColumn> beside;  ///< the curve, of json()
 
   void add(const Branch& other, std::size_t place) {
     curve.samples.push_back(other.curve.samples[place]);
     adhesion.push_back(other.adhesion[place]);
     if (!other.flow.empty()) flow.push_back(other.flow[place]);
   }
-  Json json(const ContactArguments& arguments, std::vector<CurveColumn>& beside) const {
+  Json json(const ContactArguments& arguments) {
     Json columns = to_json(curve);
     columns.add(json_of(adhesion));
     beside = columns_beside(adhesion);
@@ -53,13 +54,26 @@ std::vector<Target> targets_of(const ContactArguments& arguments) {
   return targets;
 }
 
-void write_cycle(const Branch& loading, const std::vector<CurveColumn>& beside,
-                 const Branch& unloading, const std::vector<CurveColumn>& beside_unloading,
-                 const AdhesiveCycle& cycle, const Session& session) {
+void require_converged(const AdhesiveCycle& cycle) {
+  if (cycle.converged()) return;
+  const auto& last = (cycle.unloading.empty() ? cycle.loading : cycle.unloading).back();
+  throw NotConverged(
+      fmt::format("contact: residual of the tension {:.3g} at {} after {} contacts {}",
+                  last.adhesion_residual, format_quantity(last.mean_pressure, Dimension::pressure),
+                  last.outer_iterations, in_options(message(last.termination))));
+}
+
+/// In the first process.
+void write(const Branch& loading, const Branch& unloading, const AdhesiveCycle& cycle,
+           const Session& session) {
+  if (!session.has_output() || !session.ranks().is_root()) return;
+  if (cycle.unloading.empty())
+    return write_force_curve(session.output(), loading.curve, session.provenance(),
+                             session.write_options(), loading.beside);
   ResultFile file(session.output(), session.provenance(), session.write_options());
   ResultGroup in = file.group("curve"), out = file.group("unloading");
-  write_force_curve(in, loading.curve, beside);
-  write_force_curve(out, unloading.curve, beside_unloading);
+  write_force_curve(in, loading.curve, loading.beside);
+  write_force_curve(out, unloading.curve, unloading.beside);
   for (const auto& [quantity, values] : columns_beside(std::vector{cycle}))
     out.attribute(std::string(quantity.name), values.front());
   file.commit();
@@ -113,18 +127,10 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
       adhesive_cycle(surface, material.contact_modulus, targets_of(arguments), adhesion, options);
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
   session.doubt(doubt_of_process_zone(adhesion, surface.grid, material.contact_modulus));
-  if (!cycle.converged()) {
-    const auto& last = (cycle.unloading.empty() ? cycle.loading : cycle.unloading).back();
-    throw NotConverged(fmt::format(
-        "contact: residual of the tension {:.3g} at {} after {} contacts "
-        "{}",
-        last.adhesion_residual, format_quantity(last.mean_pressure, Dimension::pressure),
-        last.outer_iterations, in_options(message(last.termination))));
-  }
-  std::vector<CurveColumn> beside, beside_unloading;
-  Json answer{{"curve", loading.json(arguments, beside)}};
+  require_converged(cycle);
+  Json answer{{"curve", loading.json(arguments)}};
   if (arguments.cycle) {
-    answer["unloading"] = unloading.json(arguments, beside_unloading);
+    answer["unloading"] = unloading.json(arguments);
     answer.add(json_of(cycle));
     if (std::isnan(cycle.adhesion_work_per_cycle) && arguments.pressures_on(area).empty())
       session.warn(
@@ -132,14 +138,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
           "begin farther out");
   }
   answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));
-  collectively(session.ranks(), [&] {
-    if (!session.has_output() || !session.ranks().is_root()) return;
-    if (arguments.cycle)
-      write_cycle(loading, beside, unloading, beside_unloading, cycle, session);
-    else
-      write_force_curve(session.output(), loading.curve, session.provenance(),
-                        session.write_options(), beside);
-  });
+  collectively(session.ranks(), [&] { write(loading, unloading, cycle, session); });
   if (session.has_plot())
     session.plot(arguments.cycle ? cycle_figure(loading.curve, unloading.curve)
                                  : curve_figure(loading.curve));

@@ -10,12 +10,14 @@
 #include "surface/dense_systems.hpp"
 
 namespace salebra::detail {
-namespace {
 
 using Eigen::ArrayXd;
 using Eigen::ArrayXXd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+namespace {
+
 using std::numbers::pi;
 
 // Variance of the number of lattice points inside a smooth curve at a random place, for each unit
@@ -31,41 +33,6 @@ std::pair<Index, double> interval_of(const VectorXd& places, double indentation)
   const Index i = std::clamp<Index>(after - places.begin() - 1, 0, places.size() - 2);
   const double share = (indentation - places(i)) / (places(i + 1) - places(i));
   return {i, std::clamp(share, 0.0, 1.0)};
-}
-
-/// What the samples say of K at the places, all in the units of K: F differs by the mean of K.
-struct Said {
-  MatrixXd operators;
-  VectorXd values;
-  VectorXd entered;  // cells that touch, at the places
-};
-
-Said said_by(const std::vector<StiffnessSample>& samples, const VectorXd& places, double half) {
-  const auto count = static_cast<Index>(samples.size());
-  const Index size = places.size(), data = 2 * count - 1;
-  Said said{MatrixXd::Zero(data, size), VectorXd(data), VectorXd(size)};
-  Index at = 0;
-  for (Index k = 0; k < count; ++k) {
-    const StiffnessSample& sample = samples[static_cast<std::size_t>(k)];
-    const Index begin = at;
-    while (at + 1 < size && std::abs(places(at + 1) - sample.indentation) <=
-                                std::abs(places(at) - sample.indentation))
-      ++at;
-    said.operators(count - 1 + k, at) = 1;
-    said.values(count - 1 + k) = sample.stiffness;
-    said.entered(at) = sample.cells;
-    if (k == 0) continue;
-    const StiffnessSample& above = samples[static_cast<std::size_t>(k - 1)];
-    for (Index i = begin; i < at; ++i) {
-      const double width = (places(i) - places(i + 1)) / half;
-      said.operators(k - 1, i) += width / 2;
-      said.operators(k - 1, i + 1) += width / 2;
-      const double share = (places(begin) - places(i + 1)) / (places(begin) - places(at));
-      said.entered(i + 1) = above.cells + share * (sample.cells - above.cells);
-    }
-    said.values(k - 1) = (above.force - sample.force) / half;
-  }
-  return said;
 }
 
 }  // namespace
@@ -93,12 +60,53 @@ std::pair<Index, Index> VarianceScales::best() const {
 
 KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, VectorXd places)
     : places_(std::move(places)) {
-  const StiffnessSample &high = samples.front(), &low = samples.back(),
-                        &middle = samples[samples.size() / 2];
+  const StiffnessSample &high = samples.front(), &low = samples.back();
   half_ = (high.indentation - low.indentation) / 2;
   const VectorXd x = (places_.array() - (high.indentation + low.indentation) / 2) / half_;
-  const Index size = places_.size(), data = 2 * static_cast<Index>(samples.size()) - 1;
-  const Said said = said_by(samples, places_, half_);
+  const Said said = said_by(samples);
+  set_covariances(samples, x, said);
+  values_ = said.values / bend_;
+  trend_ = MatrixXd(places_.size(), trend_terms);
+  for (Index power = 0; power < trend_terms; ++power)
+    trend_.col(power) = x.array().pow(static_cast<double>(power));
+  find_contrasts(said.operators * trend_);
+  find_scales();
+  predict(samples[samples.size() / 2]);
+}
+
+KrigedStiffness::Said KrigedStiffness::said_by(const std::vector<StiffnessSample>& samples) const {
+  const auto count = static_cast<Index>(samples.size());
+  const Index size = places_.size(), data = 2 * count - 1;
+  Said said{MatrixXd::Zero(data, size), VectorXd(data), VectorXd(size)};
+  Index at = 0;
+  for (Index k = 0; k < count; ++k) {
+    const StiffnessSample& sample = samples[static_cast<std::size_t>(k)];
+    const Index begin = at;
+    while (at + 1 < size && std::abs(places_(at + 1) - sample.indentation) <=
+                                std::abs(places_(at) - sample.indentation))
+      ++at;
+    said.operators(count - 1 + k, at) = 1;
+    said.values(count - 1 + k) = sample.stiffness;
+    said.entered(at) = sample.cells;
+    if (k == 0) continue;
+    const StiffnessSample& above = samples[static_cast<std::size_t>(k - 1)];
+    for (Index i = begin; i < at; ++i) {
+      const double width = (places_(i) - places_(i + 1)) / half_;
+      said.operators(k - 1, i) += width / 2;
+      said.operators(k - 1, i + 1) += width / 2;
+      const double share = (places_(begin) - places_(i + 1)) / (places_(begin) - places_(at));
+      said.entered(i + 1) = above.cells + share * (sample.cells - above.cells);
+    }
+    said.values(k - 1) = (above.force - sample.force) / half_;
+  }
+  return said;
+}
+
+void KrigedStiffness::set_covariances(const std::vector<StiffnessSample>& samples,
+                                      const VectorXd& x, const Said& said) {
+  const StiffnessSample &high = samples.front(), &low = samples.back(),
+                        &middle = samples[samples.size() / 2];
+  const Index size = x.size();
   double perimeter = 0, together = 0;
   for (const StiffnessSample& sample : samples) {
     perimeter += sample.perimeter / static_cast<double>(samples.size());
@@ -112,7 +120,6 @@ KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, Ve
   const double entering = std::max(0.0, high.cells - low.cells) / 2;
   const double group = together / 2, groups = entering / group;
   bend_ = (groups * std::abs(rise) + law) / (groups + 1);
-  values_ = said.values / bend_;
   const double step = (std::abs(rise) + law * group / of_law) / (entering + group) / bend_;
   const double variance = lattice_variance * std::max(perimeter, 1.0);
   const double of_spots = 1 / (2 * pi * std::max(middle.spots, 1.0));
@@ -129,16 +136,14 @@ KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, Ve
   spots_to_samples_ = said.operators * spots_;
   of_spots_ = spots_to_samples_ * said.operators.transpose();
   of_cells_ = said.operators * cells * said.operators.transpose();
+}
 
-  trend_ = MatrixXd(size, trend_terms);
-  for (Index power = 0; power < trend_terms; ++power)
-    trend_.col(power) = x.array().pow(static_cast<double>(power));
-  const MatrixXd trend = said.operators * trend_;
+void KrigedStiffness::find_contrasts(const MatrixXd& trend) {
   fit_ = pseudo_inverse(trend);
   // `free` are combinations of the samples that no parabola changes, and `contrasts_` those among
   // them that diagonalise both covariances.
   const MatrixXd free =
-      symmetric_modes(trend * trend.transpose()).vectors.leftCols(data - trend_terms);
+      symmetric_modes(trend * trend.transpose()).vectors.leftCols(trend.rows() - trend_terms);
   const Modes noise = symmetric_modes(free.transpose() * of_cells_ * free);
   const double least = 1e-12 * noise.values.maxCoeff();
   const MatrixXd whitened =
@@ -147,7 +152,9 @@ KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, Ve
   contrasts_ = whitened * both.vectors;
   ratios_ = both.values.array().max(0.0);
   found_ = contrasts_.transpose() * values_;
+}
 
+void KrigedStiffness::find_scales() {
   const ArrayXd rows = VarianceScales::of_spots(), columns = VarianceScales::of_cells();
   log_likelihood_ = ArrayXXd::NullaryExpr(rows.size(), columns.size(), [&](Index i, Index k) {
     const ArrayXd expected = columns(k) + rows(i) * ratios_.array();
@@ -157,15 +164,17 @@ KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, Ve
   own.add(log_likelihood_);
   const auto [row, column] = own.best();
   best_of_spots_ = rows(row), best_of_cells_ = columns(column);
+}
 
+void KrigedStiffness::predict(const StiffnessSample& middle) {
   const MatrixXd parabola = trend_ * fit_;
   const VectorXd expected = best_of_cells_ + best_of_spots_ * ratios_.array();
   const VectorXd beyond = contrasts_ * found_.cwiseQuotient(expected);
   stiffness_ = bend_ * (parabola * (values_ - best_of_spots_ * (of_spots_ * beyond) -
                                     best_of_cells_ * (of_cells_ * beyond)) +
                         best_of_spots_ * (spots_to_samples_.transpose() * beyond));
-  force_ = VectorXd::Zero(size);
-  for (Index i = 0; i + 1 < size; ++i)
+  force_ = VectorXd::Zero(places_.size());
+  for (Index i = 0; i + 1 < places_.size(); ++i)
     force_(i + 1) =
         force_(i) - (stiffness_(i) + stiffness_(i + 1)) / 2 * (places_(i) - places_(i + 1));
   force_.array() += middle.force - force(middle.indentation);

@@ -77,6 +77,20 @@ class KrigedStiffness {
   double change_by_force(const Eigen::VectorXd& weights) const;
 
  private:
+  /// What the samples say of K at the places, all in the units of K: F differs by the mean of K.
+  struct Said {
+    Eigen::MatrixXd operators;
+    Eigen::VectorXd values;
+    Eigen::VectorXd entered;  // cells that touch, at the places
+  };
+  Said said_by(const std::vector<StiffnessSample>& samples) const;
+  // The steps of the constructor, in their order. x: places, from −1 to 1.
+  void set_covariances(const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& x,
+                       const Said& said);
+  void find_contrasts(const Eigen::MatrixXd& trend);  // powers at the samples
+  void find_scales();
+  void predict(const StiffnessSample& middle);
+
   /// What an estimate is made of, in the coordinates in which both covariances are diagonal.
   struct Parts {
     Eigen::VectorXd trend;  // weights of the samples that keep the parabola

@@ -487,6 +487,15 @@ Premise slow_motion_of(const ContactLaw& law, const JudgedMotion& motion,
   return premise;
 }
 
+void check(const NormalOscillation& normal, const std::vector<double>& velocities,
+           const std::vector<double>& excursions, double friction_coefficient) {
+  require_positive(friction_coefficient, "friction_coefficient");
+  require_positive(normal.normal_amplitude, "normal_amplitude");
+  require_positive(normal.angular_frequency, "angular_frequency");
+  for (const double velocity : velocities) require_positive(velocity, "velocity");
+  for (const double excursion : excursions) require_positive(excursion, "excursion");
+}
+
 void check(const ContactFacts& facts) {
   for (const auto& [value, field] : {std::pair{facts.friction_coefficient, "friction_coefficient"},
                                      {facts.hardness, "hardness"},
@@ -803,11 +812,7 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
 RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
                      const NormalOscillation& normal, const std::vector<double>& velocities,
                      const std::vector<double>& excursions, double friction_coefficient) {
-  require_positive(friction_coefficient, "friction_coefficient");
-  require_positive(normal.normal_amplitude, "normal_amplitude");
-  require_positive(normal.angular_frequency, "angular_frequency");
-  for (const double velocity : velocities) require_positive(velocity, "velocity");
-  for (const double excursion : excursions) require_positive(excursion, "excursion");
+  check(normal, velocities, excursions, friction_coefficient);
   const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
   const ContinuedLaw law(given);
   // Displacements below stand for the velocity.

@@ -150,32 +150,28 @@ struct PhaseShare {
   double force, damping;
 };
 
-PhaseShare share_of(const PhaseState& node, const Period& period, double slips_at,
-                    double limit_scale, double velocity, double omega) {
-  const double limit = limit_scale * node.normal_stiffness * node.sine;
-  if (!(node.phase > period.sticks_from() && node.phase < period.sticks_to()))
-    return {limit * 2 * (pi - node.phase), 0};
-  const double stuck = slips_at - node.phase, r = period.ratio();
-  return {
-      limit * (2 * pi - node.phase - slips_at) +
-          velocity / omega * node.tangential_stiffness * stuck,
-      node.tangential_stiffness / omega * stuck * (1 + (node.sine - r) / (r - std::sin(slips_at)))};
-}
-
-struct Force {
-  double value = 0, error = 0, damping = 0;
-  bool converged = true;
+// A piece of the integral over the phase, by its nodes.
+struct PhasePiece {
+  double from, to, value, error, damping;
 };
 
-// ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece
-// is halved until the sum of errors reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π −
-// √(φ² + 4πr), which bends more than any law.
-Force force_above_least(const HalfPeriod& half, const Period& period, double limit_scale,
-                        double velocity, double omega, double tolerance) {
-  struct Piece {
-    double from, to, value, error, damping;
-  };
-  const auto rated = [&](std::span<const PhaseState> nodes, double from, double to) {
+// The shares of one velocity.
+struct Shares {
+  const Period& period;
+  double limit_scale, velocity, omega;
+
+  PhaseShare of(const PhaseState& node, double slips_at) const {
+    const double limit = limit_scale * node.normal_stiffness * node.sine;
+    if (!(node.phase > period.sticks_from() && node.phase < period.sticks_to()))
+      return {limit * 2 * (pi - node.phase), 0};
+    const double stuck = slips_at - node.phase, r = period.ratio();
+    return {limit * (2 * pi - node.phase - slips_at) +
+                velocity / omega * node.tangential_stiffness * stuck,
+            node.tangential_stiffness / omega * stuck *
+                (1 + (node.sine - r) / (r - std::sin(slips_at)))};
+  }
+
+  PhasePiece over(std::span<const PhaseState> nodes, double from, double to) const {
     double values[rule_points], kronrod = 0, gauss = 0, damping = 0, before = 0, slipped = 0;
     for (int j = 0; j < rule_points; ++j) {
       const PhaseState& node = nodes[static_cast<std::size_t>(j)];
@@ -189,7 +185,7 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
                            : period.slips_at(node.phase);
         before = node.phase, slipped = slips;
       }
-      const PhaseShare share = share_of(node, period, slips, limit_scale, velocity, omega);
+      const PhaseShare share = of(node, slips);
       values[j] = share.force;
       kronrod += rule_weight[j] * share.force;
       gauss += gauss_rule_weight[j] * share.force;
@@ -202,33 +198,44 @@ Force force_above_least(const HalfPeriod& half, const Period& period, double lim
     // that of the higher (QUADPACK).
     const double part = spread > 0 ? 200 * std::abs(kronrod - gauss) / spread : 0;
     const double half_width = 0.5 * (to - from);
-    return Piece{from, to, half_width * kronrod,
-                 half_width * spread * std::min(1.0, part * std::sqrt(part)), half_width * damping};
-  };
+    return {from, to, half_width * kronrod,
+            half_width * spread * std::min(1.0, part * std::sqrt(part)), half_width * damping};
+  }
+};
 
-  std::vector<Piece> pieces;
-  half.for_each_piece(period, [&](std::span<const PhaseState> nodes, double from, double to) {
-    pieces.push_back(rated(nodes, from, to));
-  });
-  std::ranges::make_heap(pieces, {}, &Piece::error);
+struct Force {
+  double value = 0, error = 0, damping = 0;
+  bool converged = true;
+};
+
+// ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece
+// is halved until the sum of errors reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π −
+// √(φ² + 4πr), which bends more than any law.
+Force force_above_least(const HalfPeriod& half, const Shares& shares, double tolerance) {
+  std::vector<PhasePiece> pieces;
+  half.for_each_piece(shares.period,
+                      [&](std::span<const PhaseState> nodes, double from, double to) {
+                        pieces.push_back(shares.over(nodes, from, to));
+                      });
+  std::ranges::make_heap(pieces, {}, &PhasePiece::error);
   Force force;
   double size = 0;
-  for (const Piece& piece : pieces) size += std::abs(piece.value), force.error += piece.error;
+  for (const PhasePiece& piece : pieces) size += std::abs(piece.value), force.error += piece.error;
   constexpr std::size_t most_pieces = 10'000;
   while (force.error > tolerance * size && pieces.size() < most_pieces) {
-    std::ranges::pop_heap(pieces, {}, &Piece::error);
-    const Piece worst = pieces.back();
+    std::ranges::pop_heap(pieces, {}, &PhasePiece::error);
+    const PhasePiece worst = pieces.back();
     pieces.pop_back();
     force.error -= worst.error;
     const double middle = 0.5 * (worst.from + worst.to);
     for (const auto& [from, to] : {std::pair(worst.from, middle), std::pair(middle, worst.to)}) {
-      pieces.push_back(rated(half.nodes_between(from, to), from, to));
+      pieces.push_back(shares.over(half.nodes_between(from, to), from, to));
       force.error += pieces.back().error;
-      std::ranges::push_heap(pieces, {}, &Piece::error);
+      std::ranges::push_heap(pieces, {}, &PhasePiece::error);
     }
   }
   force.error = 0;
-  for (const Piece& piece : pieces) {
+  for (const PhasePiece& piece : pieces) {
     force.value += piece.value;
     force.error += piece.error;
     force.damping += piece.damping;
@@ -283,8 +290,8 @@ std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position&
       result.converged = stuck.converged;
     } else {
       if (!half) half.emplace(law, low, amplitude);
-      const Force force = force_above_least(*half, period, friction_coefficient * amplitude,
-                                            velocity, omega, options.tolerance);
+      const Force force = force_above_least(
+          *half, {period, friction_coefficient * amplitude, velocity, omega}, options.tolerance);
       result.mean_tangential_force = least_friction + force.value;
       result.sliding_damping = force.damping;
       result.error_estimate = force.error;

@@ -60,6 +60,19 @@ DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOpt
       one.motion);
 }
 
+std::vector<DampingResult> results_of(const ContactLaw& law, const std::vector<Case>& cases,
+                                      const DampingOptions& options, const Context& context) {
+  std::vector<DampingResult> results;
+  for (const Case& one : cases) {
+    results.push_back(result_of(law, one, options));
+    const double done = double(results.size());
+    if (context.on_progress &&
+        !context.on_progress({"damping", done / double(cases.size()), static_cast<int>(done), 0}))
+      throw Interrupted("damping: stopped before all cases were done");
+  }
+  return results;
+}
+
 /// Power of case (b) at the tangential motion's mean square velocity: what a slow tangential
 /// oscillation tends to.
 double slow_limit_power(const ContactLaw& law, const Case& one, const DampingOptions& options) {
@@ -392,14 +405,7 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
   const ContactLaw& law = *answer.contact.law;
   const DampingOptions options{.hold = question.hold, .amplitude = question.amplitude};
   const std::vector<Case> cases = cases_of(answer.contact.positions, question);
-  for (const Case& one : cases) {
-    answer.motions.push_back(one.motion);
-    answer.results.push_back(result_of(law, one, options));
-    const double done = double(answer.results.size());
-    if (context.on_progress &&
-        !context.on_progress({"damping", done / double(cases.size()), static_cast<int>(done), 0}))
-      throw Interrupted("damping: stopped before all cases were done");
-  }
+  answer.results = results_of(law, cases, options, context);
   const bool slips = !std::isnan(question.facts.friction_coefficient);
   std::string unknown;  // why, one line for all cases
   if (surface) {
@@ -410,6 +416,7 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
     const DampingResult& result = answer.results[i];
+    answer.motions.push_back(one.motion);
     if (!surface && slips) {
       const std::string why = why_unknown(one, question.facts);
       if (unknown.empty()) unknown = why;

@@ -96,6 +96,77 @@ std::vector<double> leakage(const std::vector<double>& limits, const std::vector
   return leaked;
 }
 
+/// Whether a bin has modes enough to be used.
+bool enough(const ScanSpectrum& scan, std::size_t bin) {
+  return scan.modes[bin] >= (scan.profile() ? 2 : 4);
+}
+
+/// What the group has of its instrument.
+TwinData of_instrument(const ScanInstrument& instrument) {
+  TwinData data;
+  data.instrument = instrument_name(instrument);
+  data.height_calibration = instrument.height_calibration;
+  data.scan_calibration = instrument.scan_calibration;
+  data.blur = instrument.kind == Instrument::optical
+                  ? instrument.resolution / std::sqrt(8 * std::numbers::ln2)
+                  : 0;
+  data.tip = instrument.has_tip();
+  return data;
+}
+
+/// Mean spectrum of scans by their weights.
+struct MeanSpectrum {
+  std::vector<double> psd;
+  double weight = 0, squares = 0;
+
+  void add(const ScanSpectrum& scan) {
+    weight += scan.weight;
+    squares += scan.weight * scan.weight;
+    psd.resize(scan.psd.size());
+    for (std::size_t bin = 0; bin < psd.size(); ++bin) psd[bin] += scan.weight * scan.psd[bin];
+  }
+  void divide() {
+    for (double& power : psd) power /= weight;
+  }
+};
+
+/// Finds the noise, and raises the powers to what leaks and rounding leave of them.
+void set_noise(const ScanSpectrum& first, const std::vector<double>& leaked,
+               std::vector<double>& psd, TwinData& data) {
+  const double stated = first.instrument.noise;
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (std::size_t bin = 0; bin < psd.size(); ++bin)
+    if (enough(first, bin)) {
+      greatest = std::max(greatest, psd[bin]);
+      if (bin >= psd.size() * 2 / 3) least = std::min(least, psd[bin]);
+    }
+  if (std::isnan(stated)) {
+    data.noise = least / 2;
+    data.noise_freedom = found_noise;
+  } else {
+    data.noise =
+        stated * stated *
+        (first.profile() ? first.grid.dx() / (2 * pi) : first.grid.cell_area() / (4 * pi * pi));
+    data.noise_freedom = known_noise;
+  }
+  // Without any noise a bin beyond the cut-off would be impossible: rounding is some.
+  constexpr double rounded = 1e-15;
+  data.noise = std::max(data.noise, rounded * greatest);
+  for (std::size_t bin = 0; bin < psd.size(); ++bin)
+    psd[bin] = std::max({psd[bin], leaked[bin], rounded * greatest});
+}
+
+void set_cells(const ScanModes& modes, const Response& response, TwinData& data) {
+  for (std::size_t cell = 0; cell < response.middle.size(); ++cell) {
+    const double high = std::log(modes.wavenumber(response.limits[cell + 1]));
+    data.cell_low.push_back(cell == 0 ? high - std::log(1.15) / 3
+                                      : std::log(modes.wavenumber(response.limits[cell])));
+    data.cell_high.push_back(high);
+    data.cell_wavenumber.push_back(modes.wavenumber(response.middle[cell]));
+    for (const std::size_t bin : data.bins) data.weights.push_back(response.weight(cell, bin));
+  }
+}
+
 TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_t> members,
                   Responses& responses) {
   const ScanSpectrum& first = scans[members.front()];
@@ -105,49 +176,16 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
   const std::vector<double> limits = bin_limits(modes.nyquist);
   const std::size_t bins = limits.size() - 1, tapered = tapered_bins(limits);
 
-  TwinData data;
-  data.instrument = instrument_name(instrument);
-  data.height_calibration = instrument.height_calibration;
-  data.scan_calibration = instrument.scan_calibration;
-  data.blur = instrument.kind == Instrument::optical
-                  ? instrument.resolution / std::sqrt(8 * std::numbers::ln2)
-                  : 0;
-  data.tip = instrument.has_tip();
+  TwinData data = of_instrument(instrument);
   data.tail_reference = modes.wavenumber(modes.nyquist / 4);
-
-  double weight = 0, squares = 0;
-  std::vector<double> psd(bins);
-  for (const std::size_t member : members) {
-    const ScanSpectrum& scan = scans[member];
-    weight += scan.weight;
-    squares += scan.weight * scan.weight;
-    for (std::size_t bin = 0; bin < bins; ++bin) psd[bin] += scan.weight * scan.psd[bin];
-  }
-  for (double& power : psd) power /= weight;
-  data.mean_scans = weight * weight / squares;
+  MeanSpectrum mean;
+  for (const std::size_t member : members) mean.add(scans[member]);
+  mean.divide();
+  data.mean_scans = mean.weight * mean.weight / mean.squares;
   data.scans = std::move(members);
-
-  const auto enough = [&](std::size_t bin) { return first.modes[bin] >= (line ? 2 : 4); };
-  double least = std::numeric_limits<double>::infinity(), greatest = 0;
-  for (std::size_t bin = 0; bin < bins; ++bin)
-    if (enough(bin)) {
-      greatest = std::max(greatest, psd[bin]);
-      if (bin >= bins * 2 / 3) least = std::min(least, psd[bin]);
-    }
-  if (std::isnan(instrument.noise)) {
-    data.noise = least / 2;
-    data.noise_freedom = found_noise;
-  } else {
-    data.noise = instrument.noise * instrument.noise *
-                 (line ? first.grid.dx() / (2 * pi) : first.grid.cell_area() / (4 * pi * pi));
-    data.noise_freedom = known_noise;
-  }
+  std::vector<double>& psd = mean.psd;
   const std::vector<double> leaked = leakage(limits, psd, first.modes);
-  // Without any noise a bin beyond the cut-off would be impossible: rounding is some.
-  constexpr double rounded = 1e-15;
-  data.noise = std::max(data.noise, rounded * greatest);
-  for (std::size_t bin = 0; bin < bins; ++bin)
-    psd[bin] = std::max({psd[bin], leaked[bin], rounded * greatest});
+  set_noise(first, leaked, psd, data);
 
   double curvature = 0;  // κ_rms²
   for (std::size_t bin = 0; bin < bins; ++bin) {
@@ -158,7 +196,7 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
       data.tip_limit = a;
       break;
     }
-    if (!enough(bin)) continue;
+    if (!enough(first, bin)) continue;
     data.bins.push_back(bin);
     data.leaked.push_back(leaked[bin]);
     data.doubt.push_back(std::hypot(
@@ -169,20 +207,13 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
     const bool by_tapers = bin < tapered;
     const double lowest_bins = bin < 2 ? 0.7 : 1;
     data.modes.push_back(std::max(0.1, lowest_bins * independent(by_tapers, line) *
-                                           static_cast<double>(first.modes[bin]) / 2 * weight));
+                                           static_cast<double>(first.modes[bin]) / 2 *
+                                           mean.weight));
     // Correlation is in m_c: the scatter of a narrow bin alone is less.
     data.scatter.push_back(by_tapers ? 0.35 : 0.75);
   }
 
-  const Response& response = responses.of(first.grid, instrument.drifts() && !line);
-  for (std::size_t cell = 0; cell < response.middle.size(); ++cell) {
-    const double high = std::log(modes.wavenumber(response.limits[cell + 1]));
-    data.cell_low.push_back(cell == 0 ? high - std::log(1.15) / 3
-                                      : std::log(modes.wavenumber(response.limits[cell])));
-    data.cell_high.push_back(high);
-    data.cell_wavenumber.push_back(modes.wavenumber(response.middle[cell]));
-    for (const std::size_t bin : data.bins) data.weights.push_back(response.weight(cell, bin));
-  }
+  set_cells(modes, responses.of(first.grid, instrument.drifts() && !line), data);
   return data;
 }
 

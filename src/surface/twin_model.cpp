@@ -191,6 +191,42 @@ double TwinModel::log_posterior(const Eigen::VectorXd& parameters, Work& work) c
   return -sum;
 }
 
+Eigen::MatrixXd TwinModel::slopes_of_expected(const Eigen::VectorXd& parameters, std::size_t group,
+                                              std::size_t cells, Work& work) const {
+  const TwinData& data = data_[group];
+  const Group& own = groups_[group];
+  const auto count = static_cast<Index>(cells);
+  const double gain = std::exp(2 * parameters[gain_at(group)]);
+  const Eigen::Map<const Eigen::ArrayXd> source(work.source.data(), count);
+  log_density_slopes(law_, {parameters.data(), static_cast<std::size_t>(law_.size())}, own.points,
+                     count, work.slopes);
+  Eigen::MatrixXd slopes =
+      Eigen::MatrixXd::Zero(static_cast<Index>(data.bins.size()), law_.size() + 1);
+  std::vector<double> column(cells);
+  const auto project = [&](Index to) {
+    add_products(column, data.weights.data(), {&slopes(0, to), data.bins.size()});
+    slopes.col(to) *= gain;
+  };
+  for (Index p = 0; p < law_.cutoff(); ++p) {
+    Eigen::Map<Eigen::ArrayXd>(column.data(), count) = source * work.slopes.col(p).array();
+    project(p);
+  }
+  if (own.blur >= 0) {
+    const double variance = data.blur * data.blur * std::exp(2 * parameters[own.blur]);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      column[cell] = -2 * variance * own.square[cell] * work.source[cell];
+    project(law_.size());
+  }
+  // The cut-off moves the part of its cell that is below it.
+  const double end = std::log(2 * pi) - parameters[law_.cutoff()];
+  if (cells > 0 && end < data.cell_high[cells - 1]) {
+    std::ranges::fill(column, 0.0);
+    column[cells - 1] = -work.source[cells - 1] / std::max(1e-12, end - data.cell_low[cells - 1]);
+    project(law_.cutoff());
+  }
+  return slopes;
+}
+
 void TwinModel::residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::VectorXd& values,
                           Eigen::MatrixXd* slopes) const {
   const Eigen::VectorXd prior = priors(parameters);
@@ -206,40 +242,9 @@ void TwinModel::residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::
     const TwinData& data = data_[group];
     const Group& own = groups_[group];
     const std::size_t bins = data.bins.size();
-    const auto count = static_cast<Index>(cells);
-    const double gain = std::exp(2 * parameters[gain_at(group)]),
-                 noise = data.noise * std::exp(2 * parameters[noise_at(group)]);
-    // Slopes of E in the parameters of the law and the blur, column by column.
+    const double noise = data.noise * std::exp(2 * parameters[noise_at(group)]);
     Eigen::MatrixXd of_expected;
-    if (slopes) {
-      const Eigen::Map<const Eigen::ArrayXd> source(work.source.data(), count);
-      log_density_slopes(law_, {parameters.data(), static_cast<std::size_t>(law_.size())},
-                         own.points, count, work.slopes);
-      of_expected.setZero(static_cast<Index>(bins), law_.size() + 1);
-      std::vector<double> column(cells);
-      const auto project = [&](Index to) {
-        add_products(column, data.weights.data(), {&of_expected(0, to), bins});
-        of_expected.col(to) *= gain;
-      };
-      for (Index p = 0; p < law_.cutoff(); ++p) {
-        Eigen::Map<Eigen::ArrayXd>(column.data(), count) = source * work.slopes.col(p).array();
-        project(p);
-      }
-      if (own.blur >= 0) {
-        const double variance = data.blur * data.blur * std::exp(2 * parameters[own.blur]);
-        for (std::size_t cell = 0; cell < cells; ++cell)
-          column[cell] = -2 * variance * own.square[cell] * work.source[cell];
-        project(law_.size());
-      }
-      // The cut-off moves the part of its cell that is below it.
-      const double end = std::log(2 * pi) - parameters[law_.cutoff()];
-      if (cells > 0 && end < data.cell_high[cells - 1]) {
-        std::ranges::fill(column, 0.0);
-        column[cells - 1] =
-            -work.source[cells - 1] / std::max(1e-12, end - data.cell_low[cells - 1]);
-        project(law_.cutoff());
-      }
-    }
+    if (slopes) of_expected = slopes_of_expected(parameters, group, cells, work);
     for (std::size_t bin = 0; bin < bins; ++bin, ++row) {
       const double expected_power = work.expected[bin];
       const auto [value, slope] =

@@ -70,8 +70,8 @@ class TwinModel {
   double largest_scan() const { return largest_; }             ///< m
   double finest_wavenumber() const { return finest_; }         ///< rad/m, used
 
-  /// s of 1/m = 1/m_c + s² in all bins, to which the squared doubt of a bin comes, and in those beyond 0.8 of the wave number `cutoff`;
-  /// three times that where a bin begins there.
+  /// s of 1/m = 1/m_c + s² in all bins, to which the squared doubt of a bin comes, and in those
+  /// beyond 0.8 of the wave number `cutoff`; three times that where a bin begins there.
   void set_tolerance(double everywhere, double beyond, double cutoff);
 
   /// −½|F|², or −∞ out of bounds; F of residuals().
@@ -107,6 +107,10 @@ class TwinModel {
   /// Fills work.expected, work.signal (E without noise and tail); returns the number of cells below
   /// the cut-off, whose C·M² is in work.source.
   std::size_t evaluate(const Eigen::VectorXd& parameters, std::size_t group, Work& work) const;
+  /// Slopes of E of a group in the parameters of the law and in the blur, column by column, after
+  /// evaluate(), which gave the cells.
+  Eigen::MatrixXd slopes_of_expected(const Eigen::VectorXd& parameters, std::size_t group,
+                                     std::size_t cells, Work& work) const;
   double tail(const Eigen::VectorXd& parameters, std::size_t group, std::size_t bin) const;
   Eigen::VectorXd priors(const Eigen::VectorXd& parameters) const;
 

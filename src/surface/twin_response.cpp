@@ -178,10 +178,17 @@ void add_waves(double kappa, double weight, bool narrow, Quadrant& quadrant) {
   }
 }
 
-/// Weights of the cells in the bins first … last−1 with these tapers.
+/// Bins that are made with the same tapers: first … last−1.
+struct TaperedBins {
+  std::size_t first, last;
+  std::vector<Taper> tapers;
+};
+
+/// Weights of the cells in the bins.
 void add_full_response(const ScanModes& modes, const std::vector<double>& limits, bool drifts,
-                       std::size_t first, std::size_t last, const std::vector<Taper>& tapers,
-                       Response& response) {
+                       const TaperedBins& some, Response& response) {
+  const std::size_t first = some.first, last = some.last;
+  const std::vector<Taper>& tapers = some.tapers;
   if (first >= last) return;
   const bool hann = tapers.front() == Taper::hann;
   const double inner = limits[first], outer = limits[last];
@@ -359,9 +366,9 @@ Response response_of(const Grid2D& grid, bool drifts) {
   }
   Response response = empty_response(std::max(farthest_hann, 4.5 * modes.nyquist), bins);
   const std::size_t tapered = tapered_bins(limits), full = std::max(tapered, response_bins(limits));
-  add_full_response(modes, limits, drifts, 0, tapered, {Taper::first_sine, Taper::second_sine},
+  add_full_response(modes, limits, drifts, {0, tapered, {Taper::first_sine, Taper::second_sine}},
                     response);
-  add_full_response(modes, limits, drifts, tapered, full, {Taper::hann}, response);
+  add_full_response(modes, limits, drifts, {tapered, full, {Taper::hann}}, response);
   for (std::size_t bin = full; bin < bins; ++bin) add_mean(modes, grid, limits, bin, response);
   return response;
 }

@@ -208,11 +208,17 @@ FlowMultigrid::Level FlowMultigrid::finest_level(const FaceConductances& faces) 
 }
 
 FlowMultigrid::Level FlowMultigrid::coarser(Level& fine) {
+  Level level;
+  connect(fine, group(fine, level), level);
+  make_room(level);
+  return level;
+}
+
+std::vector<FlowMultigrid::Node> FlowMultigrid::group(Level& fine, Level& level) {
   const auto at = [](Index place) { return static_cast<std::size_t>(place); };
   const auto column_of = [&](Index k) {
     return fine.is_finest() ? static_cast<Node>(k % fine.columns) : fine.block_column[at(k)];
   };
-  Level level;
   std::vector<Node> coarse_of(at(fine.unknowns()), -1);
   BlockGroups groups;
   const auto close = [&](Node block) {
@@ -256,7 +262,11 @@ FlowMultigrid::Level FlowMultigrid::coarser(Level& fine) {
   }
   level.row_begins.push_back(static_cast<Node>(level.block_column.size()));
   fine.member_begins.push_back(static_cast<Node>(fine.members.size()));
+  return coarse_of;
+}
 
+void FlowMultigrid::connect(const Level& fine, const std::vector<Node>& coarse_of, Level& level) {
+  const auto at = [](Index place) { return static_cast<std::size_t>(place); };
   level.begins.push_back(0);
   std::vector<Node> place_of(level.block_column.size(), -1);
   for (Index k = 0; k < level.unknowns(); ++k) {
@@ -275,8 +285,6 @@ FlowMultigrid::Level FlowMultigrid::coarser(Level& fine) {
       });
     level.begins.push_back(static_cast<Node>(level.neighbours.size()));
   }
-  make_room(level);
-  return level;
 }
 
 FlowMultigrid::FlowMultigrid(const FaceConductances& faces) {

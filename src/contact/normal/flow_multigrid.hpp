@@ -60,6 +60,10 @@ class FlowMultigrid {
   static void for_neighbours(const Level& level, Index k, const Body& body);
   static Level finest_level(const FaceConductances& faces);
   static Level coarser(Level& fine);
+  // The unknowns of the next level, without what joins them; those that they are made of are given
+  // to fine. Of each unknown of fine the one that it belongs to, −1: none.
+  static std::vector<Node> group(Level& fine, Level& level);
+  static void connect(const Level& fine, const std::vector<Node>& coarse_of, Level& level);
   static void make_room(Level& level);
   template <bool forward>
   static void smooth(const Level& level, const double* b, double* x);

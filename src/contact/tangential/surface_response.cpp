@@ -71,7 +71,7 @@ SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, B
 
 void SurfaceResponse::apply(const PointList& loaded, const double* tractions, const PointList& read,
                             double* displacements) {
-  through(compliance_, 1.0, loaded, tractions, read, 1.0, displacements);
+  through(compliance_, {}, loaded, tractions, read, displacements);
 }
 
 void SurfaceResponse::apply_loosely(const PointList& points, const double* tractions,
@@ -82,13 +82,14 @@ void SurfaceResponse::apply_loosely(const PointList& points, const double* tract
   for (const double* value = tractions; value < end; ++value)
     largest = std::max(largest, std::abs(*value));
   if (!(largest > 0)) largest = 1;
-  through(*single_, 1 / largest, points, tractions, points, largest * single_unit_, displacements);
+  through(*single_, {1 / largest, largest * single_unit_}, points, tractions, points,
+          displacements);
 }
 
 template <class Real>
-void SurfaceResponse::through(Convolution2D<Real>& compliance, double unit_in,
+void SurfaceResponse::through(Convolution2D<Real>& compliance, const Units& units,
                               const PointList& loaded, const double* tractions,
-                              const PointList& read, double unit_out, double* displacements) {
+                              const PointList& read, double* displacements) {
   const int first = traction_ == Traction::along_y ? 1 : 0;
   // The points of a row; none where the component has no values.
   const auto points_of = [&](const PointList& points, int component, Index row) {
@@ -109,14 +110,14 @@ void SurfaceResponse::through(Convolution2D<Real>& compliance, double unit_in,
         std::fill_n(room, window_.ny, Real(0));
         for (Index k = begin; k < end; ++k)
           room[column_of(loaded, row, k)] =
-              static_cast<Real>(unit_in * tractions[offset(loaded, component) + k]);
+              static_cast<Real>(units.in * tractions[offset(loaded, component) + k]);
         return room;
       },
       [&](int component, Index row, const Real* values) {
         const auto [begin, end] = points_of(read, component, row);
         for (Index k = begin; k < end; ++k)
           displacements[offset(read, component) + k] =
-              unit_out * static_cast<double>(values[column_of(read, row, k)]);
+              units.out * static_cast<double>(values[column_of(read, row, k)]);
       });
   fft_count_ += 2;
 }
@@ -203,6 +204,15 @@ double ContactSystem::dot(const PointList& points, const double* a, const double
       points.size());
 }
 
+void ContactSystem::subtract_response(const PointList& points, const std::vector<double>& tractions,
+                                      std::vector<double>& displacements) {
+  const bool none = std::ranges::all_of(tractions, [](double t) { return t == 0; });
+  if (rows_.ranks().all_agree(none)) return;
+  std::vector<double> response(tractions.size());
+  response_.apply(points, tractions.data(), points, response.data());
+  for (std::size_t i = 0; i < response.size(); ++i) displacements[i] -= response[i];
+}
+
 StickReport ContactSystem::solve(const PointList& points, const std::vector<double>& displacements,
                                  const Limits& limits, std::vector<double>& tractions,
                                  std::vector<double>& misfit) {
@@ -216,11 +226,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
     report.termination = Termination::converged;
     return report;
   }
-  if (!ranks.all_agree(std::ranges::all_of(tractions, [](double t) { return t == 0; }))) {
-    std::vector<double> response(unknowns);
-    response_.apply(points, tractions.data(), points, response.data());
-    for (std::size_t i = 0; i < unknowns; ++i) misfit[i] -= response[i];
-  }
+  subtract_response(points, tractions, misfit);
   const int components = response_.components();
   const double unknowns_of_all = parallel::sum_blocks(rows_, [&](Index begin, Index end) {
     return static_cast<double>(

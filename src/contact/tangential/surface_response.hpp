@@ -54,10 +54,13 @@ class SurfaceResponse {
   int fft_count() const { return fft_count_; }
 
  private:
+  /// Factors of tractions before a convolution, and of displacements after it.
+  struct Units {
+    double in = 1, out = 1;
+  };
   template <class Real>
-  void through(Convolution2D<Real>& compliance, double unit_in, const PointList& loaded,
-               const double* tractions, const PointList& read, double unit_out,
-               double* displacements);
+  void through(Convolution2D<Real>& compliance, const Units& units, const PointList& loaded,
+               const double* tractions, const PointList& read, double* displacements);
 
   CellWindow window_;
   Traction traction_;
@@ -127,6 +130,9 @@ class ContactSystem {
                     std::vector<double>& misfit);
 
  private:
+  void subtract_response(const PointList& points, const std::vector<double>& tractions,
+                         std::vector<double>& displacements);
+
   CellWindow window_;
   Share rows_;
   Grid2D window_grid_;
