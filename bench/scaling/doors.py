@@ -16,9 +16,9 @@ SURFACE = "--hurst 0.8 --size-x 4mm --short-cutoff 16um --rolloff 400um --rms-sl
 JOBS = {
     "generate 4096": f"generate --points 4096 {SURFACE} -o g.h5",
     "statistics 4096": "statistics s4096.h5 --overwrite -o s.json",
-    "read .h5 4096": "convert s4096.h5 c.npy --overwrite",
-    "read .txt 2048": "convert s2048.txt c.npy --overwrite",
-    "read .xyz 2048": "convert s2048.xyz c.npy --overwrite",
+    "read .h5 4096": "convert s4096.h5 c.npy --overwrite --crop 0,0,10um,10um",
+    "read .txt 2048": "convert s2048.txt c.npy --overwrite --crop 0,0,10um,10um",
+    "read .xyz 2048": "convert s2048.xyz c.npy --overwrite --crop 0,0,10um,10um",
 }
 
 

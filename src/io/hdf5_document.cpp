@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstring>
+#include <salebra/base/parallel.hpp>
 
 #include "base/archive.hpp"
 #include "hdf5_runner.hpp"
@@ -63,8 +64,8 @@ Hdf5Reading reading_of(const InputFile& file, std::uint64_t bytes) {
   refuse(file, "makes the HDF5 library give a wrong answer; it is damaged");
 }
 
-/// Whether an object can be what it says, however it came here.
-bool is_sound(const Object& object, std::uint64_t most) {
+/// Whether an object of a file of so many bytes can be what it says, however it came here.
+bool is_sound(const Object& object, std::uint64_t file_size) {
   const auto known = [](Object::Kind kind) { return kind <= Object::Kind::refused; };
   if (!known(object.kind)) return false;
   for (const auto& [name, kind] : object.members)
@@ -73,7 +74,9 @@ bool is_sound(const Object& object, std::uint64_t most) {
   std::uint64_t doubles = sizeof(double);
   for (const std::uint64_t extent : object.shape)
     if (__builtin_mul_overflow(doubles, extent, &doubles)) return false;
-  return doubles <= most && (!object.numbers || object.numbers->size() == object.count());
+  if (object.place && (doubles > file_size || *object.place > file_size - doubles)) return false;
+  return doubles <= most_bytes(file_size) &&
+         (!object.numbers || object.numbers->size() == object.count());
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ Document::Document(InputFile file) : file_(std::move(file)) {
   run(reading);
   try {
     for (auto& [name, object] : from_bytes<Objects>(bytes, path().string())) {
-      if (!is_sound(object, most_bytes(file_.size()))) wrong_answer(path());
+      if (!is_sound(object, file_.size())) wrong_answer(path());
       objects_.insert_or_assign(std::move(name), std::move(object));
     }
   } catch (const InvalidInput&) {
@@ -184,6 +187,18 @@ void Document::rows(const std::string& path, const Share& share, std::span<doubl
 
 void Document::read(const std::string& path, const Object& object, std::uint64_t begin,
                     std::uint64_t end, std::span<double> values) const {
+  if (object.place && !values.empty()) {
+    const std::size_t row = values.size() / (end - begin);
+    return parallel::for_slabs(
+        static_cast<Index>(end - begin),
+        [&](Index first, Index last) {
+          const std::size_t before = static_cast<std::size_t>(first) * row;
+          const auto part = values.subspan(before, static_cast<std::size_t>(last) * row - before);
+          file_.read(*object.place + (begin * row + before) * sizeof(double),
+                     std::as_writable_bytes(part));
+        },
+        static_cast<Index>(values.size()));
+  }
   Hdf5Reading reading = reading_of(file_, values.size_bytes());
   reading.read = [&](const HandOver& hand_over) {
     read_numbers(file_, normal(path), object.shape, begin, end, hand_over);

@@ -36,6 +36,8 @@ struct Object {
   std::vector<std::string> coordinates;               ///< names of a dataset's dimension scales
   std::vector<std::string> labels;                    ///< of a list of names
   std::optional<std::vector<double>> numbers;         ///< of a small dataset
+  /// Where the file has the doubles of a dataset as memory has them, one behind the other.
+  std::optional<std::uint64_t> place;
 
   /// Product of the extents.
   std::uint64_t count() const;
@@ -46,13 +48,14 @@ struct Object {
 constexpr void describe(auto&& visit, std::type_identity<Object>) {
   using S = Object;
   keep(visit, &S::kind, &S::refusal, &S::attributes, &S::members, &S::shape, &S::coordinates,
-       &S::labels, &S::numbers);
+       &S::labels, &S::numbers, &S::place);
 }
 
 /// The outline of a file with all attributes and small datasets; large datasets are read when they
 /// are requested. Links and references to other files, symbolic links, external storage, virtual
 /// datasets, and filters other than one shuffle, one deflate and one fletcher32 are refused where
-/// they are requested; nothing beside the file is ever read.
+/// they are requested; nothing beside the file is ever read. Doubles that are neither packed nor in
+/// chunks are read without HDF5, from the place that the outline says.
 /// cost     memory: at most 64 times the file and 256 MB, in the process that reads
 class Document {
  public:

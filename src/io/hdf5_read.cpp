@@ -159,6 +159,16 @@ std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
   return {};
 }
 
+/// Where doubles stand in the file as this machine has them; nothing where HDF5 unpacks or converts.
+std::optional<std::uint64_t> place_of(hid_t dataset, hid_t type, hid_t properties,
+                                      std::uint64_t count) {
+  if (H5Pget_layout(properties) != H5D_CONTIGUOUS || H5Tequal(type, H5T_NATIVE_DOUBLE) <= 0 ||
+      H5Dget_storage_size(dataset) != count * sizeof(double))
+    return {};
+  const haddr_t place = H5Dget_offset(dataset);
+  return place == HADDR_UNDEF ? std::nullopt : std::optional<std::uint64_t>(place);
+}
+
 class Outline {
  public:
   explicit Outline(const InputFile& file)
@@ -274,6 +284,7 @@ class Outline {
     } else {
       object.refusal = excess(file_, id, properties, shape);
       read_small(id, object);
+      if (object.refusal.empty()) object.place = place_of(id, type, properties, object.count());
     }
     return keep(path, std::move(object));
   }

@@ -70,15 +70,19 @@ InputFile::~InputFile() {
 
 std::string InputFile::head(std::uint64_t bytes) const {
   std::string content(std::min(bytes, size_), '\0');
-  for (std::size_t filled = 0; filled < content.size();) {
-    const ssize_t got = pread(descriptor_, content.data() + filled, content.size() - filled,
-                              static_cast<off_t>(filled));
+  read(0, std::as_writable_bytes(std::span(content)));
+  return content;
+}
+
+void InputFile::read(std::uint64_t place, std::span<std::byte> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t got = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) refuse_unreadable(path_, errno);
     if (got == 0) refuse(path_, "ended while it was read; is another program writing it?");
-    filled += static_cast<std::size_t>(got);
+    place += static_cast<std::uint64_t>(got);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
-  return content;
 }
 
 std::string InputFile::content(std::uint64_t limit) const {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 
 namespace salebra::detail {
@@ -27,6 +29,9 @@ class InputFile {
   /// Bytes from the start: all, or fewer where the file ends before. Throws IoError where the disk
   /// does not give them.
   std::string head(std::uint64_t bytes) const;
+  /// Fills bytes from a place on, by any number of threads at once. Throws InvalidInput where the
+  /// file ends before, IoError where the disk does not give them.
+  void read(std::uint64_t place, std::span<std::byte> bytes) const;
   /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and
   /// for one that does not fit in the memory that is free.
   std::string content(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;

@@ -3,9 +3,16 @@
 // over.
 #include "io/hdf5_document.hpp"
 
+#include <hdf5.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <salebra/io/result_file.hpp>
+#include <utility>
+#include <vector>
 
 #include "base/archive.hpp"
 #include "io/hdf5_runner.hpp"
@@ -64,7 +71,52 @@ TEST_CASE("An outline that cannot be is refused, whoever hands it over", "[hdf5]
   SECTION("numbers of what is refused") { numbers.refusal = "is no list of names"; }
   SECTION("more points than a number counts") { numbers.shape = {1ull << 32, 1ull << 32}; }
   SECTION("more points than the file may hold") { numbers.shape = {1ull << 40}; }
+  SECTION("a place behind the end of the file") {
+    numbers.numbers.reset();
+    numbers.place = std::filesystem::file_size(file) - 15;
+  }
+  SECTION("a place before which addresses begin anew") { numbers.place = ~0ull - 7; }
   CHECK_THROWS_WITH(judge(), Catch::Contains("few.h5: makes the HDF5 library give a wrong answer"));
+}
+
+TEST_CASE("Numbers are those that were stored, read from their place or through HDF5", "[hdf5]") {
+  const Scratch scratch;
+  const std::string file = (scratch / "stored.h5").string();
+  std::vector<double> stored(100 * 150);  // too many to come along with the outline
+  for (std::size_t i = 0; i < stored.size(); ++i) stored[i] = 0.25 * static_cast<double>(i) - 9;
+  const auto [type, chunked] =
+      GENERATE(std::pair(H5T_IEEE_F64LE, false), std::pair(H5T_IEEE_F64LE, true),
+               std::pair(H5T_IEEE_F64BE, false), std::pair(H5T_IEEE_F32LE, false),
+               std::pair(H5T_STD_I64LE, false));
+  if (type == H5T_STD_I64LE)
+    for (double& value : stored) value = std::floor(value);
+  {
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    const hsize_t shape[] = {100, 150}, chunk[] = {10, 150};
+    if (chunked) H5Pset_chunk(layout, 2, chunk);
+    const hid_t made = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+                space = H5Screate_simple(2, shape, nullptr);
+    const hid_t dataset = H5Dcreate2(made, "a", type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data());
+    H5Dclose(dataset);
+    H5Sclose(space);
+    H5Fclose(made);
+    H5Pclose(layout);
+  }
+  const Document document{detail::InputFile(file)};
+  CHECK(document.numeric("a").place.has_value() == (type == H5T_IEEE_F64LE && !chunked));
+  std::vector<double> read(stored.size());
+  document.numbers("a", read);
+  CHECK(read == stored);
+  const Share rows(Communicator(), 100);
+  std::ranges::fill(read, 0);
+  document.rows("a", rows, read);
+  CHECK(read == stored);
+  // What ends while it is read leaves no numbers.
+  if (document.numeric("a").place) {
+    std::filesystem::resize_file(file, *document.numeric("a").place + 8);
+    CHECK_THROWS_WITH(document.numbers("a", read), Catch::Contains("ended while it was read"));
+  }
 }
 
 TEST_CASE("Bytes of an outline are judged before anything is made of them", "[hdf5]") {
