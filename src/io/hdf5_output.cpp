@@ -115,13 +115,13 @@ void require_free(hid_t group, const std::string& name) {
 }  // namespace
 
 Output::Output(const std::filesystem::path& file, const Provenance& provenance,
-               const WriteOptions& options, const Communicator& ranks)
-    : target_(file), ranks_(ranks) {
+               const WriteOptions& options, const Communicator& ranks, Fields fields)
+    : target_(file), ranks_(ranks), in_image_(ranks.alone() && fields == Fields::copied) {
   if (!ranks_.is_root()) return;
   atomic_.emplace(file, options);
   be_silent();
   closed_before_ = failed_closes();
-  file_ = ranks_.alone() ? file_in_memory(atomic_->temporary()) : create_in(image_);
+  file_ = in_image_ ? file_in_memory(atomic_->temporary()) : create_in(image_);
   root_ = Group(H5Gopen2(file_, "/", H5P_DEFAULT), "open the root of " + file.string());
   attribute(root_, "program", std::string_view("salebra"));
   attribute(root_, "version", version());
@@ -234,7 +234,7 @@ Dataset Output::field(hid_t group, const std::string& name, const Field& values,
                       const std::vector<std::string>& dimensions, const Label& label,
                       FieldType type) {
   const bool single = type == FieldType::float32;
-  if (ranks_.alone()) {
+  if (in_image_) {
     const auto count = static_cast<std::size_t>(values.size());
     if (!single) return dataset(group, name, values.data(), count, dimensions, label);
     const std::vector<float> rounded(values.data(), values.data() + count);
@@ -283,11 +283,11 @@ void Output::text_scale(hid_t group, const std::string& name,
 }
 
 void Output::commit() {
-  if (ranks_.alone()) return commit_alone();
+  if (in_image_) return commit_image();
   commit_spread();
 }
 
-void Output::commit_alone() {
+void Output::commit_image() {
   const std::string name = target_.string();
   if (!root_.closed()) throw IoError("cannot close the root of " + name);
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);

@@ -28,12 +28,15 @@ struct Label {
 /// where a file could not be closed. Memory: the size of the file. Over several processes the root
 /// alone makes the file, with holes for the fields that are spread, which each process then fills
 /// with its rows. What another process than the root adds is nothing but its rows. The bytes are
-/// those of one process.
+/// those of one process. One process that leaves its fields where they are does the same, and needs
+/// no memory for them.
 class Output {
  public:
+  enum class Fields { copied, stay };
   /// Not collective: a failure must be made known before commit(), by collectively().
   Output(const std::filesystem::path& file, const Provenance& provenance,
-         const WriteOptions& options, const Communicator& ranks = {});
+         const WriteOptions& options, const Communicator& ranks = {},
+         Fields fields = Fields::copied);
 
   hid_t root() const { return root_; }
   /// Opens the group at that path below the root, creating what is missing.
@@ -51,7 +54,7 @@ class Output {
   Dataset dataset(hid_t group, const std::string& name, const T* values, std::size_t count,
                   const std::vector<std::string>& dimensions, const Label& label);
   /// A field on two scales. Over several processes it holds the rows of Share(ranks, rows of the
-  /// first scale), and must stay until commit().
+  /// first scale). There, and with Fields::stay, it must stay until commit().
   Dataset field(hid_t group, const std::string& name, const Field& values,
                 const std::vector<std::string>& dimensions, const Label& label,
                 FieldType type = FieldType::float64);
@@ -72,7 +75,7 @@ class Output {
   template <class T>
   Dataset create(hid_t group, const std::string& name, const T* values,
                  const std::vector<hsize_t>& shape, const Label& label, bool spread = false);
-  void commit_alone();
+  void commit_image();
   void commit_spread();
   void write_without_fields();
 
@@ -84,6 +87,7 @@ class Output {
 
   std::filesystem::path target_;
   Communicator ranks_;
+  bool in_image_;                     ///< the fields of this only process
   std::optional<AtomicFile> atomic_;  ///< of the root
   std::vector<Spread> spread_;        ///< of the root, until commit()
   struct Rows {
@@ -91,7 +95,7 @@ class Output {
     FieldType type;
   };
   std::vector<Rows> fields_;  ///< the rows of this process, for each of them
-  SparseImage image_;         ///< of the root of several processes
+  SparseImage image_;         ///< of the root, without the fields
   int closed_before_ = 0;     ///< failed_closes() at the start
   File file_;
   Group root_;

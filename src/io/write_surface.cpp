@@ -29,7 +29,7 @@ void write_hdf5(const std::filesystem::path& file, const Surface& surface,
                 const Provenance& provenance, const WriteOptions& options) {
   std::optional<hdf5::Output> output;
   collectively(surface.ranks, [&] {
-    output.emplace(file, provenance, options, surface.ranks);
+    output.emplace(file, provenance, options, surface.ranks, hdf5::Output::Fields::stay);
     const Grid2D& grid = surface.grid;
     const std::vector<double> x = positions(grid.nx, grid.dx()), y = positions(grid.ny, grid.dy());
     output->scale(output->root(), "x", x.data(), x.size(), {"m", "position along x"});

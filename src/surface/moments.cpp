@@ -57,11 +57,37 @@ struct Squares {
   }
 };
 
+/// Of the heights that are defined.
+struct HeightSums {
+  double sum = 0, minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
+  Index count = 0;
+  void add(const HeightSums& other) {
+    sum += other.sum;
+    minimum = std::min(minimum, other.minimum);
+    maximum = std::max(maximum, other.maximum);
+    count += other.count;
+  }
+  double mean() const {
+    require(count > 0, "heights", "all points", "are undefined; there is nothing to measure");
+    const double mean = sum / static_cast<double>(count);
+    require(std::isfinite(mean), "heights", "infinity", "cannot be averaged; correct it");
+    return mean;
+  }
+};
+
+HeightSums sums_of_heights(const Surface& surface) {
+  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
+  return sum_defined<HeightSums>(surface, [](HeightSums& sums, double height) {
+    sums.add({height, height, height, 1});
+  });
+}
+
 struct ProfileMoments {
+  double zeroth = 0;  // along y alone
   double second = 0, fourth = 0;
 };
 
-/// Σ q² |ĥ|² and Σ q⁴ |ĥ|² of the profiles along an axis, in the mean over all of them. By
+/// Σ |h|², Σ q² |ĥ|² and Σ q⁴ |ĥ|² of the profiles along an axis, in the mean over all of them. By
 /// Parseval's theorem across the profiles that is the sum over the spectrum of the surface, which
 /// would take as much memory as the heights.
 ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
@@ -80,7 +106,9 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   }
   const std::vector<ProfileMoments> blocks = detail::map_profiles(
       surface, axis, ProfileMoments{}, [&](ProfileMoments& sum, std::span<double> heights) {
-        for (double& height : heights) height -= mean;
+        Eigen::Map<Eigen::ArrayXd> profile(heights.data(), static_cast<Index>(heights.size()));
+        profile -= mean;
+        if (!along_x) sum.zeroth += profile.square().sum();
         const auto modes = large_array<std::complex<double>>(count);
         fft.forward(heights.data(), modes.get());
         for (std::size_t k = 1; k < count; ++k) {
@@ -93,35 +121,22 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   ProfileMoments total;
   for (const ProfileMoments& block :
        parallel::gather_blocks(detail::profiles_of(surface, axis), blocks)) {
+    total.zeroth += block.zeroth;
     total.second += block.second * scale;
     total.fourth += block.fourth * scale;
   }
+  total.zeroth /= static_cast<double>(grid.points());
   return total;
 }
 
 }  // namespace
 
 HeightStatistics height_statistics(const Surface& surface) {
-  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
-  struct Range {
-    double sum = 0, minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
-    Index count = 0;
-    void add(const Range& other) {
-      sum += other.sum;
-      minimum = std::min(minimum, other.minimum);
-      maximum = std::max(maximum, other.maximum);
-      count += other.count;
-    }
-  };
-  const auto range = sum_defined<Range>(surface, [](Range& sums, double height) {
-    sums.add({height, height, height, 1});
-  });
+  const HeightSums range = sums_of_heights(surface);
   HeightStatistics result;
   result.defined_points = range.count;
-  require(range.count > 0, "heights", "all points", "are undefined; there is nothing to measure");
+  result.mean = range.mean();
   const double count = static_cast<double>(range.count);
-  result.mean = range.sum / count;
-  require(std::isfinite(result.mean), "heights", "infinity", "cannot be averaged; correct it");
   struct Powers {
     double second = 0, third = 0, fourth = 0;
     void add(const Powers& other) {
@@ -144,14 +159,16 @@ HeightStatistics height_statistics(const Surface& surface) {
 }
 
 SpectralMoments spectral_moments(const Surface& surface) {
-  collectively(surface.ranks, [&] { surface.require_complete_rows("spectral moments"); });
+  const HeightSums range = sums_of_heights(surface);
+  const bool complete = range.count == surface.grid.points() && std::isfinite(range.sum);
+  if (!complete)
+    collectively(surface.ranks, [&] { surface.require_complete_rows("spectral moments"); });
   require(surface.periodic, "surface", surface.origin.empty() ? "not periodic" : surface.origin,
           "is not periodic and has no spectral moments; use moments by finite differences");
-  const HeightStatistics heights = height_statistics(surface);
-  const ProfileMoments along_x = profile_moments(surface, Axis::x, heights.mean);
-  const ProfileMoments along_y = profile_moments(surface, Axis::y, heights.mean);
+  const ProfileMoments along_x = profile_moments(surface, Axis::x, range.mean());
+  const ProfileMoments along_y = profile_moments(surface, Axis::y, range.mean());
   SpectralMoments moments;
-  moments.moment0 = heights.rms_height * heights.rms_height;
+  moments.moment0 = along_y.zeroth;
   moments.moment2_x = along_x.second;
   moments.moment2_y = along_y.second;
   moments.moment4_x = along_x.fourth;
