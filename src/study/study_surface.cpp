@@ -95,7 +95,8 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
   require(adhesive || std::ranges::none_of(configuration.models, is_adhesive), "models",
           "gw_dmt, gw_jkr", "need adhesion; give [adhesion] in the study file");
   require(!adhesive || std::isnan(configuration.known.hardness), "hardness",
-          configuration.known.hardness, "is not known to adhesion; leave out one of them");
+          configuration.known.hardness,
+          "with adhesion is of one first loading, which `contact` answers; leave out one of them");
   if (adhesive)
     if (const auto coarse = doubt_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
       loads.doubts.push_back(*coarse);
