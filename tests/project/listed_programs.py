@@ -88,8 +88,8 @@ def commands_of(script):
             yield words[0]
 
 
-def steps(arguments, folder):
-    """What runs on the programs of a folder: the name of each step and whether it works, with what it said."""
+def steps(arguments, folder, wanted=("install", "configure", "package")):
+    """What runs on the programs of a folder: the name of each wanted step and whether it works, with what it said."""
     environment = {**os.environ, "PATH": str(folder), "CMAKE_C_COMPILER_LAUNCHER": "", "CMAKE_CXX_COMPILER_LAUNCHER": ""}
     # CMake also looks where systems have their programs, whatever the PATH.
     # cpack takes its -D as a word of its own.
@@ -101,6 +101,8 @@ def steps(arguments, folder):
             "install": [arguments.root / "scripts/install-dependencies"],
             "configure": ["cmake", "-S", arguments.root, "-B", scratch / "tree", "-G", "Ninja", *only],
             "package": ["cpack", "--config", arguments.build / "CPackConfig.cmake", "-B", scratch / "package", *only]}.items():
+        if name not in wanted:
+            continue
         if not shutil.which(str(command[0]), path=str(folder)):
             yield name, False, f"no {command[0]}"
             continue
@@ -139,9 +141,8 @@ def main():
             status = 1
     for package, step in CATCHES.items():
         make_folder(folder, packages.closure((packages.base | set(listed)) - {package}))
-        failed = [name for name, works, _ in steps(arguments, folder) if not works]
-        if step not in failed:
-            print(f"without the package {package}, the step {step} should fail; failed: {failed}")
+        if any(works for _, works, _ in steps(arguments, folder, [step])):
+            print(f"without the package {package}, the step {step} should fail")
             status = 1
     return status
 
