@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers behind the pictures, and those of the comparison's answer.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numbers>
 #include <salebra/io/result_file.hpp>
@@ -234,33 +236,6 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
   CHECK(shown >= 4);
 }
 
-TEST_CASE("The numbers of a study's answer are those of its file", "[study]") {
-  const ProgramTest test;
-  test.write("study.toml", study_text("seeds = [3, 4]"));
-  const auto run = test.answer("study study.toml --no-stick --no-report -o result.h5");
-  const json answer = run, &damping = answer["damping"];
-  const salebra::ResultReader file(test.folder() / "result.h5");
-  CHECK(numbers(damping["pressure"]) == file.numbers("damping/pressure"));
-  CHECK(numbers(damping["force"]) == file.numbers("damping/force"));
-  for (const std::string limit : {"mean", "low", "high"}) {
-    INFO(limit);
-    for (const std::string name : {"work_per_cycle", "damping_constant"})
-      check_alike(numbers(damping[name][limit]), file.numbers("answer/" + name + "_" + limit),
-                  1e-14);
-    for (const std::string name : {"work_per_cycle_closed_form", "damping_constant_closed_form"}) {
-      INFO(name);
-      check_alike(numbers(damping[name][limit]),
-                  row_of(file, "damping/ensemble_" + name + "_" + limit, 0, 10), 1e-14);
-    }
-    check_alike(numbers(damping["deviation"][limit]),
-                row_of(file, "damping/ensemble_deviation_" + limit, 0, 10), 1e-14);
-    std::size_t row = 0;
-    for (const std::string model : {"bem", "gw_moments", "gw_deterministic"})
-      CHECK(answer["comparison"][model]["decay_length"][limit] ==
-            file.numbers("fit/ensemble_decay_length_" + limit)[row++]);
-  }
-}
-
 TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answers",
           "[contact][plot]") {
   const ProgramTest test;
@@ -369,4 +344,42 @@ TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
     const Drawing drawing(test, command);
     CHECK_THAT(drawing.script(), Contains("'heights'") && !Contains("power spectral density"));
   }
+}
+
+TEST_CASE("Pictures of damping name what they show", "[damping][plot]") {
+  const ProgramTest test;
+  const std::string law =
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz --json ";
+  test.done(law + "--normal-amplitude 1:50nm:6 --plot curve.svg");
+  const std::string curve = test.read("curve.svg");
+  CHECK_THAT(curve, Contains("amplitude of the normal oscillation (nm)"));
+  CHECK_THAT(curve, Contains("small-amplitude form"));
+  test.done(law + "--normal-amplitude 50nm --plot cycle.png");
+  CHECK(test.read("cycle.png").substr(1, 3) == "PNG");
+  check_refused(test.run(law + "--normal-amplitude 50nm --plot cycle.png"), "--overwrite");
+  // Without gnuplot there is one line, status 1, and no answer is lost for a picture that was not
+  // asked for.
+  const auto without = test.run(law + "--normal-amplitude 50nm --plot new.png", "PATH=/nowhere;");
+  CHECK(without.status == 1);
+  CHECK_THAT(without.err, Contains("salebra: error: new.png: gnuplot is not installed"));
+  CHECK(std::count(without.err.begin(), without.err.end(), '\n') == 1);
+  CHECK(without.out.empty());
+  test.done(law + "--normal-amplitude 50nm", "PATH=/nowhere;");
+  CHECK(test.files() == "curve.svg cycle.png");
+}
+
+TEST_CASE("A picture is drawn where it was asked for, and its name never runs as a command",
+          "[plot]") {
+  const ProgramTest test;
+  // gnuplot starts a name that begins with '|' as a command; quotes would end the name.
+  const std::string folder = "|touch PWNED;'\"`touch PWNED`";
+  std::filesystem::create_directory(test.folder() / folder);
+  const std::string quoted = "\"|touch PWNED;'\\\"\\`touch PWNED\\`/x.png\"";
+  test.done(
+      "damping --law exponential --normal-force 2 --decay-length 100nm --poisson 0.3 "
+      "--drag-velocity 1mm/s --frequency 20kHz --normal-amplitude 50nm --plot " +
+      quoted);
+  CHECK(test.read(folder + "/x.png").substr(1, 3) == "PNG");
+  CHECK(test.files() == std::set<std::string>{folder});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that options, files and answers of all commands call each quantity what its description
-// says.
+// What holds for every command: options, files and answers call each quantity what its description
+// says, a file has the numbers of its answer and replaces no other, a loss has its premises.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
@@ -14,6 +15,7 @@
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_answer.hpp>
+#include <sstream>
 
 #include "../../apps/salebra/answers.hpp"
 #include "../../apps/salebra/options.hpp"
@@ -202,6 +204,77 @@ void check_numbers(const json& object, const std::string& parent) {
   }
 }
 
+/// Lists of numbers in a file by the last of their names; numbers of attributes are lists of one.
+using NumbersByName = std::multimap<std::string, std::vector<double>>;
+
+void add_numbers(const ResultReader& reader, const std::string& path, NumbersByName& numbers) {
+  for (const std::string& name : reader.datasets(path))
+    if (!reader.holds_labels(path + "/" + name))
+      numbers.emplace(name, reader.numbers(path + "/" + name));
+  for (const std::string& group : reader.groups(path)) {
+    const std::string inner = (path == "/" ? "" : path) + "/" + group;
+    for (const std::string& name : reader.attributes(inner))
+      if (const auto value = reader.number_attribute(inner, name))
+        numbers.emplace(name, std::vector{*value});
+    add_numbers(reader, inner, numbers);
+  }
+}
+
+/// Where the file has a name of the answer, one of its lists is that of the answer; how many are.
+int compare_numbers(const json& object, const NumbersByName& numbers) {
+  int compared = 0;
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object()) compared += compare_numbers(value, numbers);
+    std::vector<double> expected;
+    for (const json& one : value.is_array() ? value : json::array({value}))
+      if (one.is_number()) expected.push_back(one);
+    const auto [begin, end] = numbers.equal_range(key);
+    if (begin == end || expected.empty() ||
+        expected.size() != std::max<std::size_t>(value.size(), 1))
+      continue;
+    INFO(key);
+    CHECK(std::any_of(begin, end, [&](const auto& entry) { return entry.second == expected; }));
+    ++compared;
+  }
+  return compared;
+}
+
+/// Any damping constant or loss per cycle in it, by the name of its key.
+bool has_loss(const json& answer) {
+  if (answer.is_array()) return std::ranges::any_of(answer, has_loss);
+  if (!answer.is_object()) return false;
+  for (const auto& [key, value] : answer.items())
+    if (key != "adhesion_work_per_cycle" &&
+        (key.find("damping_constant") != std::string::npos || key == "relaxation_damping" ||
+         key == "contact_power" || key.find("work_per_cycle") != std::string::npos ||
+         has_loss(value)))
+      return true;
+  return false;
+}
+
+/// Every premise has its verdicts, which do not contradict the limits beside them.
+void check_premises(const json& object) {
+  REQUIRE(object.contains("premises"));
+  std::set<std::string> names;
+  for (const auto& [name, premise] : object["premises"].items()) {
+    INFO(name << ' ' << premise.dump());
+    names.insert(name);
+    CHECK(keys(premise) == "value limit_5_percent limit_20_percent onset verdict needs");
+    CHECK(premise["value"].is_array() == premise["verdict"].is_array());
+    const auto listed = [](const json& one) { return one.is_array() ? one : json::array({one}); };
+    const json verdicts = listed(premise["verdict"]), values = listed(premise["value"]),
+               limits = listed(premise["limit_5_percent"]);
+    const bool large_is_good = name == "slip_of_opening_levels" || name == "slow_motion";
+    for (std::size_t k = 0; k < verdicts.size(); ++k) {
+      CHECK(words("holds doubtful broken unknown").contains(verdicts[k]));
+      const json& limit = limits[limits.size() > 1 ? k : 0];
+      if (values[k].is_null() || limit.is_null()) continue;
+      CHECK((verdicts[k] == "holds") == (large_is_good ? values[k] >= limit : values[k] <= limit));
+    }
+  }
+  CHECK(names == premise_keys());
+}
+
 /// The unit that an option's line of help begins with; numbers, words and lists of them are told in
 /// capitals: NUMBER, NX[,NY], INT:INT.
 std::string unit_of(const std::string& type) {
@@ -284,19 +357,43 @@ TEST_CASE("Every column of a sweep has the name and unit of its description", "[
 }
 
 TEST_CASE("Every number that the program writes has the name, unit and meaning of the table",
-          "[names]") {
+          "[names][premises]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3, 4]"));
   std::string shell;
-  std::ifstream runs(SALEBRA_RUNS);
+  std::ifstream runs(SALEBRA_TABLES "/runs.txt");
+  std::set<std::string> commands, with_loss;
+  int compared = 0, files = 0;
   for (std::string line; std::getline(runs, line);) {
     if (line.empty() || line.starts_with('#')) continue;
-    if (line.starts_with("salebra "))
-      check_numbers(test.done(line.substr(8) + " --json --quiet", shell).json(), "");
-    else
+    if (!line.starts_with("salebra ")) {
       shell += line + "; ";
+      continue;
+    }
+    INFO(line);
+    const std::string run = line.substr(8) + " --json --quiet",
+                      command = run.substr(0, run.find(' '));
+    const json answer = test.done(run, shell).json();
+    commands.insert(command);
+    check_numbers(answer, "");
+    if (has_loss(answer)) {
+      with_loss.insert(command);
+      check_premises(answer);
+    }
+    static const std::regex named(" (?:-o|--plot) (\\S+)");
+    for (std::sregex_iterator found(run.begin(), run.end(), named), end; found != end; ++found) {
+      const std::string file = (*found)[1];
+      INFO(file);
+      REQUIRE(test.files().contains(file));
+      // Another time it is in the way, which is seen before any work.
+      check_refused(test.run(run, shell), ": exists");
+      // Files of these hold much behind their answers, under the same names: tables compare them.
+      if (!file.ends_with(".h5") || words("compare oscillate study").contains(command)) continue;
+      NumbersByName numbers;
+      add_numbers(ResultReader(test.folder() / file), "/", numbers);
+      compared += compare_numbers(answer, numbers);
+    }
   }
-  int files = 0;
   for (const std::string& file : test.files()) {
     if (!file.ends_with(".h5")) continue;
     INFO(file);
@@ -304,6 +401,18 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
     ++files;
   }
   CHECK(files >= 20);
+  CHECK(compared > 100);
+  CHECK(with_loss == words("compare damping joint oscillate sliding study viscoelastic"));
+  // A command that is new has a run, unless it prints no numbers. Its name stands behind the column
+  // of headings.
+  commands.merge(Names(words("verify report init twin completion")));
+  std::istringstream help(test.run("--help").out);
+  for (std::string line, first; std::getline(help, line);)
+    if (line.size() > 9 && std::istringstream(line.substr(9)) >> first &&
+        test.run(first + " --help").status == 0) {
+      INFO(first);
+      CHECK(commands.contains(first));
+    }
 }
 
 TEST_CASE("Every option that is a quantity has its unit", "[names]") {

@@ -221,6 +221,9 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
   const std::string motion =
       "--mode equal-frequency --normal-amplitude 2um --tangential-amplitude 1um --phase 80deg "
       "--frequency 1kHz ";
+  const std::string surface =
+      "generate --points 8192 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 1um "
+      "--rms-height 1um ";
   // Each takes seconds to minutes; the slider because 1 kHz leaves it unstable, so that its
   // slow cycles are followed.
   for (const std::string& command :
@@ -238,7 +241,8 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
         "sliding " + law +
             "--friction-coefficient 0.3 --frequency 20kHz --normal-amplitude 1:20nm:40 "
             "--velocity-ratios 0.001:0.9:4000",
-        "damping " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000"}) {
+        "damping " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000", surface,
+        surface + "--skewness 1 --kurtosis 5"}) {
     INFO(command);
     // Once the program handles it: a signal before would end it at once.
     const auto result = test.run(command + " -o out.h5 --quiet --threads 1",

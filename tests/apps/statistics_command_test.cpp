@@ -25,39 +25,6 @@ double integral(const nlohmann::json& x, const nlohmann::json& y) {
 
 }  // namespace
 
-TEST_CASE("The statistics of a surface agree with each other", "[statistics]") {
-  const ProgramTest test;
-  test.done(rough);
-  const auto found = test.answer("statistics rough.h5 --all");
-  const double rms_height = found["rms_height"];
-  CHECK(found["areal"]["Sq"] == Approx(rms_height).epsilon(1e-12));
-  // What is printed without --all is a part of it, in the same words.
-  const auto shown = test.answer("statistics rough.h5");
-  for (const auto& [name, value] : shown.items()) CHECK(found[name] == value);
-  CHECK(keys(shown) ==
-        "nx ny size_x size_y periodic undefined_points filled_points mean rms_height skewness "
-        "kurtosis moment0 moment2 moment4 rms_slope nayak hurst rolloff short_cutoff summits "
-        "reliability");
-  CHECK(found["correlation"]["autocorrelation"][0] ==
-        Approx(rms_height * rms_height).epsilon(1e-12));
-  // S(dx) = dx² ⟨(Δh/dx)²⟩, and the first entry of the scale-dependent slope is the slope by
-  // differences.
-  const double dx = 1e-6 / 64, slope = found["scale_x"]["profile_slope"][0];
-  CHECK(found["correlation_x"]["structure"][1] == Approx(slope * slope * dx * dx).epsilon(1e-9));
-  // Σ modes·C·d²q = h_rms².
-  double sum = 0;
-  for (std::size_t k = 0; k < found["psd"]["modes"].size(); ++k)
-    sum += found["psd"]["modes"][k].get<double>() * found["psd"]["psd"][k].get<double>();
-  const double cell = std::pow(2 * std::numbers::pi / 1e-6, 2);
-  CHECK(sum * cell == Approx(rms_height * rms_height).epsilon(1e-10));
-  CHECK(integral(found["bearing"]["area_fraction"], found["bearing"]["height"]) ==
-        Approx(0).margin(0.01 * rms_height));
-  double fraction = 0;
-  for (const auto& points : found["histogram"]["points"]) fraction += points.get<double>();
-  CHECK(fraction == 64 * 64);
-  CHECK(found["reliability"]["wavelength"] == Approx(2 * dx));
-}
-
 TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[statistics]") {
   const ProgramTest test;
   test.done(rough);
@@ -83,42 +50,6 @@ TEST_CASE("Tables are written as CSV, JSON and HDF5 with the same numbers", "[st
   CHECK(density == json["psd"]["psd"][0].get<double>());
   CHECK(test.read("scan.csv").find("areal.Sdr,") != std::string::npos);
   check_refused(test.run("statistics rough.h5 -o scan.csv"), "scan.csv");
-}
-
-TEST_CASE("A convention changes the numbers of the spectrum and says so", "[statistics]") {
-  const ProgramTest test;
-  test.done(rough);
-  const auto own = test.answer("statistics rough.h5 --all")["psd"];
-  const auto theirs =
-      test.answer("statistics rough.h5 --convention surface-topography --all")["psd"];
-  CHECK(theirs["psd"][3] ==
-        Approx(4 * std::pow(std::numbers::pi, 2) * own["psd"][3].get<double>()).epsilon(1e-12));
-  CHECK(own["note"] != theirs["note"]);
-  const auto gwyddion = test.answer("statistics rough.h5 --convention gwyddion --all")["psd"];
-  CHECK(gwyddion["units"]["psd"] == "m^3");
-}
-
-TEST_CASE("Undefined points take no part, and are filled on request only", "[statistics]") {
-  const ProgramTest test;
-  std::string matrix = "# Channel: test\n# Width: 8 um\n# Height: 6 um\n# Value units: nm\n";
-  for (int row = 0; row < 6; ++row) {
-    for (int column = 0; column < 8; ++column)
-      matrix +=
-          row == 2 && column == 3 ? "nan\t" : std::to_string((row * 5 + column * 3) % 7) + "\t";
-    matrix += "\n";
-  }
-  test.write("scan.txt", matrix);
-  const auto without = test.done("statistics scan.txt --all --json --detrend mean");
-  CHECK(without.err.find("--fill") != std::string::npos);
-  const auto found = without.json();
-  CHECK(found["undefined_points"] == 1);
-  CHECK(found.count("psd") == 0);
-  CHECK(found["hurst"]["value"].is_null());
-  const auto filled = test.answer("statistics scan.txt --all --json --detrend mean --fill");
-  CHECK(filled["filled_points"] == 1);
-  CHECK(filled.count("psd") == 1);
-  // What needs no filling is the same.
-  CHECK(filled["areal"]["Sq"] == found["areal"]["Sq"]);
 }
 
 TEST_CASE("Measured surfaces are read as another program reads them", "[statistics]") {

@@ -16,34 +16,6 @@ const std::string study = study_text();
 
 }  // namespace
 
-TEST_CASE("A study answers with the agreed keys and one file", "[study]") {
-  const ProgramTest test;
-  test.write("study.toml", study);
-  const auto result = test.done("study study.toml --json -o result.h5");
-  const auto answer = result.json();
-  CHECK(keys(answer) == std::set<std::string>{"validity", "conditions", "premises",
-                                              "largest_motion", "regime", "decay_length",
-                                              "decay_length_over_rms_height", "damping",
-                                              "comparison", "realisations", "flags", "files"});
-  CHECK(answer["realisations"] == 3);
-  CHECK(keys(answer["flags"]) == std::set<std::string>{"finite_size", "few_spots"});
-  CHECK(keys(answer["decay_length"]) == std::set<std::string>{"mean", "low", "high"});
-  CHECK(answer["decay_length"]["low"] < answer["decay_length"]["mean"]);
-  CHECK(answer["decay_length"]["mean"] < answer["decay_length"]["high"]);
-  // What every rough surface shows, with a wide margin.
-  CHECK(answer["decay_length_over_rms_height"]["mean"] > 0.2);
-  CHECK(answer["decay_length_over_rms_height"]["mean"] < 0.8);
-  CHECK(answer["damping"]["pressure"].size() == 10);
-  CHECK(answer["damping"]["damping_constant"]["mean"].size() == 10);
-  CHECK(keys(answer["comparison"]) ==
-        std::set<std::string>{"bem", "gw_moments", "gw_deterministic"});
-  CHECK(answer["files"]["results"] == "result.h5");
-  std::set<std::string> files{"study.toml", "result.h5"};
-  // A build without plotly.js writes no page.
-  if (!answer["files"]["report"].is_null()) files.insert("result.html");
-  CHECK(test.files() == files);
-}
-
 TEST_CASE("A study's answer fits a screen: numbers, validity, accuracy, law and files", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study);
@@ -73,34 +45,6 @@ TEST_CASE("A study's answer fits a screen: numbers, validity, accuracy, law and 
                  Contains("l/h_rms"));
   CHECK_THAT(test.run("study study.toml --progress always").err, Contains("study"));
   CHECK(test.run("study study.toml --quiet --progress never").err.empty());
-}
-
-TEST_CASE("Options of the motion override single entries of a study file", "[study]") {
-  const ProgramTest test;
-  test.write("study.toml", study);
-  const auto printed = [&](const std::string& options) {
-    const auto result = test.run("study " + options + " --quiet --progress never");
-    return result.status == 0 ? result.out : result.err;
-  };
-  CHECK_THAT(printed("study.toml --drag-velocity 0.5mm/s"),
-             Contains("slow shear at 500 µm/s under 100 pm at 20 kHz"));
-  // Another mode keeps what both have.
-  CHECK_THAT(printed("study.toml --mode equal-frequency"),
-             Contains("--tangential-amplitude, --phase: not given"));
-  const auto both = " --mode equal-frequency --tangential-amplitude 0.2nm --phase 90deg";
-  CHECK_THAT(printed(std::string("study.toml") + both),
-             Contains("200 pm along and 100 pm across the surface"));
-
-  const std::string drag = "drag_velocity = \"1mm/s\"";
-  std::string equal = study;
-  equal.replace(equal.find(drag), drag.size(),
-                "mode = \"equal-frequency\"\ntangential_amplitude = \"0.2nm\"\nphase = \"90deg\"");
-  test.write("equal.toml", equal);
-  CHECK_THAT(printed("equal.toml --normal-amplitude 0.3nm"),
-             Contains("200 pm along and 300 pm across the surface"));
-  CHECK_THAT(printed("equal.toml --drag-velocity 1mm/s"),
-             Contains("slow shear at 1 mm/s under 100 pm at 20 kHz"));
-  CHECK_THAT(printed("equal.toml --mode drag"), Contains("--drag-velocity: not given"));
 }
 
 TEST_CASE("A damping constant of a study has its error, and none is printed that is no larger",
@@ -206,28 +150,6 @@ TEST_CASE("A relative error is met, or the study says what was reached and gives
   CHECK(test.run("study study.toml --seam-error none").status == 2);
 }
 
-TEST_CASE("A study without a decay length answers with what it has", "[study]") {
-  const ProgramTest test;
-  test.write("few.toml", close_study_text());
-  const auto text = test.done("study few.toml");
-  CHECK_THAT(text.out, Contains("n/a") && !Contains("nan"));
-  CHECK_THAT(text.err, Contains("no decay length on 2 of 2 surfaces"));
-  const auto answer = test.run("study few.toml --json --quiet -o few.h5").json();
-  CHECK(answer["decay_length"]["mean"].is_null());
-  CHECK(answer["damping"]["damping_constant"]["mean"][1] > 0);
-  CHECK(test.run("compare few.toml --quiet").status == 0);
-}
-
-TEST_CASE("A study of a measured surface says that it is continued periodically", "[study]") {
-  const ProgramTest test;
-  test.write("measured.toml", contact_text());
-  const auto result = test.done("study measured.toml --surface " SALEBRA_DATA
-                                "/surfaces/afm-scan.txt --json -o result.h5");
-  CHECK_THAT(result.err, Contains("salebra: warning: ") && Contains("periodically"));
-  CHECK(result.json()["decay_length_over_rms_height"]["mean"] > 0.1);
-  check_refused(test.run("study measured.toml"), "surface");
-}
-
 TEST_CASE("An interrupted study keeps the surfaces that it has finished and says how to go on",
           "[study]") {
   const ProgramTest test;
@@ -313,62 +235,4 @@ TEST_CASE("Without levels the loss is that of the curve, and no error is stated"
   std::string text = study_text("seeds = [3]");
   test.write("study.toml", text + "levels = 0\n");
   CHECK(test.run("study study.toml --no-stick --json").json()["damping"] == damping);
-}
-
-TEST_CASE("A comparison has every model, its ratios and the theories", "[study]") {
-  const ProgramTest test;
-  std::string text = study;
-  text.replace(text.find("hurst = 0.8\n"), 12, "");
-  test.write("study.toml", text + "[ensemble]\nhurst = [0.5, 0.8]\n");
-  const auto result = test.done("compare study.toml --json --no-stick --no-report -o result.h5");
-  const auto answer = result.json();
-  REQUIRE(answer["points"].size() == 2);
-  const auto& point = answer["points"][1];
-  CHECK(point["point"] == "H = 0.8");
-  CHECK(keys(point["models"]) == std::set<std::string>{"bem", "gw_moments", "gw_deterministic",
-                                                       "gw_monte_carlo", "gw_interacting",
-                                                       "persson", "greenwood_tripp"});
-  // √(2π) and √(8/π).
-  CHECK(point["theories"]["bgt_area_slope"] == Approx(2.50662827463));
-  CHECK(point["theories"]["persson_area_slope"] == Approx(1.59576912161));
-  CHECK(point["models"]["bem"]["area_slope"]["mean"] > 1.2);
-  CHECK(point["models"]["bem"]["area_slope"]["mean"] < 3);
-  CHECK(point["spots"]["corrected_area_slope"]["mean"] <
-        point["models"]["bem"]["area_slope"]["mean"]);
-  CHECK(point["models"]["gw_moments"]["over_bem"]["work_per_cycle"]["mean"].size() == 10);
-  const auto words = test.done("compare study.toml --no-stick --quiet");
-  CHECK_THAT(words.out, Contains("== H = 0.5 ==") && Contains("Bush, Gibson, Thomas") &&
-                            Contains("area less its edge") && Contains("theorem") &&
-                            Contains("Note: finite size"));
-}
-
-TEST_CASE("A study with adhesion answers with pull-off, work and loop, and has no damping",
-          "[study][adhesion]") {
-  const ProgramTest test;
-  test.write("sticky.toml", adhesive_study_text());
-  const auto answer = test.answer("study sticky.toml -o sticky.h5");
-  CHECK_FALSE(answer.contains("damping"));
-  CHECK_FALSE(answer.contains("premises"));
-  const auto adhesion = answer["adhesion"];
-  CHECK(adhesion["mean_gap"].size() == 14);
-  CHECK(adhesion["unloading_pressure"]["mean"].size() == 14);
-  CHECK(adhesion["pull_off_pressure"]["low"] > 0);
-  CHECK(adhesion["adhesion_work_error"]["mean"] > 0);
-  CHECK(adhesion.contains("reversible"));
-  CHECK(answer["curve"]["contact_area_fraction"]["low"].size() == 5);
-  const salebra::ResultReader file(test.folder() / "sticky.h5");
-  CHECK_FALSE(file.has("damping"));
-  CHECK(file.numbers("adhesion/ensemble_unloading_pressure_mean") ==
-        adhesion["unloading_pressure"]["mean"].get<std::vector<double>>());
-  CHECK(file.number_attribute("adhesion", "ensemble_pull_off_pressure_mean") ==
-        adhesion["pull_off_pressure"]["mean"]);
-  if (!answer["files"]["report"].is_null())
-    CHECK_THAT(test.read("sticky.html"), Contains("Adhesion: pull-off at"));
-  const auto words = test.done("study sticky.toml --quiet");
-  CHECK_THAT(words.out, Contains("Adhesion: w = ") && Contains("pull-off") && Contains("95 %") &&
-                            !Contains("Damping constant"));
-  CHECK_THAT(test.done("compare sticky.toml --models gw_jkr,gw_dmt --quiet").out,
-             Contains("Fuller-Tabor") && Contains("Pull-off") && !Contains("theorem"));
-  CHECK_THAT(test.run("study sticky.toml --normal-amplitude 1nm").err,
-             Contains("--normal-amplitude: is not known with adhesion"));
 }
