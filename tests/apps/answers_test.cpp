@@ -276,7 +276,8 @@ class Table {
       for (std::size_t k = 1; k < sides.size(); ++k)
         CHECK_THAT(text(left), Contains(replaced(sides[k], "\\n", "\n")));
     } else if (word == " lacks ") {
-      for (std::size_t k = 1; k < sides.size(); ++k) CHECK_THAT(text(left), !Contains(sides[k]));
+      for (std::size_t k = 1; k < sides.size(); ++k)
+        CHECK_THAT(text(left), !Contains(replaced(sides[k], "\\n", "\n")));
     } else if (word == " is ") {
       is(left, right);
     } else if (word == " same ") {
