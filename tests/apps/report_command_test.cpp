@@ -61,6 +61,12 @@ TEST_CASE("report makes the same page again, whole or not at all", "[report]") {
   const auto full = test.run("report result.h5 -o full.html", "ulimit -f 64;");
   CHECK(full.status == 1);
   CHECK(test.files() == "study.toml result.h5 result.html again.html");
+
+  // A study of 0.1.0 has its page too, and one with adhesion says where it comes off.
+  test.done("report " SALEBRA_TABLES "/files_of_0.1.0/study.h5 -o former.html");
+  test.write("sticky.toml", adhesive_study_text());
+  test.done("study sticky.toml -o sticky.h5");
+  CHECK_THAT(test.read("sticky.html"), Contains("Adhesion: pull-off at"));
 }
 
 TEST_CASE("report refuses what holds no study", "[report]") {
