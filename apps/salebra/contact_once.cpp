@@ -202,8 +202,8 @@ class OnePosition {
   void add_stiffness() {
     const double area = surface_.grid.area();
     SweepOptions options{.contact = options_, .stick = arguments_.stick};
-    // Cells that flow carry the tension as well.
-    if (arguments_.adhesive()) options.contact.hardness += arguments_.adhesion().largest_tension();
+    if (arguments_.adhesive())
+      options.contact.hardness = arguments_.adhesion().pressure_bound(options_.hardness);
     const ForceSample sample = force_sample(state_, surface_, material_, options);
     const Json columns = json_of(sample, area);
     for (const char* name :

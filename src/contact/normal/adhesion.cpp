@@ -227,8 +227,7 @@ class AdhesiveSolve {
  private:
   double largest() const { return adhesion_.largest_tension(); }
   bool yields() const { return std::isfinite(options_.contact.hardness); }
-  // Of p where p − t is the hardness.
-  double bound() const { return options_.contact.hardness + largest(); }
+  double bound() const { return adhesion_.pressure_bound(options_.contact.hardness); }
 
   AdhesiveTarget target_of(const Target& target) const {
     const auto& [pressure, mean_gap, indentation, force] = target;

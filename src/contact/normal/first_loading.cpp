@@ -122,7 +122,7 @@ ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const NormalContactOptions& options) {
   return residual_of(std::move(surface), contact_modulus, state,
                      state.contact_pressure - state.tension,
-                     options.hardness + adhesion.largest_tension(), options.boundary);
+                     adhesion.pressure_bound(options.hardness), options.boundary);
 }
 
 ResidualSurface after_first_loading(Surface surface, double contact_modulus,

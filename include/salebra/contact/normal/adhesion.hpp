@@ -33,6 +33,8 @@ struct Adhesion {
   double energy(double gap) const;   ///< φ(g), J/m²
   double tension(double gap) const;  ///< φ'(g), Pa
   double largest_tension() const;    ///< φ'(0), Pa: w/ρ, or 2w/ρ of van_der_waals
+  /// Of the contact pressure p in a first loading, H + φ'(0), Pa: bodies that touch carry p − t.
+  double pressure_bound(double hardness) const { return hardness + largest_tension(); }
   bool operator==(const Adhesion&) const = default;
 };
 
@@ -128,8 +130,9 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 ///            (out of first touch). Under a pull that nothing holds the state is detached. At a
 ///            given mean gap, and of a free contact at an indentation, the force passes its minimum
 /// throws     InvalidInput before any work as press(); for less than 1.4 cells in the process zone,
-///            unless forced; with a hardness for anything but a load > 0 below it; for a free boundary at which the undeformed gap has
-///            more than 1e-2 of the largest tension. Non-convergence is returned, not thrown
+///            unless forced; with a hardness for anything but a load > 0 below it; for a free
+///            boundary at which the undeformed gap has more than 1e-2 of the largest tension.
+///            Non-convergence is returned, not thrown
 /// cost       10 to 40 contacts that start from each other, of some pairs each; 130 bytes a cell
 ///            in addition to those of press(). Collective where the surface is spread, with the same
 ///            bits for every number of processes and threads
