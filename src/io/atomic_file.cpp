@@ -87,6 +87,17 @@ void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t
   }
 }
 
+void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+             std::span<char> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t got = without_interruption(
+        [&] { return pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place)); });
+    if (got <= 0) fail_at(target, "be read back", got < 0 ? errno : EIO);
+    place += static_cast<std::uint64_t>(got);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+}
+
 void flush(const std::filesystem::path& target, int descriptor) {
   if (without_interruption([&] { return fsync(descriptor); }) != 0)
     fail_at(target, "be written", errno);
@@ -108,7 +119,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& 
         target.parent_path() / ("." + target.filename().string() + "." + std::to_string(getpid()) +
                                 "-" + std::to_string(attempt) + ".part");
     descriptor_ = without_interruption(
-        [&] { return open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+        [&] { return open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     if (descriptor_ < 0 && errno == ENAMETOOLONG)
       throw InvalidInput(target.string(),
                          "the name is too long for this file system; shorten it to 225 bytes");

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <salebra/io/output.hpp>
+#include <span>
 #include <string_view>
 
 namespace salebra::detail {
@@ -12,6 +13,10 @@ namespace salebra::detail {
 /// will be known.
 void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
               std::string_view bytes);
+
+/// Reads what was written there. Throws as write_at() does, also where the file is shorter.
+void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+             std::span<char> bytes);
 
 /// Flushes an open file to the disk. Throws as write_at() does.
 void flush(const std::filesystem::path& target, int descriptor);

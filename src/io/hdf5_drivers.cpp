@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// HDF5 file drivers: of an open descriptor, and of a file in memory with holes.
+// HDF5 file drivers: of an open descriptor, and of a file in the making.
 #include "hdf5_drivers.hpp"
 
 #include <sys/stat.h>
@@ -102,81 +102,80 @@ H5FD_class_t driver_class() {
 
 /// What a file access property list carries.
 struct Access {
-  SparseImage* image;
+  PagedFile* pages;
 };
 
-struct SparseFile : DriverFile {
-  SparseImage* image = nullptr;
+struct NewFile : DriverFile {
+  PagedFile* pages = nullptr;
 };
 
-H5FD_t* open_sparse(const char*, unsigned, hid_t access, haddr_t) {
+H5FD_t* open_new(const char*, unsigned, hid_t access, haddr_t) {
   const auto* given = static_cast<const Access*>(H5Pget_driver_info(access));
-  auto* file = given ? new (std::nothrow) SparseFile() : nullptr;
+  auto* file = given ? new (std::nothrow) NewFile() : nullptr;
   if (!file) return nullptr;
-  file->image = given->image;
+  file->pages = given->pages;
   return file;
 }
 
-herr_t close_sparse(H5FD_t* file) {
-  delete static_cast<SparseFile*>(file);
+herr_t close_new(H5FD_t* file) {
+  delete static_cast<NewFile*>(file);
   return 0;
 }
 
 /// As HDF5's own driver of files in memory has it, on which the layout of the file depends.
-herr_t features_of_sparse(const H5FD_t*, unsigned long* features) {
+herr_t features_of_new(const H5FD_t*, unsigned long* features) {
   *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE |
               H5FD_FEAT_AGGREGATE_SMALLDATA;
   return 0;
 }
 
-herr_t read_sparse(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
-                   void* buffer) {
-  static_cast<const SparseFile*>(file)->image->read(address, static_cast<char*>(buffer), size);
+herr_t read_new(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size, void* buffer) {
+  static_cast<const NewFile*>(file)->pages->read(address, static_cast<char*>(buffer), size);
   return 0;
 }
 
-herr_t write_sparse(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
-                    const void* buffer) {
-  auto& sparse = *static_cast<SparseFile*>(file);
+herr_t write_new(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, std::size_t size,
+                 const void* buffer) {
+  auto& made = *static_cast<NewFile*>(file);
   try {
-    sparse.image->write(address, static_cast<const char*>(buffer), size);
+    made.pages->write(address, static_cast<const char*>(buffer), size);
   } catch (const std::bad_alloc&) {
     return -1;
   }
-  sparse.end = std::max<haddr_t>(sparse.end, address + size);
+  made.end = std::max<haddr_t>(made.end, address + size);
   return 0;
 }
 
-herr_t lengthen_sparse(H5FD_t* file, hid_t, hbool_t) {
-  auto& sparse = *static_cast<SparseFile*>(file);
-  sparse.end = sparse.end_of_addresses;
+herr_t lengthen_new(H5FD_t* file, hid_t, hbool_t) {
+  auto& made = *static_cast<NewFile*>(file);
+  made.end = made.end_of_addresses;
   return 0;
 }
 
-/// Nothing else uses this memory. HDF5 marks a file as open only where it can lock it.
-herr_t lock_sparse(H5FD_t*, hbool_t) { return 0; }
-herr_t unlock_sparse(H5FD_t*) { return 0; }
+/// Nothing else writes to this file. HDF5 marks a file as open only where it can lock it.
+herr_t lock_new(H5FD_t*, hbool_t) { return 0; }
+herr_t unlock_new(H5FD_t*) { return 0; }
 
-H5FD_class_t sparse_driver_class() {
-  H5FD_class_t driver = driver_class_of("salebra_sparse", sizeof(Access));
-  driver.open = open_sparse;
-  driver.close = close_sparse;
-  driver.query = features_of_sparse;
-  driver.read = read_sparse;
-  driver.write = write_sparse;
-  driver.lock = lock_sparse;
-  driver.unlock = unlock_sparse;
-  driver.truncate = lengthen_sparse;
+H5FD_class_t new_driver_class() {
+  H5FD_class_t driver = driver_class_of("salebra_new", sizeof(Access));
+  driver.open = open_new;
+  driver.close = close_new;
+  driver.query = features_of_new;
+  driver.read = read_new;
+  driver.write = write_new;
+  driver.lock = lock_new;
+  driver.unlock = unlock_new;
+  driver.truncate = lengthen_new;
   constexpr H5FD_mem_t kinds[] = H5FD_FLMAP_DICHOTOMY;
   std::copy(std::begin(kinds), std::end(kinds), driver.fl_map);
   return driver;
 }
 
-Properties access_to(SparseImage& image) {
-  static const H5FD_class_t driver = sparse_driver_class();
+Properties access_to(PagedFile& pages) {
+  static const H5FD_class_t driver = new_driver_class();
   static const hid_t id = H5FDregister(&driver);
   Properties access = creation_access();
-  const Access info{&image};
+  const Access info{&pages};
   check(H5Pset_driver(access, id, &info), "prepare a file");
   return access;
 }
@@ -195,41 +194,95 @@ File open_descriptor(int descriptor) {
   return {H5Fopen("/descriptor", H5F_ACC_RDONLY, access), "open it as HDF5"};
 }
 
-void SparseImage::write(std::uint64_t place, const char* bytes, std::size_t count) {
+void PagedFile::write(std::uint64_t place, const char* bytes, std::size_t count) {
+  if (count >= page_size * most_pages) {
+    write_pages();
+    if (failure_) return;
+    try {
+      write_at(file_.target(), file_.descriptor(), place, {bytes, count});
+    } catch (const IoError&) {
+      failure_ = std::current_exception();
+    }
+    end_on_disk_ = std::max(end_on_disk_, place + count);
+    return;
+  }
   while (count > 0) {
     const std::size_t first = place % page_size, part = std::min(count, page_size - first);
-    std::vector<char>& page = pages_[place - first];
-    page.resize(page_size);
-    std::memcpy(page.data() + first, bytes, part);
+    std::memcpy(page(place - first).data() + first, bytes, part);
     place += part;
     bytes += part;
     count -= part;
   }
 }
 
-void SparseImage::read(std::uint64_t place, char* bytes, std::size_t count) const {
+void PagedFile::read(std::uint64_t place, char* bytes, std::size_t count) {
   while (count > 0) {
     const std::size_t first = place % page_size, part = std::min(count, page_size - first);
     const auto page = pages_.find(place - first);
-    if (page == pages_.end()) {
-      std::memset(bytes, 0, part);
-    } else {
+    if (page == pages_.end())
+      read_back(place, bytes, part);
+    else
       std::memcpy(bytes, page->second.data() + first, part);
-    }
     place += part;
     bytes += part;
     count -= part;
   }
 }
 
-File create_in(SparseImage& image) {
-  return {H5Fcreate("/sparse", H5F_ACC_TRUNC, H5P_DEFAULT, access_to(image)),
-          "create an HDF5 file in memory"};
+void PagedFile::require_written() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void PagedFile::finish(std::uint64_t size) {
+  require_written();
+  file_.reserve(size);
+  for (const auto& [place, page] : pages_)
+    if (place < size)
+      write_at(file_.target(), file_.descriptor(), place,
+               {page.data(), std::min<std::uint64_t>(page.size(), size - place)});
+}
+
+std::vector<char>& PagedFile::page(std::uint64_t start) {
+  const auto found = pages_.find(start);
+  if (found != pages_.end()) return found->second;
+  if (pages_.size() >= most_pages) write_pages();
+  std::vector<char> bytes(page_size);
+  read_back(start, bytes.data(), page_size);
+  return pages_.emplace(start, std::move(bytes)).first->second;
+}
+
+/// Where the disk fails, the pages stay, so that HDF5 finds what it wrote.
+void PagedFile::write_pages() {
+  if (failure_) return;
+  try {
+    for (const auto& [place, page] : pages_) {
+      write_at(file_.target(), file_.descriptor(), place, {page.data(), page.size()});
+      end_on_disk_ = std::max(end_on_disk_, place + page.size());
+    }
+    pages_.clear();
+  } catch (const IoError&) {
+    failure_ = std::current_exception();
+  }
+}
+
+void PagedFile::read_back(std::uint64_t place, char* bytes, std::size_t count) {
+  const std::size_t there = place < end_on_disk_ ? std::min(count, end_on_disk_ - place) : 0;
+  std::memset(bytes + there, 0, count - there);
+  if (there == 0) return;
+  try {
+    read_at(file_.target(), file_.descriptor(), place, {bytes, there});
+  } catch (const IoError&) {
+    if (!failure_) failure_ = std::current_exception();
+  }
+}
+
+File create_in(PagedFile& pages) {
+  return {H5Fcreate("/new", H5F_ACC_TRUNC, H5P_DEFAULT, access_to(pages)), "create an HDF5 file"};
 }
 
 std::uint64_t size_of(hid_t file) {
   hsize_t size = 0;
-  check(H5Fget_filesize(file, &size), "read the size of an HDF5 file in memory");
+  check(H5Fget_filesize(file, &size), "read the size of an HDF5 file");
   return size;
 }
 

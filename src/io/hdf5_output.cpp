@@ -14,9 +14,6 @@
 namespace salebra::detail::hdf5 {
 namespace {
 
-/// By which the file in memory grows.
-constexpr std::size_t increment = 1 << 16;
-
 /// Types in the file are little-endian whatever the machine, so that a file is the same everywhere.
 struct Types {
   hid_t file, memory;
@@ -39,23 +36,6 @@ std::string joined(const std::vector<hsize_t>& shape) {
   std::string text;
   for (const hsize_t extent : shape) text += (text.empty() ? "" : " x ") + std::to_string(extent);
   return text.empty() ? "a scalar" : text;
-}
-
-/// A file in memory under a name that no other has: nothing can lie below a file.
-File file_in_memory(const std::filesystem::path& temporary) {
-  const Properties access = creation_access();
-  check(H5Pset_fapl_core(access, increment, false), "prepare a file");
-  return {H5Fcreate((temporary / "image").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access),
-          "create an HDF5 file in memory"};
-}
-
-/// The bytes of a flushed file in memory, valid while it is open.
-std::string_view image_of(hid_t file) {
-  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
-  void** bytes = nullptr;
-  check(size > 0 ? H5Fget_vfd_handle(file, H5P_DEFAULT, reinterpret_cast<void**>(&bytes)) : -1,
-        "read an HDF5 file in memory");
-  return {static_cast<const char*>(*bytes), static_cast<std::size_t>(size)};
 }
 
 /// The dimension scales that a dataset lies on.
@@ -116,12 +96,12 @@ void require_free(hid_t group, const std::string& name) {
 
 Output::Output(const std::filesystem::path& file, const Provenance& provenance,
                const WriteOptions& options, const Communicator& ranks, Fields fields)
-    : target_(file), ranks_(ranks), in_image_(ranks.alone() && fields == Fields::copied) {
+    : target_(file), ranks_(ranks), copies_fields_(ranks.alone() && fields == Fields::copied) {
   if (!ranks_.is_root()) return;
   atomic_.emplace(file, options);
   be_silent();
   closed_before_ = failed_closes();
-  file_ = in_image_ ? file_in_memory(atomic_->temporary()) : create_in(image_);
+  file_ = create_in(pages_.emplace(*atomic_));
   root_ = Group(H5Gopen2(file_, "/", H5P_DEFAULT), "open the root of " + file.string());
   attribute(root_, "program", std::string_view("salebra"));
   attribute(root_, "version", version());
@@ -215,6 +195,7 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
       check(H5Dwrite(dataset, types_of(values).memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
             "write " + name);
   }
+  pages_->require_written();
   attribute(dataset, "units", label.units);
   attribute(dataset, "long_name", label.long_name);
   return dataset;
@@ -234,7 +215,7 @@ Dataset Output::field(hid_t group, const std::string& name, const Field& values,
                       const std::vector<std::string>& dimensions, const Label& label,
                       FieldType type) {
   const bool single = type == FieldType::float32;
-  if (in_image_) {
+  if (copies_fields_) {
     const auto count = static_cast<std::size_t>(values.size());
     if (!single) return dataset(group, name, values.data(), count, dimensions, label);
     const std::vector<float> rounded(values.data(), values.data() + count);
@@ -282,39 +263,26 @@ void Output::text_scale(hid_t group, const std::string& name,
   check(H5DSset_scale(dataset, name.c_str()), "write " + name);
 }
 
-void Output::commit() {
-  if (in_image_) return commit_image();
-  commit_spread();
-}
-
-void Output::commit_image() {
-  const std::string name = target_.string();
-  if (!root_.closed()) throw IoError("cannot close the root of " + name);
-  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
-  atomic_->write(image_of(file_));
-  if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
-  atomic_->commit();
-}
-
 void Output::write_without_fields() {
   const std::string name = target_.string();
   if (!root_.closed()) throw IoError("cannot close the root of " + name);
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write " + name);
-  const std::uint64_t size = size_of(file_);
-  atomic_->reserve(size);
-  for (const auto& [place, page] : image_.pages())
-    if (place < size)
-      write_at(target_, atomic_->descriptor(), place,
-               {page.data(), std::min<std::uint64_t>(page.size(), size - place)});
+  pages_->finish(size_of(file_));
   if (!file_.closed() || failed_closes() != closed_before_) throw IoError("cannot close " + name);
 }
 
-void Output::commit_spread() {
-  static_assert(std::endian::native == std::endian::little);
-  const std::string name = target_.string();
+void Output::commit() {
   collectively(ranks_, [&] {
     if (ranks_.is_root()) write_without_fields();
   });
+  if (!copies_fields_) write_fields();
+  collectively(ranks_, [&] {
+    if (atomic_) atomic_->commit();
+  });
+}
+
+void Output::write_fields() {
+  static_assert(std::endian::native == std::endian::little);
   std::string temporary = atomic_ ? atomic_->temporary().string() : "";
   std::array<std::size_t, 2> lengths{temporary.size(), spread_.size()};
   ranks_.broadcast(lengths.data(), sizeof lengths);
@@ -340,9 +308,6 @@ void Output::commit_spread() {
                  bytes_of(mine.data(), mine.size()));
     }
     flush(target_, file.descriptor());
-  });
-  collectively(ranks_, [&] {
-    if (atomic_) atomic_->commit();
   });
 }
 

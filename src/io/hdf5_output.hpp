@@ -23,13 +23,13 @@ struct Label {
 };
 
 /// An HDF5 file in the making, whose datasets have units, names and dimension scales.
-/// It is made in memory and written as bytes at the end: HDF5 does not report every failed write
-/// (small datasets are flushed by the closing of a handle) and crashes at the end of a process
-/// where a file could not be closed. Memory: the size of the file. Over several processes the root
-/// alone makes the file, with holes for the fields that are spread, which each process then fills
-/// with its rows. What another process than the root adds is nothing but its rows. The bytes are
-/// those of one process. One process that leaves its fields where they are does the same, and needs
-/// no memory for them.
+/// HDF5 writes to pages in memory, which go to the temporary file by calls whose failure is seen:
+/// HDF5 does not report every failed write (small datasets are flushed by the closing of a handle)
+/// and crashes at the end of a process where a file could not be closed. Over several processes the
+/// root alone makes the file, with holes for the fields that are spread, which each process then
+/// fills with its rows. What another process than the root adds is nothing but its rows. The bytes
+/// are those of one process. One process that leaves its fields where they are does the same.
+/// cost     memory: some megabytes, whatever the size of the file
 class Output {
  public:
   enum class Fields { copied, stay };
@@ -75,9 +75,8 @@ class Output {
   template <class T>
   Dataset create(hid_t group, const std::string& name, const T* values,
                  const std::vector<hsize_t>& shape, const Label& label, bool spread = false);
-  void commit_image();
-  void commit_spread();
   void write_without_fields();
+  void write_fields();
 
   /// A field of which each process writes its rows.
   struct Spread {
@@ -87,16 +86,16 @@ class Output {
 
   std::filesystem::path target_;
   Communicator ranks_;
-  bool in_image_;                     ///< the fields of this only process
+  bool copies_fields_;                ///< to the pages, as this process has all of them
   std::optional<AtomicFile> atomic_;  ///< of the root
   std::vector<Spread> spread_;        ///< of the root, until commit()
   struct Rows {
     const Field* values;
     FieldType type;
   };
-  std::vector<Rows> fields_;  ///< the rows of this process, for each of them
-  SparseImage image_;         ///< of the root, without the fields
-  int closed_before_ = 0;     ///< failed_closes() at the start
+  std::vector<Rows> fields_;        ///< the rows of this process, for each of them
+  std::optional<PagedFile> pages_;  ///< of the root
+  int closed_before_ = 0;           ///< failed_closes() at the start
   File file_;
   Group root_;
 };

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <salebra/base/error.hpp>
@@ -31,9 +32,11 @@ class CaseRun {
         run_(run),
         report_(start),
         seeds_(seeds_of(result.configuration)),
-        realisations_(seeds_.size()),
         fractions_(seeds_.size()),
-        precision_(result.configuration) {}
+        precision_(result.configuration) {
+    // A list that doubles would need three times its memory for a moment.
+    if (result.configuration.target_precision <= 0) found_.reserve(seeds_.size());
+  }
 
   void go() {
     restore();
@@ -50,9 +53,8 @@ class CaseRun {
       if (failure_) std::rethrow_exception(failure_);
     });
     // Realisations beyond a gap, or beyond the number that is enough, take no part.
-    const std::size_t used = std::min(prefix_, limit_.load());
-    for (std::size_t i = 0; i < used; ++i)
-      result_.realisations.push_back(std::move(*realisations_[i]));
+    const std::size_t used = std::min(found_.size(), limit_.load());
+    found_.erase(found_.begin() + std::ptrdiff_t(used), found_.end());
     result_.precision_reached = limit_ < seeds_.size();
     result_.interrupted = used < std::min(limit_.load(), seeds_.size());
   }
@@ -69,8 +71,7 @@ class CaseRun {
         if (run_.parts) found = run_.parts->read(StudyParts::key(result_.configuration, seeds_[i]));
       });
       for (Found& one : shared({i, std::move(found)})) {
-        realisations_[i] = std::move(one.realisation);
-        note(i, 0, true);
+        note(i, std::move(*one.realisation), 0, true);
       }
     }
   }
@@ -109,7 +110,7 @@ class CaseRun {
       const auto start = Clock::now();
       std::size_t next = 0;
       for (std::size_t& place : turn) {
-        while (next < seeds_.size() && realisations_[next]) ++next;
+        while (next < seeds_.size() && is_there(next)) ++next;
         place = next < seeds_.size() && !stop_ && is_wanted(next) ? next++ : none;
       }
       all.broadcast(turn.data(), turn.size() * sizeof(std::size_t));
@@ -126,8 +127,7 @@ class CaseRun {
           if (run_.parts)
             run_.parts->write(StudyParts::key(result_.configuration, seeds_[i]), made);
         });
-        realisations_[i] = std::move(realisation);
-        note(i, seconds, false);
+        note(i, std::move(*realisation), seconds, false);
       }
       talk();
       turn.resize(std::size_t(groups.count()));
@@ -162,10 +162,11 @@ class CaseRun {
 
   void note_missing() {
     for (std::size_t i = 0; i < std::min(limit_.load(), seeds_.size()); ++i)
-      if (!realisations_[i]) run_.missing->push_back(report_.finished + i);
+      if (!is_there(i)) run_.missing->push_back(report_.finished + i);
   }
 
   bool is_wanted(std::size_t i) const { return i < limit_; }
+  bool is_there(std::size_t i) const { return i < found_.size() || ahead_.contains(i); }
 
   void compute(std::size_t i) {
     if (!is_wanted(i) || restored(i)) return;
@@ -179,8 +180,8 @@ class CaseRun {
       if (run_.parts)
         run_.parts->write(StudyParts::key(result_.configuration, seeds_[i]), realisation);
       const std::scoped_lock lock(guard_);
-      realisations_[i] = std::move(realisation);
-      note(i, std::chrono::duration<double>(Clock::now() - start).count(), false);
+      note(i, std::move(realisation), std::chrono::duration<double>(Clock::now() - start).count(),
+           false);
     } catch (const Interrupted&) {
       // Stopped, or not wanted any more.
     }
@@ -188,14 +189,16 @@ class CaseRun {
 
   bool restored(std::size_t i) {
     const std::scoped_lock lock(guard_);
-    return realisations_[i].has_value();
+    return is_there(i);
   }
 
   /// With the guard held, or before there are threads.
-  void note(std::size_t i, double seconds, bool restored) {
+  void note(std::size_t i, Realisation realisation, double seconds, bool restored) {
     fractions_[i] = 1;
-    while (prefix_ < realisations_.size() && realisations_[prefix_]) {
-      if (precision_.met_with(*realisations_[prefix_++])) limit_ = std::min(limit_.load(), prefix_);
+    ahead_.emplace(i, std::move(realisation));
+    while (!ahead_.empty() && ahead_.begin()->first == found_.size()) {
+      found_.push_back(std::move(ahead_.extract(ahead_.begin()).mapped()));
+      if (precision_.met_with(found_.back())) limit_ = std::min(limit_.load(), found_.size());
     }
     RealisationReport item = report_;
     item.finished += ++finished_;
@@ -238,12 +241,12 @@ class CaseRun {
   const StudyRun& run_;
   const RealisationReport report_;  ///< as it was when the point began
   const std::vector<std::uint64_t> seeds_;
-  std::vector<std::optional<Realisation>> realisations_;
+  std::vector<Realisation>& found_ = result_.realisations;  ///< from the first seed on
+  std::map<std::size_t, Realisation> ahead_;                ///< those that wait for an earlier one
   std::vector<std::atomic<double>> fractions_;
   std::vector<RealisationReport> news_;
   std::atomic<std::size_t> finished_ = 0;
   PrecisionRule precision_;
-  std::size_t prefix_ = 0;  ///< so many from the first on are there
   std::atomic<std::size_t> limit_ = std::numeric_limits<std::size_t>::max();
   std::mutex guard_;
   TaskLoop loop_{{.at_once = 0, .ranks = {}, .talk = [this] { return report(); }}};

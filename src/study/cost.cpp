@@ -108,7 +108,7 @@ double kept_bytes(const StudyConfiguration& point, const Grid2D& grid) {
   const auto loads = static_cast<double>(point.pressures.size());
   const auto models = static_cast<double>(point.models.size());
   const int sizes = std::bit_width(static_cast<std::uint64_t>(grid.points()));
-  return sizeof(Realisation) +
+  return sizeof(Realisation) + models * sizeof(ModelResult) +
          loads * (models * (sizeof(ForceSample) + sizeof(DampingPoint) + 2 * sizeof(double)) +
                   sizeof(SpotStatistics) + sizes * sizeof(double));
 }

@@ -90,6 +90,11 @@ std::vector<Case> all_cases() {
       {"contact_checkpoint", in,
        "contact IN/s.h5 --pressure 5MPa -o out.h5 --checkpoint out.state --checkpoint-every 0" +
            material},
+      // Several megabytes, which go to the disk while the file is made.
+      {"contact_large",
+       {"generate --points 384 --size-x 1um --method random-phase --hurst 0.8 --rolloff 0.5um "
+        "--short-cutoff 250nm --rms-height 10nm -o s.h5"},
+       "contact IN/s.h5 --pressure 5MPa --tolerance 1e-3 -o out.h5" + material},
       {"contact_curve", in, curve + " -o out.h5"},
       {"contact_cycle", in,
        "contact IN/s.h5 --mean-gap 60:30nm:4 --cycle --work-of-adhesion 10mJ/m2 --adhesion-range "

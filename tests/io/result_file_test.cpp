@@ -74,6 +74,37 @@ TEST_CASE("Results are read back as they were written", "[result file]") {
   CHECK_THROWS_AS(ResultReader(scratch / "absent.h5"), InvalidInput);
 }
 
+TEST_CASE("A file larger than what its maker keeps in memory is read back as it was written",
+          "[result file]") {
+  // Pages of 64 kB go to the disk by the megabyte, and a megabyte at once goes there directly: the
+  // long lists, whose ends share pages with what is written before and after them. Lists of all
+  // lengths and the attributes between them come back to pages that have left.
+  const Scratch scratch;
+  ResultFile results(scratch / "large.h5", {});
+  const auto values = [](std::size_t k, std::size_t count) {
+    std::vector<double> list(count);
+    for (std::size_t i = 0; i < count; ++i) list[i] = std::sin(double(i + 31 * k));
+    return list;
+  };
+  constexpr std::size_t lengths[] = {3, 131072, 1000, 150001, 9000, 40000};
+  std::vector<ResultGroup> groups;
+  for (std::size_t k = 0; k < 24; ++k) {
+    groups.push_back(results.group("group" + std::to_string(k)));
+    groups[k].coordinate("x", values(k, lengths[k % 6]), "m", "position");
+    groups[k].dataset("y", values(k + 1, lengths[k % 6]), {"x"}, "m", "height");
+    groups[k / 2].attribute("note" + std::to_string(k), std::string(2000, char('a' + k)));
+  }
+  results.commit();
+  const ResultReader reader(scratch / "large.h5");
+  for (std::size_t k = 0; k < 24; ++k) {
+    const std::string group = "group" + std::to_string(k);
+    CHECK(reader.numbers(group + "/x") == values(k, lengths[k % 6]));
+    CHECK(reader.numbers(group + "/y") == values(k + 1, lengths[k % 6]));
+    CHECK(reader.text_attribute("group" + std::to_string(k / 2), "note" + std::to_string(k)) ==
+          std::string(2000, char('a' + k)));
+  }
+}
+
 TEST_CASE("Datasets hang on HDF5 dimension scales and carry units and names", "[result file]") {
   // What xarray and h5netcdf go by, asked of the HDF5 library itself.
   const Scratch scratch;
