@@ -20,7 +20,8 @@ Standings position_of(const LawOptions& arguments, const std::vector<Standing>& 
   std::vector<std::string> options;
   for (const Standing standing : allowed) options.push_back(option_named(standing));
   if (given.empty())
-    throw InvalidInput(fmt::format("{}", fmt::join(options, ", ")), "not given; give one of them");
+    throw InvalidInput(fmt::format("{}", fmt::join(options, ", ")),
+                       options.size() == 1 ? "not given; give it" : "not given; give one of them");
   const Standings& found = given.front();
   if (given.size() > 1)
     throw InvalidInput(
