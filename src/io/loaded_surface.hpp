@@ -16,6 +16,8 @@ struct ReadOptions;
 
 namespace salebra::detail {
 
+class InputFile;
+
 struct LoadedSurface {
   Field heights;                 ///< in `unit`
   std::optional<Index> rows;     ///< of the surface, where `heights` has those of one process
@@ -51,6 +53,12 @@ double metres_per(const std::filesystem::path& file, const std::string& unit);
 /// interpolated where they are off by more than a tenth of a step. size_x is in the unit of x.
 LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<double>& positions,
                          const std::vector<double>& heights);
+
+/// Whether the file is of no other format and is not wrapped; an empty file is no text.
+bool is_plain_text(const InputFile& input);
+
+/// Such a text, a piece at a time. Memory: 8 to 17 bytes a value.
+LoadedSurface read_text(const InputFile& input);
 
 /// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar
 /// may lie.

@@ -120,6 +120,11 @@ std::string utf8_of_utf16(const std::filesystem::path& file, std::string_view co
 
 }  // namespace
 
+bool is_wrapped(std::string_view content) {
+  return content.starts_with("\x1f\x8b") || content.starts_with("\xfe\xff") ||
+         content.starts_with("\xff\xfe");
+}
+
 std::optional<std::string> plain_content(const std::filesystem::path& file,
                                          std::string_view content) {
   std::optional<std::string> plain;

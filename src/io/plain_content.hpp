@@ -8,6 +8,9 @@
 
 namespace salebra::detail {
 
+/// Whether plain_content() has anything to do, by the first bytes.
+bool is_wrapped(std::string_view content);
+
 /// The content without what is wrapped around it, whatever its format: gzip, whose members follow
 /// each other, and UTF-16 text with a byte order mark, which becomes UTF-8. Nothing for content that
 /// is not wrapped.

@@ -57,6 +57,8 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
   try {
     // HDF5 is read through its own library, which need not hold the whole file.
     if (detail::is_hdf5(file)) return detail::read_hdf5(file);
+    if (const detail::InputFile input(file); detail::is_plain_text(input))
+      return detail::read_text(input);
     return detail::read_content(file, detail::file_content(file));
   } catch (const UnknownFormat& refusal) {
     if (surface_importer == nullptr || options.known_formats) throw;
@@ -131,6 +133,24 @@ Field heights_of(const std::filesystem::path& file, Index nx, Index ny) {
 
 bool is_hdf5(const std::filesystem::path& file) { return InputFile(file).is_hdf5(); }
 
+namespace {
+
+/// By the first bytes of a content.
+const SurfaceFormatEntry& entry_of(std::string_view content) {
+  const auto begins = [&](std::string_view head) { return content.starts_with(head); };
+  for (const SurfaceFormatEntry& format : surface_format_table())
+    if (format.read && (format.heads.empty() || std::ranges::any_of(format.heads, begins)))
+      return format;
+  throw std::logic_error("text is no row of the table of formats");
+}
+
+}  // namespace
+
+bool is_plain_text(const InputFile& input) {
+  const std::string head = input.head(64);
+  return !head.empty() && !is_wrapped(head) && entry_of(head).heads.empty();
+}
+
 std::string file_content(const std::filesystem::path& file) {
   std::string content = InputFile(file).content();
   if (std::optional<std::string> plain = plain_content(file, content)) return std::move(*plain);
@@ -138,11 +158,7 @@ std::string file_content(const std::filesystem::path& file) {
 }
 
 LoadedSurface read_content(const std::filesystem::path& file, std::string_view content) {
-  const auto begins = [&](std::string_view head) { return content.starts_with(head); };
-  for (const SurfaceFormatEntry& format : surface_format_table())
-    if (format.read && (format.heads.empty() || std::ranges::any_of(format.heads, begins)))
-      return format.read(file, content);
-  throw std::logic_error("text is no row of the table of formats");
+  return entry_of(content).read(file, content);
 }
 
 std::optional<double> metres_in(const std::string& unit) {

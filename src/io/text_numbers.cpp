@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <span>
 
 #include "base/memory.hpp"
 #include "loaded_surface.hpp"
@@ -22,6 +23,20 @@ bool is_blank(char symbol) { return symbol == ' ' || symbol == '\t'; }
 [[noreturn]] void refuse_line(const std::filesystem::path& file, int number,
                               const std::string& what) {
   refuse(file, "line " + std::to_string(number) + " " + what);
+}
+
+constexpr std::size_t piece_size = std::size_t{1} << 20;
+
+[[noreturn]] void refuse_bytes(const std::filesystem::path& file) {
+  refuse_unknown(file,
+                 "is neither text (it holds NUL bytes) nor of another format that is read; "
+                 "convert it to one of " +
+                     read_extensions());
+}
+
+std::string_view without_mark(std::string_view content) {
+  if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
+  return content;
 }
 
 // A vector that is full moves into one of twice its size, beside it.
@@ -175,16 +190,48 @@ NumberFormat format_of(const std::filesystem::path& file, std::string_view line,
 
 }  // namespace
 
-Lines::Lines(std::string_view text)
-    : rest_(text), end_(text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
+bool Text::holds(char symbol) const {
+  if (!input) return content.find(symbol) != std::string_view::npos;
+  std::string piece;
+  for (std::uint64_t place = 0; place < input->size(); place += piece.size()) {
+    piece.resize(std::min<std::uint64_t>(piece_size, input->size() - place));
+    input->read(place, std::as_writable_bytes(std::span(piece)));
+    if (piece.find(symbol) != std::string::npos) return true;
+  }
+  return false;
+}
+
+Lines::Lines(const Text& text)
+    : input_(text.input), rest_(text.content), end_(text.holds('\n') ? '\n' : '\r') {}
 
 bool Lines::next(std::string_view& line) {
+  auto stop = rest_.find(end_);
+  while (stop == std::string_view::npos && read_on()) stop = rest_.find(end_);
   if (rest_.empty()) return false;
-  const auto stop = rest_.find(end_);
   line = rest_.substr(0, stop);
   rest_ = stop == std::string_view::npos ? std::string_view() : rest_.substr(stop + 1);
   if (line.ends_with('\r')) line.remove_suffix(1);
   ++number_;
+  return true;
+}
+
+/// Puts the next piece of the file behind what is left of this one; false at the end of the file.
+bool Lines::read_on() {
+  if (!input_ || place_ == input_->size()) return false;
+  piece_.erase(0, piece_.size() - rest_.size());
+  // As much again as the line has already: it is looked through twice at most.
+  const std::size_t left = piece_.size(), wanted = std::max(piece_size, left);
+  const auto count =
+      static_cast<std::size_t>(std::min<std::uint64_t>(wanted, input_->size() - place_));
+  if (left > 0 && !fits_into_memory(2. * static_cast<double>(left + count)))
+    refuse(input_->path(), "has a line of more than " + std::to_string(left) +
+                               " bytes, which does not fit into the memory that is free");
+  piece_.resize(left + count);
+  input_->read(place_, std::as_writable_bytes(std::span(piece_).subspan(left)));
+  rest_ = piece_;
+  if (rest_.find('\0', left) != std::string_view::npos) refuse_bytes(input_->path());
+  if (place_ == 0) rest_ = without_mark(rest_);
+  place_ += count;
   return true;
 }
 
@@ -207,13 +254,8 @@ std::optional<char> NumberFormat::symbol() const {
 }
 
 std::string_view require_text(const std::filesystem::path& file, std::string_view content) {
-  if (content.find('\0') != std::string_view::npos)
-    refuse_unknown(file,
-                   "is neither text (it holds NUL bytes) nor of another format that is read; "
-                   "convert it to one of " +
-                       read_extensions());
-  if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
-  return content;
+  if (content.find('\0') != std::string_view::npos) refuse_bytes(file);
+  return without_mark(content);
 }
 
 std::string utf8(std::string_view text) {

@@ -7,19 +7,36 @@
 #include <string_view>
 #include <vector>
 
+#include "input_file.hpp"
+
 /// Numbers in lines of text, as programs of many countries write them.
 namespace salebra::detail {
+
+/// A text in memory or in a file, of which then only pieces are in memory.
+struct Text {
+  std::string_view content = {};     ///< without a byte order mark
+  const InputFile* input = nullptr;  ///< in place of the content
+
+  bool holds(char symbol) const;
+};
 
 /// Lines of a text with their numbers (from 1); ends with LF, CR LF or, where there is no LF at
 /// all, CR.
 class Lines {
  public:
-  explicit Lines(std::string_view text);
-  /// False at the end of the text; line is without its end.
+  explicit Lines(const Text& text);
+  explicit Lines(std::string_view content) : Lines(Text{content}) {}
+  /// False at the end of the text; line is without its end, and lasts until the next call.
+  /// throws   InvalidInput for NUL bytes in a file, and for a line that does not fit into the memory
   bool next(std::string_view& line);
   int number() const { return number_; }
 
  private:
+  bool read_on();
+
+  const InputFile* input_;
+  std::uint64_t place_ = 0;  ///< in the file, behind the piece
+  std::string piece_;
   std::string_view rest_;
   char end_;
   int number_ = 0;

@@ -38,7 +38,7 @@ struct TextMatrix {
 };
 
 /// tabs: each separates two values, of which one may be empty; else any blanks do.
-TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, TextHeader& header,
+TextMatrix read_rows(const std::filesystem::path& file, const Text& text, TextHeader& header,
                      bool tabs = false) {
   TextMatrix matrix;
   std::optional<NumberFormat> format;
@@ -74,7 +74,7 @@ TextMatrix read_rows(const std::filesystem::path& file, std::string_view text, T
     all_open = all_open && open;
     if (columns != matrix.columns) {
       // Where tabs separate values, blanks hide those that are empty.
-      if (!tabs && !format->symbol() && text.find('\t') != std::string_view::npos) {
+      if (!tabs && !format->symbol() && text.holds('\t')) {
         header = {};
         return read_rows(file, text, header, true);
       }
@@ -129,11 +129,9 @@ LoadedSurface profile_of_text(const std::filesystem::path& file, const TextMatri
   return profile;
 }
 
-}  // namespace
-
-LoadedSurface read_text(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface surface_of_text(const std::filesystem::path& file, const Text& text) {
   TextHeader header;
-  const TextMatrix matrix = read_rows(file, require_text(file, content), header);
+  const TextMatrix matrix = read_rows(file, text, header);
   const bool of_line = is_profile(matrix, header);
   const bool are_points = matrix.columns == 3 && !header.width && !header.pixel_x;
   if (const Index found = matrix.rows * (are_points ? 1 : matrix.columns);
@@ -166,5 +164,13 @@ LoadedSurface read_text(const std::filesystem::path& file, std::string_view cont
     surface.remarks.push_back(remark);
   return surface;
 }
+
+}  // namespace
+
+LoadedSurface read_text(const std::filesystem::path& file, std::string_view content) {
+  return surface_of_text(file, {require_text(file, content)});
+}
+
+LoadedSurface read_text(const InputFile& input) { return surface_of_text(input.path(), {{}, &input}); }
 
 }  // namespace salebra::detail

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/write_surface.hpp>
 #include <salebra/surface/moments.hpp>
 
+#include "io/loaded_surface.hpp"
 #include "scratch.hpp"
 
 using namespace salebra;
@@ -103,6 +107,44 @@ TEST_CASE("Text is read in the spellings of many programs", "[read]") {
       "1 2.5 3\n-4 5 6\n");
   CHECK(std::isnan(read(header + "1;;3\n4;5;6\n").heights(1, 0)));
   CHECK(read(header + "nan 2 3\n4 5 NaN\n").undefined_points() == 2);
+}
+
+TEST_CASE("Text that is read by pieces has the heights of the whole", "[read]") {
+  // Pieces are of a megabyte: their ends cut lines, numbers and line ends. The reader of a content
+  // in memory has no pieces.
+  const Scratch scratch;
+  const auto require_same = [&](const std::string& text) {
+    const std::filesystem::path file = scratch.file("large.txt", text);
+    const Surface read = read_surface(file, {.size_x = 1e-6, .size_y = 1e-6});
+    const detail::LoadedSurface whole = detail::read_content(file, text);
+    REQUIRE(read.heights.size() == whole.heights.size());
+    CHECK(std::memcmp(read.heights.data(), whole.heights.data(),
+                      std::size_t(read.heights.size()) * sizeof(double)) == 0);
+  };
+  const auto rows = [](int count, int columns, char separator, const std::string& end) {
+    std::string text;
+    for (int k = 0; k < count * columns; ++k) {
+      text += fmt::format("{:.{}e}", 1e-7 * std::sin(double(k)), 3 + k % 11);
+      if (k % columns == columns - 1)
+        text += end;
+      else
+        text += separator;
+    }
+    return text;
+  };
+  require_same("\xef\xbb\xbf# a comment\n" + rows(3000, 60, '\t', "\n"));
+  require_same(rows(3001, 61, ' ', "\r\n"));
+  require_same(rows(3001, 61, ';', "\r"));
+  require_same(rows(2, 150000, ' ', "\n"));  // lines of more than a piece
+  const std::string unended = rows(3000, 60, ',', "\n");
+  require_same(unended.substr(0, unended.size() - 1));
+  // A point is missing between two tabs in the last line: all is read anew.
+  std::string gaps = rows(3000, 60, '\t', "\n");
+  gaps.insert(gaps.rfind('\t'), "\t").erase(gaps.rfind('\t') + 1, gaps.size());
+  require_same(gaps + "\n");
+  std::string bytes = rows(3000, 60, '\t', "\n");
+  bytes[bytes.size() - 100] = '\0';
+  CHECK_THROWS_WITH(read_surface(scratch.file("bytes.txt", bytes)), Contains("NUL bytes"));
 }
 
 TEST_CASE("Text that can be read in two ways, or not at all, is refused with its line", "[read]") {

@@ -12,7 +12,9 @@
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/generators/filtered_noise.hpp>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/io/write_surface.hpp>
 #include <salebra/study/study_file.hpp>
 #include <string>
 
@@ -116,6 +118,17 @@ TEST_CASE("The memory of a file of results does not grow with its datasets", "[s
   };
   // 160 kB each, of which HDF5 keeps some 16 in its cache of headers and references.
   CHECK(written(260) - written(20) < 240 * 40e3);
+}
+
+TEST_CASE("A text of points is read without being in memory", "[scaling]") {
+  const Scratch scratch;
+  constexpr Index n = 1024;
+  write_surface(scratch / "points.xyz", rough(n));
+  const double growth = peak_growth([&] { read_surface(scratch / "points.xyz"); });
+  // Three coordinates, the height on its grid and a byte that marks it are 33 bytes; of so few
+  // points the heap keeps the list before it doubled last, 16 bytes a point. The text has 57.
+  CHECK(growth < 60. * n * n);
+  CHECK(growth > 32. * n * n);  // or nothing was measured
 }
 
 TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
