@@ -171,6 +171,8 @@ LoadedSurface read_text(const std::filesystem::path& file, std::string_view cont
   return surface_of_text(file, {require_text(file, content)});
 }
 
-LoadedSurface read_text(const InputFile& input) { return surface_of_text(input.path(), {{}, &input}); }
+LoadedSurface read_text(const InputFile& input) {
+  return surface_of_text(input.path(), {{}, &input});
+}
 
 }  // namespace salebra::detail
