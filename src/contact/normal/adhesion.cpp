@@ -142,10 +142,7 @@ class AdhesiveSolve {
         adhesion_(adhesion),
         options_(options),
         periodic_(options.contact.boundary == Boundary::periodic) {
-    const double some = surface.ranks.least_of(surface.heights.size() > 0
-                                                   ? surface.heights.data()[0]
-                                                   : std::numeric_limits<double>::infinity());
-    highest_ = height_sums(rows_, surface.heights, some).highest;
+    highest_ = height_sums(rows_, surface.heights, 0).highest;
     mean_depth_ = -height_sums(rows_, surface.heights, highest_).first / cells_;
     target_ = target_of(target);
     require_room(target);
