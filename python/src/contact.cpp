@@ -91,7 +91,8 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
       .def(
           "gather",
           [](nb::handle_t<BoundContact> self, int root) {
-            const auto& mine = nb::cast<const BoundContact&>(nb::handle(self));
+            const nb::handle object = self;
+            const auto& mine = nb::cast<const BoundContact&>(object);
             return gather(self, root, mine.ranks, [&] {
               return unlocked([&] {
                 const Share rows(mine.ranks, mine.grid.nx);

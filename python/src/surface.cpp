@@ -87,7 +87,8 @@ True
       .def_prop_ro(
           "heights",
           [](nb::handle_t<BoundSurface> self) -> nb::object {
-            const auto& bound = nb::cast<const BoundSurface&>(nb::handle(self));
+            const nb::handle object = self;
+            const auto& bound = nb::cast<const BoundSurface&>(object);
             return bound.array.is_valid() ? bound.array
                                           : nb::cast(view(bound.surface.heights, self));
           },
