@@ -37,9 +37,8 @@ struct LoadedSurface {
 /// the memory that is free.
 Field heights_of(const std::filesystem::path& file, Index nx, Index ny);
 
-/// The whole of a regular file, by plain_content(). Throws InvalidInput if there is no such file or
-/// it cannot be read.
-std::string file_content(const std::filesystem::path& file);
+/// The whole of a file, by plain_content(). Throws InvalidInput where it cannot be read.
+std::string file_content(const InputFile& input);
 
 /// Whether the file begins as HDF5 does.
 bool is_hdf5(const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 #include <salebra/base/error.hpp>
 #include <string>
 
+#include "input_file.hpp"
 #include "loaded_surface.hpp"
 #include "text_numbers.hpp"
 
@@ -13,7 +14,7 @@ namespace salebra {
 
 std::vector<std::vector<double>> read_number_table(const std::filesystem::path& file,
                                                    std::size_t columns, std::size_t most) {
-  const std::string content = detail::file_content(file);
+  const std::string content = detail::file_content(detail::InputFile(file));
   std::vector<std::vector<double>> table(columns);
   std::optional<detail::NumberFormat> format;
   std::vector<double> values;

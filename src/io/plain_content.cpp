@@ -15,6 +15,10 @@
 namespace salebra::detail {
 namespace {
 
+/// First bytes of what is wrapped: gzip, and UTF-16 of either order.
+constexpr std::string_view gzip_mark = "\x1f\x8b", big_endian_mark = "\xfe\xff",
+                           little_endian_mark = "\xff\xfe";
+
 /// A stream of inflate that is closed.
 class Inflater {
  public:
@@ -45,7 +49,7 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
   for (int status = Z_OK; status != Z_STREAM_END || !content.empty();) {
     if (status == Z_STREAM_END) {
       // Behind a member stands another one, or padding.
-      if (!content.starts_with("\x1f\x8b")) break;
+      if (!content.starts_with(gzip_mark)) break;
       inflateReset(inflater.get());
     }
     if (out.size() - filled < piece) {
@@ -121,16 +125,16 @@ std::string utf8_of_utf16(const std::filesystem::path& file, std::string_view co
 }  // namespace
 
 bool is_wrapped(std::string_view content) {
-  return content.starts_with("\x1f\x8b") || content.starts_with("\xfe\xff") ||
-         content.starts_with("\xff\xfe");
+  return content.starts_with(gzip_mark) || content.starts_with(big_endian_mark) ||
+         content.starts_with(little_endian_mark);
 }
 
 std::optional<std::string> plain_content(const std::filesystem::path& file,
                                          std::string_view content) {
   std::optional<std::string> plain;
-  if (content.starts_with("\x1f\x8b")) content = plain.emplace(unzipped(file, content));
-  const bool big = content.starts_with("\xfe\xff");
-  if (big || content.starts_with("\xff\xfe")) plain = utf8_of_utf16(file, content, big);
+  if (content.starts_with(gzip_mark)) content = plain.emplace(unzipped(file, content));
+  const bool big = content.starts_with(big_endian_mark);
+  if (big || content.starts_with(little_endian_mark)) plain = utf8_of_utf16(file, content, big);
   return plain;
 }
 

@@ -55,11 +55,11 @@ class ScratchFolder {
 
 detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions& options) {
   try {
+    const detail::InputFile input(file);
     // HDF5 is read through its own library, which need not hold the whole file.
-    if (detail::is_hdf5(file)) return detail::read_hdf5(file);
-    if (const detail::InputFile input(file); detail::is_plain_text(input))
-      return detail::read_text(input);
-    return detail::read_content(file, detail::file_content(file));
+    if (input.is_hdf5()) return detail::read_hdf5(file);
+    if (detail::is_plain_text(input)) return detail::read_text(input);
+    return detail::read_content(file, detail::file_content(input));
   } catch (const UnknownFormat& refusal) {
     if (surface_importer == nullptr || options.known_formats) throw;
     const ScratchFolder scratch;
@@ -151,9 +151,10 @@ bool is_plain_text(const InputFile& input) {
   return !head.empty() && !is_wrapped(head) && entry_of(head).heads.empty();
 }
 
-std::string file_content(const std::filesystem::path& file) {
-  std::string content = InputFile(file).content();
-  if (std::optional<std::string> plain = plain_content(file, content)) return std::move(*plain);
+std::string file_content(const InputFile& input) {
+  std::string content = input.content();
+  if (std::optional<std::string> plain = plain_content(input.path(), content))
+    return std::move(*plain);
   return content;
 }
 

@@ -6,6 +6,7 @@
 #include <salebra/results/force_curve_file.hpp>
 
 #include "io/atomic_file.hpp"
+#include "io/input_file.hpp"
 #include "io/loaded_surface.hpp"
 #include "text_curve.hpp"
 
@@ -122,8 +123,9 @@ ForceCurve read_force_curve(const ResultReader& reader, const std::string& group
 }
 
 std::vector<ForceCurve> read_force_curves(const std::filesystem::path& file) {
-  if (detail::is_hdf5(file)) return read_force_curves(ResultReader(file));
-  return {detail::read_text_curve(file, detail::file_content(file))};
+  const detail::InputFile input(file);
+  if (input.is_hdf5()) return read_force_curves(ResultReader(file));
+  return {detail::read_text_curve(file, detail::file_content(input))};
 }
 
 void write_force_curve(const std::filesystem::path& file, const ForceCurve& curve,
@@ -151,8 +153,9 @@ void require_curve_name(const std::filesystem::path& file) {
 }
 
 ForceCurve read_force_curve(const std::filesystem::path& file) {
-  if (detail::is_hdf5(file)) return read_force_curve(ResultReader(file));
-  return detail::read_text_curve(file, detail::file_content(file));
+  const detail::InputFile input(file);
+  if (input.is_hdf5()) return read_force_curve(ResultReader(file));
+  return detail::read_text_curve(file, detail::file_content(input));
 }
 
 }  // namespace salebra
