@@ -25,7 +25,8 @@ foreach(file IN LISTS compiled ITEMS apps/salebra/salebra apps/salebra/salebra-m
     file(COPY ${BUILD}/${file} DESTINATION ${folder})
   endif()
 endforeach()
-step(ignored ${cpack} --config ${SCRATCH}/tree/CPackConfig.cmake -B ${SCRATCH})
+# Compression took five sixths of the time of packing.
+step(ignored ${cpack} --config ${SCRATCH}/tree/CPackConfig.cmake -B ${SCRATCH} -D CPACK_DEBIAN_COMPRESSION_TYPE=none)
 file(GLOB package ${SCRATCH}/salebra_*.deb)
 file(GLOB development ${SCRATCH}/libsalebra-dev_*.deb)
 if(NOT package OR NOT development)
