@@ -8,6 +8,7 @@ import re
 
 from docutils import nodes
 from latex2mathml.converter import convert
+from sphinx import addnodes
 from sphinx.util import logging
 
 logger = logging.getLogger(__name__)
@@ -123,11 +124,40 @@ def _make_signatures():
                 del function.__wrapped__
 
 
+# The navigation of each page shows the titles of all pages. Sphinx copies every entry of every page first, those of the names in C++
+# headers too, and then leaves them out: that took half the time of the site.
+_titles = {}
+
+
+def _navigation_of_titles(app, pagename, templatename, context, doctree):
+    toctree = context.get("toctree")
+    if not toctree:
+        return
+    if not _titles:
+        for page, contents in app.env.tocs.items():
+            _titles[page] = contents.deepcopy()
+            for entry in _titles[page].children:
+                if len(entry) > 1:
+                    entry[1][:] = list(entry.findall(addnodes.toctree))
+                    if not entry[1].children:
+                        entry.pop(1)
+
+    def of_titles(**options):
+        whole, app.env.tocs = app.env.tocs, _titles
+        try:
+            return toctree(**options)
+        finally:
+            app.env.tocs = whole
+
+    context["toctree"] = of_titles
+
+
 def setup(app):
     if "sphinx.ext.autodoc" in extensions:
         _make_signatures()
         app.connect("autodoc-process-docstring", _plain_text, priority=400)
         app.connect("autodoc-process-signature", _documented_types)
+    app.connect("html-page-context", _navigation_of_titles, priority=400)
     app.add_html_math_renderer(
         "mathml",
         (lambda translator, node: _formula(translator, node, False), None),
