@@ -2,7 +2,6 @@
 // Tables of numbers from text files with a fixed number of columns.
 #include "number_table.hpp"
 
-#include <optional>
 #include <salebra/base/error.hpp>
 #include <string>
 
@@ -16,7 +15,7 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
                                                    std::size_t columns, std::size_t most) {
   const std::string content = detail::file_content(detail::InputFile(file));
   std::vector<std::vector<double>> table(columns);
-  std::optional<detail::NumberFormat> format;
+  detail::NumberReader reader(file);
   std::vector<double> values;
   detail::Lines lines(detail::require_text(file, content));
   bool titled = false;
@@ -25,13 +24,12 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
     if (line.empty() || line.front() == '#') continue;
     const std::string place = file.string() + ", line " + std::to_string(lines.number());
     if (!detail::starts_with_number(line)) {
-      if (titled || format) throw InvalidInput(place, "holds no numbers; remove it");
+      if (titled || reader.started()) throw InvalidInput(place, "holds no numbers; remove it");
       titled = true;
       continue;
     }
-    detail::settle_format(file, line, lines.number(), format);
     values.clear();
-    detail::append_numbers(file, line, lines.number(), *format, values);
+    reader.append(line, lines.number(), values);
     const bool first = table.front().empty();
     if (first && values.size() > columns && values.size() <= most) {
       columns = values.size();
@@ -43,7 +41,7 @@ std::vector<std::vector<double>> read_number_table(const std::filesystem::path& 
                                     " in each line");
     for (std::size_t i = 0; i < columns; ++i) table[i].push_back(values[i]);
   }
-  if (!format) throw InvalidInput(file.string(), "holds no numbers");
+  if (!reader.started()) throw InvalidInput(file.string(), "holds no numbers");
   return table;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "base/memory.hpp"
 #include "loaded_surface.hpp"
@@ -19,11 +20,6 @@ namespace salebra::detail {
 namespace {
 
 bool is_blank(char symbol) { return symbol == ' ' || symbol == '\t'; }
-
-[[noreturn]] void refuse_line(const std::filesystem::path& file, int number,
-                              const std::string& what) {
-  refuse(file, "line " + std::to_string(number) + " " + what);
-}
 
 constexpr std::size_t piece_size = std::size_t{1} << 20;
 
@@ -153,41 +149,6 @@ bool within_mark(std::string_view line, std::size_t blank) {
   return mark && mark > line.data() + blank;
 }
 
-/// How one line would be read.
-NumberFormat format_of(const std::filesystem::path& file, std::string_view line, int number) {
-  const bool semicolon = line.find(';') != std::string_view::npos;
-  if (line.find(',') == std::string_view::npos)
-    return {.separator = semicolon ? Separator::semicolon : Separator::blank,
-            .decimal_comma = false};
-
-  const bool point = line.find('.') != std::string_view::npos;
-  std::ptrdiff_t commas = 0, commas_before_blank = 0, blanks_after_digit = 0;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const bool at_end = i + 1 == line.size();
-    if (line[i] == ',') {
-      ++commas;
-      if (at_end || is_blank(line[i + 1])) ++commas_before_blank;
-    } else if (is_blank(line[i]) && i > 0 && line[i - 1] != ',' && !is_blank(line[i - 1]) &&
-               !at_end && line[i + 1] != ',' && !within_mark(line, i)) {
-      ++blanks_after_digit;
-    }
-  }
-  if (semicolon || blanks_after_digit > 0) {
-    if (point)
-      refuse_line(file, number, "mixes decimal points with commas; write one separator and points");
-    if (commas_before_blank > 0 && !semicolon)
-      refuse_line(file, number, "mixes blanks and commas as separators; write one of them");
-    return {.separator = semicolon ? Separator::semicolon : Separator::blank,
-            .decimal_comma = true};
-  }
-  // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
-  const bool exponent = line.find_first_of("eE") != std::string_view::npos;
-  if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
-    refuse_line(file, number,
-                "can be read with commas as separators or as decimal commas; write decimal points");
-  return {.separator = Separator::comma, .decimal_comma = false};
-}
-
 }  // namespace
 
 bool Text::holds(char symbol) const {
@@ -247,12 +208,6 @@ std::string_view without_spaces(std::string_view text) {
   return text;
 }
 
-std::optional<char> NumberFormat::symbol() const {
-  if (separator == Separator::comma) return ',';
-  if (separator == Separator::semicolon) return ';';
-  return tabs ? std::optional('\t') : std::nullopt;
-}
-
 std::string_view require_text(const std::filesystem::path& file, std::string_view content) {
   if (content.find('\0') != std::string_view::npos) refuse_bytes(file);
   return without_mark(content);
@@ -283,63 +238,135 @@ bool starts_with_number(std::string_view line) {
   return (empty || parse_mark(at, end)) && is_row(line);
 }
 
-bool ends_with_separator(std::string_view line, const NumberFormat& format) {
-  const std::optional<char> symbol = format.symbol();
-  return symbol && without_spaces(line).ends_with(*symbol);
+NumberReader::NumberReader(std::filesystem::path file, bool tabs)
+    : file_(std::move(file)), tabs_(tabs) {}
+
+void NumberReader::refuse_line(int number, const std::string& what) const {
+  refuse(file_, "line " + std::to_string(number) + " " + what);
 }
 
-void settle_format(const std::filesystem::path& file, std::string_view line, int number,
-                   std::optional<NumberFormat>& format) {
-  line = trimmed(line);
-  const bool point =
-      (format && format->has_decimal_point) || line.find('.') != std::string_view::npos;
-  const bool open = !format || (!format->decimal_comma && format->separator != Separator::comma &&
-                                has_one_of(line, ',', ';'));
-  if (open) {
-    NumberFormat found = format_of(file, line, number);
-    if (format && format->has_decimal_point && found.decimal_comma)
-      refuse_line(file, number, "has decimal commas after decimal points; write points");
-    if (format && format->has_separator && found.separator != format->separator)
-      refuse_line(file, number, "separates its values otherwise than the lines before");
-    found.has_decimal_point = format && format->has_decimal_point;
-    found.has_separator = found.separator != Separator::blank || has_one_of(line, ' ', '\t');
-    format = found;
+std::optional<char> NumberReader::symbol() const {
+  if (style_.separator == Separator::comma) return ',';
+  if (style_.separator == Separator::semicolon) return ';';
+  return tabs_ ? std::optional('\t') : std::nullopt;
+}
+
+bool NumberReader::ends_with_separator(std::string_view line) const {
+  const std::optional<char> between = symbol();
+  return between && without_spaces(line).ends_with(*between);
+}
+
+/// How one line would be read.
+NumberReader::Style NumberReader::style_of(std::string_view line, int number) const {
+  const bool semicolon = line.find(';') != std::string_view::npos;
+  if (line.find(',') == std::string_view::npos)
+    return {semicolon ? Separator::semicolon : Separator::blank, false};
+
+  const bool point = line.find('.') != std::string_view::npos;
+  std::ptrdiff_t commas = 0, commas_before_blank = 0, blanks_after_digit = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool at_end = i + 1 == line.size();
+    if (line[i] == ',') {
+      ++commas;
+      if (at_end || is_blank(line[i + 1])) ++commas_before_blank;
+    } else if (is_blank(line[i]) && i > 0 && line[i - 1] != ',' && !is_blank(line[i - 1]) &&
+               !at_end && line[i + 1] != ',' && !within_mark(line, i)) {
+      ++blanks_after_digit;
+    }
   }
-  format->has_decimal_point = format->has_decimal_point || point;
+  if (semicolon || blanks_after_digit > 0) {
+    if (point)
+      refuse_line(number, "mixes decimal points with commas; write one separator and points");
+    if (commas_before_blank > 0 && !semicolon)
+      refuse_line(number, "mixes blanks and commas as separators; write one of them");
+    return {semicolon ? Separator::semicolon : Separator::blank, true};
+  }
+  // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
+  const bool exponent = line.find_first_of("eE") != std::string_view::npos;
+  if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
+    refuse_line(number,
+                "can be read with commas as separators or as decimal commas; write decimal points");
+  return {Separator::comma, false};
 }
 
-void append_numbers(const std::filesystem::path& file, std::string_view line, int number,
-                    const NumberFormat& format, std::vector<double>& values) {
+void NumberReader::settle(std::string_view line, int number) {
+  const bool point = has_decimal_point_ || line.find('.') != std::string_view::npos;
+  const bool open = !started_ || (!style_.decimal_comma && style_.separator != Separator::comma &&
+                                  has_one_of(line, ',', ';'));
+  if (open) {
+    const Style found = style_of(line, number);
+    if (has_decimal_point_ && found.decimal_comma)
+      refuse_line(number, "has decimal commas after decimal points; write points");
+    if (has_separator_ && found.separator != style_.separator)
+      refuse_line(number, "separates its values otherwise than the lines before");
+    style_ = found;
+    has_separator_ = found.separator != Separator::blank || has_one_of(line, ' ', '\t');
+    started_ = true;
+  }
+  has_decimal_point_ = point;
+}
+
+void NumberReader::append(std::string_view line, int number, std::vector<double>& values) {
+  const std::string_view content = trimmed(line);
+  // Then a comma or semicolon that is not of the style can only be refused: it ends no value.
+  const bool settled = has_separator_ && has_decimal_point_;
+  if (!settled) settle(content, number);
+  if (!tabs_)
+    line = content;
+  else
+    line = without_spaces(line);
   const char* at = line.data();
   const char* const end = at + line.size();
-  const std::optional<char> symbol = format.symbol();
+  const std::optional<char> between = symbol();
   const auto skip = [&](const char* from) {
-    while (from != end && is_blank(*from) && *from != symbol) ++from;
+    while (from != end && is_blank(*from) && *from != between) ++from;
     return from;
   };
-  for (at = skip(at); at != end;) {
+  const auto repeats = [&](const Repeated& last) {
+    return last.size > 0 && end - at > static_cast<std::ptrdiff_t>(last.size) &&
+           (is_blank(at[last.size]) || at[last.size] == between) &&
+           std::equal(last.text.begin(), last.text.begin() + last.size, at);
+  };
+  std::size_t column = 0;
+  for (at = skip(at); at != end; ++column) {
     double value = std::numeric_limits<double>::quiet_NaN();
-    if (*at != symbol) {
-      const char* stop =
-          format.decimal_comma ? parse_comma_number(at, end, value) : parse_number(at, end, value);
-      if (!stop) stop = parse_mark(at, end);
-      if (!stop)
-        refuse_unknown(file, "line " + std::to_string(number) + " holds '" +
-                                 excerpt(at, end, format.decimal_comma ? " \t;" : " \t;,") +
-                                 "', which is no number; an undefined point is written nan");
-      if (std::isinf(value)) refuse_line(file, number, "holds an infinite value; correct it");
+    if (*at != between) {
+      Repeated* const last = column < repeated_.size() ? &repeated_[column] : nullptr;
+      const char* stop;
+      if (last && repeats(*last)) {
+        stop = at + last->size;
+        value = last->value;
+      } else {
+        stop = style_.decimal_comma ? parse_comma_number(at, end, value)
+                                    : parse_number(at, end, value);
+        if (!stop) stop = parse_mark(at, end);
+        if (!stop) {
+          if (settled) settle(content, number);
+          refuse_unknown(file_, "line " + std::to_string(number) + " holds '" +
+                                    excerpt(at, end, style_.decimal_comma ? " \t;" : " \t;,") +
+                                    "', which is no number; an undefined point is written nan");
+        }
+        if (std::isinf(value)) refuse_line(number, "holds an infinite value; correct it");
+        if (last) {
+          const auto size = static_cast<std::size_t>(stop - at);
+          last->size = size <= last->text.size() ? size : 0;
+          last->value = value;
+          std::copy_n(at, last->size, last->text.begin());
+        }
+      }
       const char* const after = skip(stop);
-      const bool separated = after == end || (symbol ? *after == symbol : after != stop);
-      if (!separated)
-        refuse_line(file, number,
-                    "holds '" + excerpt(at, end) +
-                        "', which is no number with the separators of "
-                        "the first line");
+      const bool separated = after == end || (between ? *after == between : after != stop);
+      if (!separated) {
+        if (settled) settle(content, number);
+        refuse_line(number, "holds '" + excerpt(at, end) +
+                                "', which is no number with the separators of "
+                                "the first line");
+      }
       at = after;
     }
-    if (values.size() == values.capacity()) require_room(file, values.capacity());
+    if (values.size() == values.capacity()) require_room(file_, values.capacity());
     values.push_back(value);
-    if (at != end && symbol) at = skip(at + 1);
+    if (at != end && between) at = skip(at + 1);
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -46,20 +47,6 @@ std::string_view trimmed(std::string_view text);
 /// Without spaces at its ends; tabs stay.
 std::string_view without_spaces(std::string_view text);
 
-/// What separates the values of a line.
-enum class Separator { blank, comma, semicolon };
-
-struct NumberFormat {
-  Separator separator = Separator::blank;
-  bool decimal_comma = false;
-  bool has_separator = false;      ///< in a line so far
-  bool has_decimal_point = false;  ///< in a line so far
-  bool tabs = false;  ///< of blanks, one tab separates two values: between two tabs is none
-
-  /// Between values that may be empty; nothing where blanks separate them.
-  std::optional<char> symbol() const;
-};
-
 /// The content without a byte order mark. Throws InvalidInput for text with NUL bytes.
 std::string_view require_text(const std::filesystem::path& file, std::string_view content);
 
@@ -70,21 +57,52 @@ std::string utf8(std::string_view text);
 /// point in a line of nothing but numbers and such marks. A rule of dashes is no line of numbers.
 bool starts_with_number(std::string_view line);
 
-/// Whether the line ends with a separator that is no blank: a value that is empty, or nothing.
-bool ends_with_separator(std::string_view line, const NumberFormat& format);
+/// Values of the lines of one text. How they are separated and written is what the lines so far
+/// have shown: whole numbers leave open whether commas are decimal.
+class NumberReader {
+ public:
+  /// tabs   each separates two values, of which one may be empty; else any blanks do
+  explicit NumberReader(std::filesystem::path file, bool tabs = false);
 
-/// How the values of a line of numbers are separated and written. Lines before it have the say, if
-/// `format` holds a value; a line of whole numbers leaves open whether commas are decimal. Throws
-/// InvalidInput where the line can be read in two ways, and where it contradicts the lines before.
-void settle_format(const std::filesystem::path& file, std::string_view line, int number,
-                   std::optional<NumberFormat>& format);
+  /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
+  /// The marks of undefined points are NaN: "***" and "---" of two characters or more, "NA", "N/A",
+  /// "BAD" and "No Data".
+  /// throws   InvalidInput naming the line and what was found in it; where the line can be read in
+  ///          two ways; and where it contradicts the lines before
+  /// Cost: one pass, no allocation but values'.
+  void append(std::string_view line, int number, std::vector<double>& values);
 
-/// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
-/// The marks of undefined points are NaN: "***" and "---" of two characters or more, "NA", "N/A",
-/// "BAD" and "No Data".
-/// Throws InvalidInput naming the line and what was found in it. Cost: one pass, no allocation but
-/// values'.
-void append_numbers(const std::filesystem::path& file, std::string_view line, int number,
-                    const NumberFormat& format, std::vector<double>& values);
+  /// Whether a line has been read.
+  bool started() const { return started_; }
+  /// Between values that may be empty; nothing where blanks separate them.
+  std::optional<char> symbol() const;
+  /// Whether the line ends with such a separator: a value that is empty, or nothing.
+  bool ends_with_separator(std::string_view line) const;
+
+ private:
+  enum class Separator { blank, comma, semicolon };
+  struct Style {
+    Separator separator = Separator::blank;
+    bool decimal_comma = false;
+  };
+  /// A value with its text.
+  struct Repeated {
+    std::array<char, 24> text;
+    std::size_t size = 0;
+    double value = 0;
+  };
+
+  Style style_of(std::string_view line, int number) const;
+  void settle(std::string_view line, int number);
+  [[noreturn]] void refuse_line(int number, const std::string& what) const;
+
+  std::filesystem::path file_;
+  bool tabs_;
+  bool started_ = false;
+  Style style_;
+  bool has_separator_ = false, has_decimal_point_ = false;  ///< in a line so far
+  /// Points of a grid repeat one of their coordinates from line to line.
+  std::array<Repeated, 2> repeated_;
+};
 
 }  // namespace salebra::detail

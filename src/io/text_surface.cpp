@@ -41,24 +41,21 @@ struct TextMatrix {
 TextMatrix read_rows(const std::filesystem::path& file, const Text& text, TextHeader& header,
                      bool tabs = false) {
   TextMatrix matrix;
-  std::optional<NumberFormat> format;
+  NumberReader reader(file, tabs);
   bool all_open = false;  // every row so far ends with a separator
   Lines lines(text);
   for (std::string_view line; lines.next(line);) {
-    std::string_view content = trimmed(line);
+    const std::string_view content = trimmed(line);
     if (content.empty()) continue;
     const bool comment = content.front() == '#' || content.front() == '%';
     if (comment || (matrix.rows == 0 && !starts_with_number(content))) {
       if (matrix.rows == 0) read_header_line(file, content, lines.number(), header);
       continue;
     }
-    settle_format(file, content, lines.number(), format);
-    format->tabs = tabs;
-    if (tabs) content = without_spaces(line);
     const std::size_t before = matrix.values.size();
-    append_numbers(file, content, lines.number(), *format, matrix.values);
+    reader.append(line, lines.number(), matrix.values);
     auto columns = static_cast<Index>(matrix.values.size() - before);
-    const bool open = ends_with_separator(content, *format);
+    const bool open = reader.ends_with_separator(tabs ? line : content);
     if (matrix.rows == 0) {
       matrix.columns = columns;
       all_open = open;
@@ -74,7 +71,7 @@ TextMatrix read_rows(const std::filesystem::path& file, const Text& text, TextHe
     all_open = all_open && open;
     if (columns != matrix.columns) {
       // Where tabs separate values, blanks hide those that are empty.
-      if (!tabs && !format->symbol() && text.holds('\t')) {
+      if (!tabs && !reader.symbol() && text.holds('\t')) {
         header = {};
         return read_rows(file, text, header, true);
       }

@@ -124,8 +124,8 @@ LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vecto
       Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>::Constant(along_x.points, along_y.points,
                                                                    false);
   for (std::size_t i = 0; i < count; ++i) {
-    const Index ix = std::lround((xyz[3 * i] - along_x.first) / along_x.step);
-    const Index iy = std::lround((xyz[3 * i + 1] - along_y.first) / along_y.step);
+    const Index ix = static_cast<Index>((xyz[3 * i] - along_x.first) / along_x.step + 0.5);
+    const Index iy = static_cast<Index>((xyz[3 * i + 1] - along_y.first) / along_y.step + 0.5);
     if (taken(ix, iy)) refuse(file, "gives an XYZ point twice; remove one of them");
     taken(ix, iy) = true;
     surface.heights(ix, iy) = xyz[3 * i + 2];

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 
@@ -123,13 +122,13 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
 ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view content) {
   ForceCurve curve;
   std::vector<Column> columns;
-  std::optional<NumberFormat> format;
+  NumberReader reader(file);
   std::vector<double> values;
   Lines lines(require_text(file, content));
   for (std::string_view raw; lines.next(raw);) {
     std::string_view line = trimmed(raw);
     if (line.empty()) continue;
-    const bool numbers = starts_with_number(line) || (format && line.front() != '#');
+    const bool numbers = starts_with_number(line) || (reader.started() && line.front() != '#');
     if (!numbers) {
       if (line.front() == '#' && (line.find(':') != std::string_view::npos || !columns.empty())) {
         read_comment(file, line, curve);
@@ -145,11 +144,10 @@ ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view c
     if (columns.empty())
       refuse(file,
              "does not name its columns; begin with a line such as 'pressure [Pa], mean_gap [m]'");
-    settle_format(file, line, lines.number(), format);
     values.clear();
-    append_numbers(file, line, lines.number(), *format, values);
+    reader.append(line, lines.number(), values);
     // A last field that is empty leaves no trace behind its separator.
-    if (values.size() + 1 == columns.size() && format->separator != Separator::blank)
+    if (values.size() + 1 == columns.size() && reader.symbol())
       values.push_back(ForceSample::unknown);
     if (values.size() != columns.size())
       refuse(file, "line " + std::to_string(lines.number()) + " holds " +

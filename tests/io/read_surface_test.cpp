@@ -163,6 +163,10 @@ TEST_CASE("Text that can be read in two ways, or not at all, is refused with its
   CHECK_THAT(message(header + "1.5;2\n2,5;3\n"), Contains("line 4") && Contains("after"));
   CHECK_THAT(message(header + "1 2 3\n4,5,6\n"), Contains("line 4") && Contains("otherwise"));
   CHECK_THAT(message(header + "1;2;3\n4,5,6\n"), Contains("line 4") && Contains("otherwise"));
+  CHECK_THAT(message(header + "1.5 2\n2.5,3\n"), Contains("line 4") && Contains("otherwise"));
+  CHECK_THAT(message(header + "1.5 2\n2.5;3\n"), Contains("line 4") && Contains("otherwise"));
+  CHECK_THAT(message(header + "1.5 2\n2,5 3\n"), Contains("line 4") && Contains("after"));
+  CHECK_THAT(message(header + "1.5 2\n2 ,5\n"), Contains("line 4") && Contains("decimal"));
   CHECK_THAT(message(header + "1 2 3\n4 5\n"), Contains("line 4") && Contains("2 values"));
   CHECK_THAT(message(header + "1 2 3\n4 five 6\n"), Contains("line 4") && Contains("five"));
   CHECK_THAT(message(header + "1 2 3\n4 5.5.5 6\n"), Contains("line 4"));
@@ -193,6 +197,13 @@ TEST_CASE("XYZ points are put on their grid, whatever their order, or refused", 
   CHECK(surface.heights(1, 0) == 11);
   CHECK(surface.heights(0, 1) == 2);
   CHECK(std::isnan(surface.heights(2, 1)));
+  // A coordinate that begins as that of the line before is another one.
+  for (const bool turned : {false, true}) {
+    std::string text;
+    for (const auto& [x, y] : {std::pair("0", "0"), {"0", "0.5"}, {"0.5", "0.5"}, {"0.5", "0"}})
+      text += std::string(turned ? y : x) + ' ' + (turned ? x : y) + " 1\n";
+    CHECK(read(text).grid == Grid2D{2, 2, 1, 1});
+  }
   CHECK_THROWS_WITH(read("0 0 1\n1 0 1\n3 0 1\n0 1 1\n1 1 1\n3 1 1\n"), Contains("equally spaced"));
   CHECK_THROWS_WITH(read("0 0 1\n1 0 1\n0 1 1\n1 1 1\n1 1 2\n"), Contains("twice"));
   CHECK_THROWS_WITH(read("0 0 1\n1 1 1\n2 2 1\n3 3 1\n4 4 1\n"), Contains("half"));
