@@ -112,8 +112,9 @@ class StateReader {
     require(found.has_value(), reader_.file().string(), name,
             "is missing; remove the damaged file");
     // The conversion of others is undefined.
-    constexpr double most = std::min<double>(std::numeric_limits<Count>::max(), 1LL << 53);
-    require(std::abs(*found) <= most, reader_.file().string(), name,
+    constexpr std::uint64_t most =
+        std::min<std::uint64_t>(std::numeric_limits<Count>::max(), std::uint64_t{1} << 53);
+    require(std::abs(*found) <= static_cast<double>(most), reader_.file().string(), name,
             "is out of range; remove the damaged file");
     count = static_cast<Count>(*found);
   }
