@@ -98,7 +98,9 @@ int find_exempt(dl_phdr_info* library, size_t, void*) {
   if (library->dlpi_name[0] == '\0' && hdf5_function_count == 0)
     find_hdf5_functions(library->dlpi_addr);
   const auto named = [&](const char* part) { return strstr(library->dlpi_name, part) != nullptr; };
-  if (!named("libhdf5") && !named("libgomp") && !(fftw_ends_process && named("libfftw3"))) return 0;
+  if (!named("libhdf5") && !named("libgomp") && !named("libomp") &&
+      !(fftw_ends_process && named("libfftw3")))
+    return 0;
   for (int i = 0; i < library->dlpi_phnum; ++i) {
     const auto& part = library->dlpi_phdr[i];
     if (part.p_type != PT_LOAD || (part.p_flags & PF_X) == 0) continue;

@@ -39,9 +39,11 @@ class RoughPatches {
         const double kx = static_cast<double>(2 * i <= box ? i : i - box),
                      ky = static_cast<double>(j), k = std::hypot(kx, ky);
         auto& mode = modes[static_cast<std::size_t>(i * columns + j)];
-        mode = k < longest_of_box ? 0
-                                  : std::sqrt(density(step * k) / 2) * step *
-                                        std::complex<double>(normal(), normal());
+        mode = 0;
+        if (k < longest_of_box) continue;
+        // Compilers evaluate arguments in orders of their own.
+        const double imaginary = normal(), real = normal();
+        mode = std::sqrt(density(step * k) / 2) * step * std::complex<double>(real, imaginary);
       }
     for (Index i = 1; i < box / 2; ++i)
       modes[static_cast<std::size_t>((box - i) * columns)] =
