@@ -3,6 +3,12 @@
 # reported at once. scripts/install-dependencies names the Debian packages.
 include(SalebraFind)
 set(salebra_missing "")
+# Clang 14 and 15 take no structured binding into a lambda, and no aggregate in parentheses: what compiles with them does without.
+set(compiler "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}")
+string(REGEX MATCH "^(GNU ([1-9]|1[01])|Clang ([1-9]|1[0-3]))[.]" old "${compiler}")
+if(old)
+  list(APPEND salebra_missing "a compiler of C++20: GCC 12 or later, or Clang 14 or later (this is ${compiler})")
+endif()
 if(SALEBRA_ONLY_GENERATORS)
   salebra_find(generators)
 else()

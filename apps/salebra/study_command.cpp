@@ -776,7 +776,8 @@ void add_transport(Json& answer, const StudyResult& result, const StudyAnswer& f
   flow["pressure"] = result.pressures;
   for (const auto& [name, percolates] : {std::pair("percolates_x", &FlowFactors::percolates_x),
                                          {"percolates_y", &FlowFactors::percolates_y}})
-    flow[name] = to_json(result.flow([&](const FlowFactors& one) { return one.*percolates; }));
+    flow[name] = to_json(
+        result.flow([percolates = percolates](const FlowFactors& one) { return one.*percolates; }));
   flow.add(columns_json<FlowFactors>([&](const auto& number) { return result.flow(number); }));
 }
 

@@ -216,8 +216,8 @@ struct Convolution2D<Real>::Passes {
       });
     };
     plans = std::make_shared<const Plans>(
-        make(shape.period_y, FFTW_FORWARD), make(shape.period_y, FFTW_BACKWARD),
-        make(shape.period_x, FFTW_FORWARD), make(shape.period_x, FFTW_BACKWARD));
+        Plans{make(shape.period_y, FFTW_FORWARD), make(shape.period_y, FFTW_BACKWARD),
+              make(shape.period_x, FFTW_FORWARD), make(shape.period_x, FFTW_BACKWARD)});
   }
 
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity) {

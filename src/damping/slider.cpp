@@ -446,7 +446,11 @@ struct SlidingPair {
 // Threshold over what `normal_of` makes an oscillation from, from `low`, where nothing sticks.
 SliderThreshold threshold(const SlidingPair& pair, double low, double high,
                           const std::function<NormalOscillation(double)>& normal_of) {
-  const auto& [law, position, slider, friction_coefficient, options] = pair;
+  const ContactLaw& law = pair.law;
+  const Position& position = pair.position;
+  const Slider& slider = pair.slider;
+  const double friction_coefficient = pair.friction_coefficient;
+  const SliderOptions& options = pair.options;
   const double needed = slider.falling_slope - slider.support_damping;
   SliderThreshold threshold;
   if (!(low < high)) return threshold;

@@ -352,9 +352,8 @@ class Load {
       all.push_back(amplitude_ * std::cos(pi * k / parts));
     }
     std::ranges::sort(all, std::greater());
-    const auto repeated = std::ranges::unique(
-        all, [&](double one, double other) { return one - other < 1e-9 * amplitude_; });
-    all.erase(repeated.begin(), repeated.end());
+    const auto same = [&](double one, double other) { return one - other < 1e-9 * amplitude_; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
     return center + Eigen::Map<const Eigen::ArrayXd>(all.data(), static_cast<Index>(all.size()));
   }
 

@@ -275,7 +275,11 @@ struct PunchProblem {
 
 PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimits& limits,
                            Field* punch_pressure) {
-  const auto& [p, bound, grid, ranks, contact_modulus, boundary, precision] = problem;
+  const Field& p = problem.p;
+  const double bound = problem.bound, contact_modulus = problem.contact_modulus;
+  const Grid2D& grid = problem.grid;
+  const Communicator& ranks = problem.ranks;
+  const Boundary boundary = problem.boundary;
   const double cell = std::sqrt(grid.cell_area());
   const bool alone = boundary == Boundary::free && ranks.alone();
   const auto window = alone ? detail::bounding_window(ContactSet(p > 0 && p < bound))
@@ -289,7 +293,8 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
     return detail::ActiveSetCg<Real>(scaled, Share(ranks, window.nx), 1, boundary, {}, 0)
         .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
   };
-  const detail::PunchOutcome outcome = precision == Precision::mixed ? press(0.0f) : press(0.0);
+  const detail::PunchOutcome outcome =
+      problem.precision == Precision::mixed ? press(0.0f) : press(0.0);
   if (punch_pressure) {
     *punch_pressure = Field::Zero(p.rows(), p.cols());
     punch_pressure->block(window.x0, window.y0, q.rows(), window.ny) = q * (contact_modulus / cell);

@@ -178,7 +178,8 @@ PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
 template <class Real>
 void direct(const TileArrays<Real>& a, Size begin, Size end, const NewDirection& direction,
             Real* row) {
-  const auto [z_mean, beta, t_mean] = direction;  // not read again behind each store
+  // Not read again behind each store.
+  const double z_mean = direction.z_mean, beta = direction.beta, t_mean = direction.t_mean;
   for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& place, auto width) {
     const Real *m = a.m + place.packed, *z = a.z + place.packed;
     Real *t = a.t + place.packed, *cells = row + place.column;
@@ -301,7 +302,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
 template <class Real>
 void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
               const Truncation& correction) {
-  const auto [scale, shift, full_from] = correction;
+  const double scale = correction.scale, shift = correction.shift, full_from = correction.full_from;
   const double bound = a.bound;
   const auto cut = [&](const Place& place, auto width) {
     Real *z = a.z + place.packed, *m = a.m + place.packed;

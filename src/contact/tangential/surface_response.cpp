@@ -216,7 +216,6 @@ void ContactSystem::subtract_response(const PointList& points, const std::vector
 StickReport ContactSystem::solve(const PointList& points, const std::vector<double>& displacements,
                                  const Limits& limits, std::vector<double>& tractions,
                                  std::vector<double>& misfit) {
-  const auto& [tolerance, max_iterations, progress] = limits;
   StickReport report;
   const int first_fft = response_.fft_count();
   const Communicator& ranks = rows_.ranks();
@@ -236,13 +235,13 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
   const auto stop = [&](double square, int iterations) {
     report.residual = std::sqrt(square) / root;
     // Where the iteration ends by itself, before the next call, round-off has stopped it.
-    report.termination = report.residual < tolerance    ? Termination::converged
-                         : iterations == max_iterations ? Termination::iteration_limit
-                                                        : Termination::stalled;
+    report.termination = report.residual < limits.tolerance    ? Termination::converged
+                         : iterations == limits.max_iterations ? Termination::iteration_limit
+                                                               : Termination::stalled;
     if (report.termination != Termination::stalled) return true;
-    if (progress &&
-        !ranks.all_agree(progress({"stick", iterations / static_cast<double>(max_iterations),
-                                   iterations, report.residual})))
+    if (limits.progress && !ranks.all_agree(limits.progress(
+                               {"stick", iterations / static_cast<double>(limits.max_iterations),
+                                iterations, report.residual})))
       report.termination = Termination::interrupted;
     return report.termination == Termination::interrupted;
   };

@@ -75,7 +75,7 @@ PreconditionSums precondition(const TileArrays<Real>& a, std::ptrdiff_t begin, s
 template <class Real>
 void direct(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
             const NewDirection& direction, Real* row) {
-  const auto& [z_mean, beta, t_mean] = direction;
+  const double z_mean = direction.z_mean, beta = direction.beta, t_mean = direction.t_mean;
   for_active_cells(a, begin, end, [&](const Cell& c) {
     const double t = double(a.m[c.packed]) *
                      (double(a.z[c.packed]) - z_mean + beta * (double(a.t[c.packed]) - t_mean));
@@ -177,7 +177,7 @@ SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff
 template <class Real>
 void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
               const Truncation& correction) {
-  const auto& [scale, shift, full_from] = correction;
+  const double scale = correction.scale, shift = correction.shift, full_from = correction.full_from;
   for (std::ptrdiff_t k = begin; k < end; ++k) {
     if (a.quiet[k] && shift == 0 && !any_below(a, k, level)) continue;
     a.quiet[k] = 0;
