@@ -136,14 +136,14 @@ TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
   const auto swept = [&](int loads) {
     return peak_growth([&, loads] {
       std::vector<double> pressures;
-      for (int k = 0; k < loads; ++k) pressures.push_back(1e6 * std::pow(1.02, k));
+      for (int k = 0; k < loads; ++k) pressures.push_back(1e6 * std::pow(1.006, k));
       sweep_pressures(surface, material, pressures, {.concurrent_loads = 1});
     });
   };
   // A field of 65536 cells alone would be 0.5 MB a load: what grows are samples of 72
   // bytes. One load at a time: of two, more loads are more chances that both stand at their peaks
-  // at once.
-  CHECK(swept(64) - swept(16) < 48 * 10e3);
+  // at once. Steps of the heap, up to 1.3 MB, come with the layout of a run and not with a load.
+  CHECK(swept(208) - swept(16) < 192 * 10e3);
 }
 
 TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step", "[scaling]") {
