@@ -253,7 +253,12 @@ std::optional<char> NumberReader::symbol() const {
 
 bool NumberReader::ends_with_separator(std::string_view line) const {
   const std::optional<char> between = symbol();
-  return between && without_spaces(line).ends_with(*between);
+  return between && content_of(line).ends_with(*between);
+}
+
+/// Without blanks at its ends, but with the tabs that separate values.
+std::string_view NumberReader::content_of(std::string_view line) const {
+  return tabs_ ? without_spaces(line) : trimmed(line);
 }
 
 /// How one line would be read.
@@ -306,61 +311,55 @@ void NumberReader::settle(std::string_view line, int number) {
   has_decimal_point_ = point;
 }
 
+/// The value at a place, and where it ends; null if there is none.
+const char* NumberReader::read(const char* at, const char* end, int number, std::size_t column,
+                               double& value) {
+  Repeated* const last = column < repeated_.size() ? &repeated_[column] : nullptr;
+  if (last && last->size > 0 && end - at > static_cast<std::ptrdiff_t>(last->size) &&
+      (is_blank(at[last->size]) || at[last->size] == symbol()) &&
+      std::equal(last->text.begin(), last->text.begin() + last->size, at)) {
+    value = last->value;
+    return at + last->size;
+  }
+  const char* stop =
+      style_.decimal_comma ? parse_comma_number(at, end, value) : parse_number(at, end, value);
+  if (!stop) stop = parse_mark(at, end);
+  if (!stop) return nullptr;
+  if (std::isinf(value)) refuse_line(number, "holds an infinite value; correct it");
+  if (last) {
+    const auto size = static_cast<std::size_t>(stop - at);
+    last->size = size <= last->text.size() ? size : 0;
+    last->value = value;
+    std::copy_n(at, last->size, last->text.begin());
+  }
+  return stop;
+}
+
 void NumberReader::append(std::string_view line, int number, std::vector<double>& values) {
-  const std::string_view content = trimmed(line);
-  // Then a comma or semicolon that is not of the style can only be refused: it ends no value.
   const bool settled = has_separator_ && has_decimal_point_;
-  if (!settled) settle(content, number);
-  if (!tabs_)
-    line = content;
-  else
-    line = without_spaces(line);
-  const char* at = line.data();
-  const char* const end = at + line.size();
+  if (!settled) settle(trimmed(line), number);
+  const std::string_view content = content_of(line);
+  const char* const end = content.data() + content.size();
   const std::optional<char> between = symbol();
   const auto skip = [&](const char* from) {
     while (from != end && is_blank(*from) && *from != between) ++from;
     return from;
   };
-  const auto repeats = [&](const Repeated& last) {
-    return last.size > 0 && end - at > static_cast<std::ptrdiff_t>(last.size) &&
-           (is_blank(at[last.size]) || at[last.size] == between) &&
-           std::equal(last.text.begin(), last.text.begin() + last.size, at);
-  };
   std::size_t column = 0;
-  for (at = skip(at); at != end; ++column) {
+  for (const char* at = skip(content.data()); at != end; ++column) {
     double value = std::numeric_limits<double>::quiet_NaN();
     if (*at != between) {
-      Repeated* const last = column < repeated_.size() ? &repeated_[column] : nullptr;
-      const char* stop;
-      if (last && repeats(*last)) {
-        stop = at + last->size;
-        value = last->value;
-      } else {
-        stop = style_.decimal_comma ? parse_comma_number(at, end, value)
-                                    : parse_number(at, end, value);
-        if (!stop) stop = parse_mark(at, end);
-        if (!stop) {
-          if (settled) settle(content, number);
+      const char* const stop = read(at, end, number, column, value);
+      const char* const after = stop ? skip(stop) : nullptr;
+      if (!stop || !(after == end || (between ? *after == between : after != stop))) {
+        // A comma or semicolon that is not of the style ends no value, and is refused by its name.
+        if (settled) settle(trimmed(line), number);
+        if (!stop)
           refuse_unknown(file_, "line " + std::to_string(number) + " holds '" +
                                     excerpt(at, end, style_.decimal_comma ? " \t;" : " \t;,") +
                                     "', which is no number; an undefined point is written nan");
-        }
-        if (std::isinf(value)) refuse_line(number, "holds an infinite value; correct it");
-        if (last) {
-          const auto size = static_cast<std::size_t>(stop - at);
-          last->size = size <= last->text.size() ? size : 0;
-          last->value = value;
-          std::copy_n(at, last->size, last->text.begin());
-        }
-      }
-      const char* const after = skip(stop);
-      const bool separated = after == end || (between ? *after == between : after != stop);
-      if (!separated) {
-        if (settled) settle(content, number);
         refuse_line(number, "holds '" + excerpt(at, end) +
-                                "', which is no number with the separators of "
-                                "the first line");
+                                "', which is no number with the separators of the first line");
       }
       at = after;
     }

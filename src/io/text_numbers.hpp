@@ -92,8 +92,10 @@ class NumberReader {
     double value = 0;
   };
 
+  std::string_view content_of(std::string_view line) const;
   Style style_of(std::string_view line, int number) const;
   void settle(std::string_view line, int number);
+  const char* read(const char* at, const char* end, int number, std::size_t column, double& value);
   [[noreturn]] void refuse_line(int number, const std::string& what) const;
 
   std::filesystem::path file_;

@@ -55,7 +55,7 @@ TextMatrix read_rows(const std::filesystem::path& file, const Text& text, TextHe
     const std::size_t before = matrix.values.size();
     reader.append(line, lines.number(), matrix.values);
     auto columns = static_cast<Index>(matrix.values.size() - before);
-    const bool open = reader.ends_with_separator(tabs ? line : content);
+    const bool open = reader.ends_with_separator(line);
     if (matrix.rows == 0) {
       matrix.columns = columns;
       all_open = open;

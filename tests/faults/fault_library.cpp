@@ -37,7 +37,7 @@ std::array<char, 4096> working_folder;
 std::array<std::atomic<bool>, 1024> below;  // descriptors of files below the folder
 std::atomic<bool> in_main = false;
 
-/// Where HDF5 and GNU's OpenMP lie in memory, and FFTW where no program can replace its end. None
+/// Where HDF5 and OpenMP lie in memory, and FFTW where no program can replace its end. None
 /// survives a failed allocation of its own (docs/reliability.md).
 struct Range {
   uintptr_t begin = 0, end = 0;

@@ -99,12 +99,14 @@ def test_the_helper_writes_what_salebra_reads_and_refuses_in_one_line(
     (tmp_path / "scan.sdf").write_text(SDF)
     (tmp_path / "noise.bin").write_bytes(bytes(range(256)))
 
-    subprocess.run([sys.executable, "-m", "salebra", "import", "scan.sdf", "out.h5"], cwd=tmp_path, check=True)
+    command = [sys.executable, "-m", "salebra", "import", "scan.sdf", "out.h5"]
+    subprocess.run(command, cwd=tmp_path, check=True)
     with h5py.File(tmp_path / "out.h5") as document:
         assert dict(document.attrs)["units"] == "m"
         assert document.attrs["source_format"] == "sdf"
         assert document.attrs["origin"] == "scan.sdf"
     assert salebra.read_surface(tmp_path / "out.h5").heights.shape == (5, 3)
+    assert subprocess.run(command, cwd=tmp_path, stderr=subprocess.DEVNULL).returncode == 2
     # In this process: each import of SurfaceTopography takes seconds.
     monkeypatch.chdir(tmp_path)
     for arguments, reason in [
