@@ -176,6 +176,11 @@ bool Lines::next(std::string_view& line) {
   return true;
 }
 
+double Lines::share() const {
+  if (!input_) return 1;
+  return static_cast<double>(place_ - rest_.size()) / static_cast<double>(input_->size());
+}
+
 /// Puts the next piece of the file behind what is left of this one; false at the end of the file.
 bool Lines::read_on() {
   if (!input_ || place_ == input_->size()) return false;

@@ -31,6 +31,8 @@ class Lines {
   /// throws   InvalidInput for NUL bytes in a file, and for a line that does not fit into the memory
   bool next(std::string_view& line);
   int number() const { return number_; }
+  /// Of the bytes of the file, those of the lines so far.
+  double share() const;
 
  private:
   bool read_on();

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/memory.hpp"
 #include "loaded_surface.hpp"
 #include "surface_importer.hpp"
 #include "text_header.hpp"
@@ -14,10 +15,19 @@ namespace salebra::detail {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr Index enough_rows = 1024;  // to say how long all are
 
 struct TextMatrix {
   std::vector<double> values;  ///< row after row
   Index columns = 0, rows = 0;
+
+  /// For all values, of which there is a share: a vector that grows copies them, and takes twice
+  /// their memory and more.
+  void make_room(double share) {
+    constexpr double longer = 1.02;
+    const double wanted = longer * static_cast<double>(values.size()) / share;
+    if (fits_into_memory(wanted * sizeof(double))) values.reserve(static_cast<std::size_t>(wanted));
+  }
 
   /// One to the rows but for the last, which has it already and is not counted yet.
   void append_undefined_column() {
@@ -81,6 +91,7 @@ TextMatrix read_rows(const std::filesystem::path& file, const Text& text, TextHe
                                "; the file is truncated or no matrix");
     }
     ++matrix.rows;
+    if (matrix.rows == enough_rows) matrix.make_room(lines.share());
   }
   if (matrix.rows == 0)
     refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");

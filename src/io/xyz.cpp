@@ -29,9 +29,10 @@ bool on_grid(const std::vector<double>& sorted, double step) {
   });
 }
 
-/// The different ones of every third number from `first` on, which must not be NaN, rising. Points
-/// of a grid come in order: a coordinate is mostly the one before, or follows it as it did before.
-std::vector<double> different(const std::vector<double>& xyz, std::size_t first) {
+/// The different ones of every third number from `first` on, rising. Points of a grid come in
+/// order: a coordinate is mostly the one before, or follows it as it did before.
+std::vector<double> different(const std::filesystem::path& file, const std::vector<double>& xyz,
+                              std::size_t first) {
   constexpr std::size_t room = 65536;
   std::vector<double> values;  // rising up to `sorted`
   std::size_t sorted = 0, at = 0;
@@ -48,6 +49,7 @@ std::vector<double> different(const std::vector<double>& xyz, std::size_t first)
       return true;
     };
     if (is_at(at) || is_at(at + 1) || is_at(0)) continue;
+    if (std::isnan(value)) refuse(file, "has an XYZ point without coordinates; remove it");
     values.push_back(value);
     if (values.size() - sorted >= std::max(room, sorted)) sort();
   }
@@ -106,11 +108,8 @@ void require_points(const std::filesystem::path& file, const Surface& surface) {
 
 LoadedSurface grid_of_points(const std::filesystem::path& file, const std::vector<double>& xyz) {
   const std::size_t count = xyz.size() / 3;
-  for (std::size_t i = 0; i < count; ++i)
-    if (std::isnan(xyz[3 * i]) || std::isnan(xyz[3 * i + 1]))
-      refuse(file, "has an XYZ point without coordinates; remove it");
-  const XyzAxis along_x = find_axis(file, different(xyz, 0), "x"),
-                along_y = find_axis(file, different(xyz, 1), "y");
+  const std::vector<double> x = different(file, xyz, 0), y = different(file, xyz, 1);
+  const XyzAxis along_x = find_axis(file, x, "x"), along_y = find_axis(file, y, "y");
   if (static_cast<std::size_t>(along_x.points) >
       2 * count / static_cast<std::size_t>(along_y.points))
     refuse_unknown(

@@ -16,14 +16,23 @@ namespace {
 
 /// Mean and mean square of the differences of neighbours, over those that are defined.
 struct Differences {
-  double sum = 0, squares = 0;
-  Index count = 0;
+  double sum = 0, squares = 0, count = 0;
 
-  void add(double difference) {
-    if (std::isnan(difference)) return;
-    sum += difference;
-    squares += difference * difference;
-    ++count;
+  /// Each of the values less the one at its place in `others`. Eight sums side by side: one after
+  /// another they would take longer than the heights take from the disk's cache.
+  void add(const double* values, const double* others, Index size) {
+    double differences = 0, their_squares = 0, defined = 0;
+#pragma omp simd simdlen(8) reduction(+ : differences, their_squares, defined)
+    for (Index i = 0; i < size; ++i) {
+      const double difference = values[i] - others[i];
+      const double one = difference == difference ? 1 : 0, known = one > 0 ? difference : 0;
+      differences += known;
+      their_squares += known * known;
+      defined += one;
+    }
+    sum += differences;
+    squares += their_squares;
+    count += defined;
   }
   void add(const Differences& other) {
     sum += other.sum;
@@ -32,8 +41,8 @@ struct Differences {
   }
   /// Mean square of the slope about its mean; NaN where there is no pair.
   double variance(double step) const {
-    const double mean = sum / static_cast<double>(count);
-    return (squares / static_cast<double>(count) - mean * mean) / (step * step);
+    const double mean = sum / count;
+    return (squares / count - mean * mean) / (step * step);
   }
 };
 
@@ -69,8 +78,8 @@ std::optional<std::string> doubt_of_heights(const Surface& surface, double unit)
              Both sums;
              for (Index ix = begin; ix < end; ++ix) {
                const double *here = rows[ix], *next = rows[ix + 1];
-               for (Index iy = 0; next && iy < grid.ny; ++iy) sums.x.add(next[iy] - here[iy]);
-               for (Index iy = 1; iy < grid.ny; ++iy) sums.y.add(here[iy] - here[iy - 1]);
+               if (next) sums.x.add(next, here, grid.ny);
+               sums.y.add(here + 1, here, grid.ny - 1);
              }
              return sums;
            },
