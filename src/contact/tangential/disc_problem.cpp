@@ -108,7 +108,8 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
     scale[k] = 1 / std::sqrt(1 + cell_stiffness_ * face.curvature[k]);
   const double stencil_scale = cell_stiffness_ / system_.preconditioner().diagonal();
   const auto apply_scale = [&](std::vector<double>& vector) {
-    for (std::size_t i = 0; i < unknowns; ++i) vector[i] *= scale[i % count()];
+    for (auto value = vector.begin(); value != vector.end();)
+      for (const double factor : scale) *value++ *= factor;
   };
   const double goal = std::max(reduction * std::sqrt(dot(misfit, misfit)),
                                tolerance * std::sqrt(static_cast<double>(count())));
@@ -116,7 +117,11 @@ std::vector<double> DiscProblem::newton_direction(const Iterate& iterate, const 
   const CgOutcome outcome = conjugate_gradients(
       [&](const std::vector<double>& in, std::vector<double>& out) {
         system_.response().apply_loosely(points_, in.data(), out.data());
-        for (std::size_t i = 0; i < unknowns; ++i) out[i] += face.curvature[i % count()] * in[i];
+        for (std::size_t i = 0; i < unknowns;)
+          for (const double curvature : face.curvature) {
+            out[i] += curvature * in[i];
+            ++i;
+          }
         project_on(face, out);
       },
       [&](const std::vector<double>& in, std::vector<double>& out) {
