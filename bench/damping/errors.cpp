@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stated errors of the damping of diverse surfaces against what contacts on cells of a quarter of
 // the size give: the mean of two such grids that lie half a cell apart.
-//   damping_errors [surfaces [points [first seed [slip]]]]
+//   damping_errors [surfaces [points [first seed [slip] [coarsen]]]]
 // One line per surface: kind, pressure over E*h', amplitude over rms height, W, its error and the
 // parts of it (cells, scatter, levels, ratio, solver), all over W; then W by contacts, less W, over
 // W; levels, window over u_z. The last lines are results/errors.csv.
 // With slip: the loss with friction, at excursions of 0.1 to 100 mu u_z, against forces of contacts
 // on cells of a quarter of the size, with K_t = (G*/E*)K. One line per surface: kind, mu, excursion
 // over mu u_z, W, its error over W, part by slip, what the reference is off, over W.
+// With coarsen: W on the cells as they are, whose error is by cells of twice the size, as of a lone
+// surface of more than 256 points a side.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +23,7 @@
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/surface/moments.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "damping/slip_by_contacts.hpp"
@@ -137,7 +140,13 @@ int main(int count, char** words) {
   const int surfaces = count > 1 ? std::atoi(words[1]) : 210;
   const Index points = count > 2 ? std::atoi(words[2]) : 64;
   const int seed = count > 3 ? std::atoi(words[3]) : 1;
-  const bool slip = count > 4;
+  const auto asked = [&](std::string_view word) {
+    return std::ranges::count(words + std::min(count, 4), words + count, word) > 0;
+  };
+  const bool slip = asked("slip");
+  SurfaceDampingOptions options;
+  options.coarsen = asked("coarsen");
+  options.refinements = options.coarsen ? 0 : 1;
   Cases all;
   std::array<Cases, kinds.size()> by_kind;
   constexpr std::array amplitudes{0.003, 0.01, 0.03, 0.1, 0.3};
@@ -160,7 +169,6 @@ int main(int count, char** words) {
     SweepOptions sweep;
     sweep.contact.tolerance = 1e-8;
     if (slip) {
-      SurfaceDampingOptions options;
       options.friction_coefficient = between(0.1, 0.5, chance(i, 6));
       const double steps = between(0.1, 100, chance(i, 7));
       options.excursion = steps * options.friction_coefficient * motion.normal_amplitude;
@@ -182,8 +190,9 @@ int main(int count, char** words) {
       continue;
     }
     sweep.stick = true;
-    const SurfaceDamping r = surface_damping(
-        surface, material, motion, sweep_pressures(surface, material, {pressure}, sweep))[0];
+    const SurfaceDamping r =
+        surface_damping(surface, material, motion,
+                        sweep_pressures(surface, material, {pressure}, sweep), options)[0];
     const Surface finest = refined(surface, 8);
     const double converged =
         (work_by_contacts(every_second(finest, 0), material, pressure, motion, 32, true) +

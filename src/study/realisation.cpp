@@ -264,7 +264,7 @@ bool stick_solves(const StudyConfiguration& configuration) {
 
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
                                               const Grid2D& grid, std::uint64_t seed) {
-  constexpr Index most_halved = 512;
+  constexpr Index most_halved = 256;
   const std::vector<std::uint64_t> seeds = detail::seeds_of(configuration);
   const bool alone = seeds.size() == 1, to_error = configuration.relative_error > 0;
   SurfaceDampingOptions options;

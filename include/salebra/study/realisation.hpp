@@ -389,7 +389,7 @@ constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
 bool stick_solves(const StudyConfiguration& configuration);
 
 /// How the damping of one surface of the configuration is computed. One surface: with the cells
-/// halved once; beyond 512 points it is compared with cells of twice the size instead. Several:
+/// halved once; beyond 256 points it is compared with cells of twice the size instead. Several:
 /// with 4 intervals on the cells as they are, and the error of all from the first of them, by cells
 /// of twice the size. With a relative error: each with cells halved until it is met.
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
