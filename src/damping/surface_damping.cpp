@@ -485,10 +485,12 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   return result;
 }
 
+/// Of an odd number n of points along a side (n + 1)/2 share its length: slopes grow by 1/n, which
+/// counts as an error of the cells.
 Surface every_second(const Surface& surface) {
   Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.ranks};
-  coarse.grid.nx /= 2;
-  coarse.grid.ny /= 2;
+  coarse.grid.nx = (surface.grid.nx + 1) / 2;
+  coarse.grid.ny = (surface.grid.ny + 1) / 2;
   // Each process refines its own rows, which are not those that it has of the coarse grid.
   const Share fine = surface.share(), rows = coarse.share();
   std::vector<Index> begins;
@@ -528,14 +530,11 @@ Surface windowed(Surface surface) {
   return surface;
 }
 
-void validate(const Surface& surface, const ForceCurve& curve,
-              const SurfaceDampingOptions& options) {
+void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
   require(!curve.samples.empty(), "curve", 0, "loads; compute at least one");
   require(allowed_levels(options.levels), "levels", options.levels, "must be 4, 8, 16 or 32");
   require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
           "must lie in 0 … 4");
-  require(!options.coarsen || (surface.grid.nx % 2 == 0 && surface.grid.ny % 2 == 0), "coarsen",
-          surface.grid.nx, "points cannot be halved; use an even number");
   for (const auto& [value, field] :
        {std::pair{options.friction_coefficient, "friction_coefficient"},
         {options.excursion, "excursion"}})
@@ -580,7 +579,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
                                             const SurfaceDampingOptions& options) {
   const Communicator& ranks = surface.ranks;
   collectively(ranks, [&] { surface.require_complete_rows("a contact calculation"); });
-  validate(surface, curve, options);
+  validate(curve, options);
   std::vector<Load> loads;
   for (std::size_t k = 0; k < curve.samples.size(); ++k)
     loads.emplace_back(material, motion, options, curve, k);

@@ -279,7 +279,7 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
   if (to_error || (alone && std::max(grid.nx, grid.ny) <= most_halved))
     options.refinements = 1;
   else if (seed == seeds.front())
-    options.coarsen = grid.nx % 2 == 0 && grid.ny % 2 == 0;
+    options.coarsen = true;
   return options;
 }
 

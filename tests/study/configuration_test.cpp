@@ -3,6 +3,9 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/study/configuration.hpp>
+#include <salebra/study/realisation.hpp>
+
+#include "study_text.hpp"
 
 using namespace salebra;
 using Catch::StartsWith;
@@ -97,4 +100,20 @@ TEST_CASE("The configurations that come with the program are valid", "[configura
     INFO(name);
     CHECK_NOTHROW(read_study_configuration(std::string(SALEBRA_DATA) + "/" + name));
   }
+}
+
+TEST_CASE("Where one surface is alone, small grids are halved and larger ones compared",
+          "[configuration]") {
+  StudyConfiguration study = parse(study_text("seed_count = 1", 4));
+  const auto of = [&](Index points, std::uint64_t seed) {
+    return surface_damping_options(study, {points, points, 1e-5, 1e-5}, seed);
+  };
+  const std::uint64_t only = std::get<GeneratedSurfaces>(study.surfaces).seeds.front();
+  CHECK(of(256, only).refinements == 1);
+  CHECK_FALSE(of(256, only).coarsen);
+  CHECK(of(257, only).refinements == 0);
+  CHECK(of(257, only).coarsen);
+  study.relative_error = 0.1;
+  CHECK(of(2048, only).refinements == 1);
+  CHECK_FALSE(of(2048, only).coarsen);
 }

@@ -81,6 +81,11 @@ TEST_CASE("A study over processes has the bits of one process", "[study][share]"
     const StudyConfiguration study = study_of("seeds = [2]");
     compare(study, bits_of(run_ensembles(study)), 3, 1);
   }
+  SECTION("of odd numbers of points, whose cells are doubled") {
+    StudyConfiguration study = study_of("seeds = [1, 2]");
+    std::get<GeneratedSurfaces>(study.surfaces).grid = {65, 65, 4e-6, 4e-6};
+    compare(study, bits_of(run_ensembles(study)), 3, 1);
+  }
   SECTION("with processes that have no rows") {
     StudyConfiguration study = study_of("seeds = [1, 2]");
     // On this grid a contact without a start begins on a coarser one.

@@ -51,7 +51,6 @@ struct SurfaceDampingOptions {
   int refinements = 1;
   /// Compares with cells of twice the size in place of a half: a quarter of the cost, for large
   /// grids. The error of the cells is then that of the coarser of the two and rather too large.
-  /// Numbers of points must be even.
   bool coarsen = false;
   /// W on the cells as they are, to which the refinements only give the error; false: on the
   /// finest.
