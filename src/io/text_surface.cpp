@@ -21,8 +21,8 @@ struct TextMatrix {
   std::vector<double> values;  ///< row after row
   Index columns = 0, rows = 0;
 
-  /// For all values, of which there is a share: a vector that grows copies them, and takes twice
-  /// their memory and more.
+  /// For all values, of which there is a share: a vector that grows copies them, each time into
+  /// pages that the system has to clear.
   void make_room(double share) {
     constexpr double longer = 1.02;
     const double wanted = longer * static_cast<double>(values.size()) / share;
