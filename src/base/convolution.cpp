@@ -406,9 +406,16 @@ struct Convolution2D<Real>::Passes {
            paired + i < left);
   }
 
+  static bool odd_along_x(Parity parity) {
+    return parity == Parity::odd || parity == Parity::odd_along_x;
+  }
+  static bool imaginary(Parity parity) {
+    return parity == Parity::odd_along_x || parity == Parity::odd_along_y;
+  }
+
   void multiply(Index j, Complex* numbers) const {
     kernels.multiply(real(numbers), table_rows(), shape.period_x - table_rows(),
-                     tables[0].parity == Parity::odd ? Real(-1) : Real(1),
+                     odd_along_x(tables[0].parity) ? Real(-1) : Real(1),
                      tables[0].values.get() + j * table_rows());
   }
 
@@ -417,7 +424,7 @@ struct Convolution2D<Real>::Passes {
     std::array<Real, 3> sign;
     for (std::size_t t = 0; t < 3; ++t) {
       symbol[t] = tables[t].values.get() + j * table_rows();
-      sign[t] = tables[t].parity == Parity::odd ? Real(-1) : Real(1);
+      sign[t] = odd_along_x(tables[t].parity) ? Real(-1) : Real(1);
     }
     const auto at = [&](Index place, Index i, Real s0, Real s1, Real s2) {
       const Complex x = first[place], y = second[place];
@@ -427,6 +434,10 @@ struct Convolution2D<Real>::Passes {
     for (Index i = 0; i < table_rows(); ++i) at(i, i, 1, 1, 1);
     for (Index i = 1; i < shape.period_x - shape.period_x / 2; ++i)
       at(shape.period_x - i, i, sign[0], sign[1], sign[2]);
+    if (!imaginary(tables[0].parity)) return;
+    for (Complex* numbers : {first, second})
+      for (Index i = 0; i < shape.period_x; ++i)
+        numbers[i] = {-numbers[i].imag(), numbers[i].real()};
   }
 
   template <class Source, class Place, class Done>

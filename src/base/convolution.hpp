@@ -10,8 +10,8 @@
 
 namespace salebra {
 
-/// What a kernel does under x → −x, and separately under y → −y.
-enum class Parity { even, odd };
+/// What a kernel does under x → −x and under y → −y: even or odd under each, or odd under one.
+enum class Parity { even, odd, odd_along_x, odd_along_y };
 
 /// Convolution of real fields with real kernels, by one real transform forward and one backward:
 ///     y_a = Σ_b K_ab * x_b,   a, b < components (1 or 2),   K_ab = K_ba.
@@ -30,8 +30,8 @@ class Convolution2D {
     Index period_x = 0, period_y = 0;  ///< of the transform; >= nx, ny
   };
   /// The kernel's transform Σ_ab K(a, b) exp(−2πi(ia/period_x + jb/period_y)) for 0 <= i <=
-  /// period_x/2, 0 <= j <= period_y/2. It is real for either parity, and parity says what it is at
-  /// negative i, j.
+  /// period_x/2, 0 <= j <= period_y/2: real, or 1/i of it where it is imaginary, of kernels that
+  /// are odd along one axis. Parity says what it is at negative i, j.
   using Symbol = std::function<double(Index i, Index j)>;
 
   explicit Convolution2D(const Shape& shape, int components = 1);
@@ -47,7 +47,8 @@ class Convolution2D {
   ~Convolution2D();
 
   const Shape& shape() const;
-  /// K_ab and K_ba. Symbols are zero until set. `symbol` is called from several threads.
+  /// K_ab and K_ba. Symbols are zero until set. `symbol` is called from several threads. Kernels
+  /// that are odd along one axis are for two components, and then all are.
   void set_symbol(int a, int b, const Symbol& symbol, Parity parity = Parity::even);
 
   /// Lets apply() keep its spectrum in the memory given, of at least spectrum_bytes() on a boundary

@@ -26,6 +26,11 @@ double odd_symbol(Index i, Index j, Index px, Index py) {
   return -std::sin(2 * M_PI * double(i) / double(px)) * std::sin(2 * M_PI * double(j) / double(py));
 }
 
+// i times this: odd along one axis, even along the other.
+double odd_along_one_symbol(Index i, Index j, Index px, Index py) {
+  return -std::sin(2 * M_PI * double(i) / double(px)) * std::cos(2 * M_PI * double(j) / double(py));
+}
+
 // The kernels of those symbols, point by point: 3δ + ¼ Σ δ(a±1, b±2) and ¼ Σ ±δ(a±1, b±1).
 double circular(const Field& field, const Case& shape, Index a, Index b) {
   const Index i = (a % shape.period_x + shape.period_x) % shape.period_x;
@@ -42,6 +47,15 @@ double by_hand_odd(const Field& field, const Case& shape, Index a, Index b) {
   double sum = 0;
   for (const int x : {-1, 1})
     for (const int y : {-1, 1}) sum += 0.25 * x * y * circular(field, shape, a - x, b - y);
+  return sum;
+}
+
+double by_hand_odd_along_one(const Field& field, const Case& shape, Index a, Index b,
+                             bool along_x) {
+  double sum = 0;
+  for (const int x : {-1, 1})
+    for (const int y : {-1, 1})
+      sum += 0.25 * (along_x ? x : y) * circular(field, shape, a - x, b - y);
   return sum;
 }
 
@@ -72,6 +86,18 @@ TEST_CASE("A convolution equals the sum over the kernel's points, circular and z
   vector.set_symbol(0, 1, odd, Parity::odd);
   Field x(shape.nx, shape.ny), y(shape.nx, shape.ny);
   vector.apply({field.data(), second.data()}, {x.data(), y.data()});
+
+  Convolution2D<double> gradient(periods, 2);
+  gradient.set_symbol(
+      0, 0,
+      [&](Index i, Index j) { return odd_along_one_symbol(i, j, shape.period_x, shape.period_y); },
+      Parity::odd_along_x);
+  gradient.set_symbol(
+      0, 1,
+      [&](Index i, Index j) { return odd_along_one_symbol(j, i, shape.period_y, shape.period_x); },
+      Parity::odd_along_y);
+  Field divergence(shape.nx, shape.ny), along_y(shape.nx, shape.ny);
+  gradient.apply({field.data(), second.data()}, {divergence.data(), along_y.data()});
   for (Index a = 0; a < shape.nx; ++a)
     for (Index b = 0; b < shape.ny; ++b) {
       // Rounding of two transforms of numbers of order 1.
@@ -79,6 +105,11 @@ TEST_CASE("A convolution equals the sum over the kernel's points, circular and z
       CHECK(x(a, b) == Approx(by_hand_even(field, shape, a, b) + by_hand_odd(second, shape, a, b))
                            .margin(1e-13));
       CHECK(y(a, b) == Approx(by_hand_odd(field, shape, a, b)).margin(1e-13));
+      CHECK(divergence(a, b) == Approx(by_hand_odd_along_one(field, shape, a, b, true) +
+                                       by_hand_odd_along_one(second, shape, a, b, false))
+                                    .margin(1e-13));
+      CHECK(along_y(a, b) ==
+            Approx(by_hand_odd_along_one(field, shape, a, b, false)).margin(1e-13));
     }
 }
 

@@ -108,11 +108,14 @@ void spectra_of(const Surface& surface, Numbers& numbers) {
     numbers.add(radial.wavenumber);
     numbers.add(radial.psd);
     numbers.add(radial.modes);
-    const SelfAffineFit fit = fit_self_affine(spectrum);
-    numbers.add({fit.hurst.value, fit.hurst.low, fit.hurst.high, fit.hurst.wavenumber_min,
-                 fit.hurst.wavenumber_max, static_cast<double>(fit.hurst.modes)});
-    for (const IntervalEstimate& estimate : {fit.rolloff, fit.short_cutoff})
-      numbers.add({estimate.value, estimate.low, estimate.high});
+    // The fit takes longer than all the rest, and does not know the window.
+    if (window == Window::hann) {
+      const SelfAffineFit fit = fit_self_affine(spectrum);
+      numbers.add({fit.hurst.value, fit.hurst.low, fit.hurst.high, fit.hurst.wavenumber_min,
+                   fit.hurst.wavenumber_max, static_cast<double>(fit.hurst.modes)});
+      for (const IntervalEstimate& estimate : {fit.rolloff, fit.short_cutoff})
+        numbers.add({estimate.value, estimate.low, estimate.high});
+    }
     for (const Axis axis : {Axis::x, Axis::y}) {
       const ProfilePsd profiles = profile_psd(surface, axis, window);
       numbers.add(profiles.wavenumber);
@@ -171,7 +174,7 @@ TEST_CASE("Statistics of a spread surface have the bits of one process", "[stati
   SECTION("of summits") { check_same_bits(whole, summits_of); }
   SECTION("of spectra") {
     if (grid.ny == 64)  // or else the test would compare what was not found
-      REQUIRE(fit_self_affine(power_spectrum(whole, Window::none)).hurst.found());
+      REQUIRE(fit_self_affine(power_spectrum(whole, Window::hann)).hurst.found());
     check_same_bits(whole, spectra_of);
   }
   SECTION("with undefined points") {

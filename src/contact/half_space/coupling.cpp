@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Dundurs' coupling of two bodies, and the displacements it adds across normal and tangential.
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -15,7 +17,6 @@ namespace salebra {
 namespace {
 
 using std::numbers::pi;
-using Modes = std::vector<std::complex<double>>;
 
 }  // namespace
 
@@ -53,83 +54,76 @@ double cell_gradient_integral(double x, double y, double dx, double dy) {
   return sum;
 }
 
+// u_z = K_x * τ_x + K_y * τ_y and −u_t = (K_x * p, K_y * p): one pair of kernels K_00 = K_x and
+// K_01 = K_10 = K_y serves both.
 struct NormalTangentialCoupling::Parts {
   Grid2D grid;
-  RealFft2D<double> fft;
-  Modes kernel_x, kernel_y;  // of u_z under τ, over the number of points
-  Field padded;
-  Modes modes, second_modes;
+  Convolution2D<double> kernels;
 
   Parts(const Grid2D& cells, double constant, Boundary boundary)
-      : grid(cells),
-        fft(boundary == Boundary::periodic ? cells.nx : fast_transform_size(2 * cells.nx - 1),
-            boundary == Boundary::periodic ? cells.ny : fast_transform_size(2 * cells.ny - 1)),
-        padded(Field::Zero(fft.nx(), fft.ny())) {
-    modes.resize(static_cast<std::size_t>(fft.nx() * fft.modes_y()));
-    second_modes = modes;
+      : grid(cells), kernels(shape_of(cells, boundary), 2) {
     if (boundary == Boundary::periodic)
       set_periodic(constant);
     else
       set_free(constant);
-    for (Modes* kernel : {&kernel_x, &kernel_y})
-      for (std::complex<double>& mode : *kernel) mode /= static_cast<double>(padded.size());
+  }
+
+  static Convolution2D<double>::Shape shape_of(const Grid2D& grid, Boundary boundary) {
+    if (boundary == Boundary::periodic) return {grid.nx, grid.ny, grid.nx, grid.ny};
+    return {grid.nx, grid.ny, fast_transform_size(2 * grid.nx - 1),
+            fast_transform_size(2 * grid.ny - 1)};
   }
 
   void set_periodic(double constant) {
-    kernel_x.resize(modes.size());
-    kernel_y.resize(modes.size());
-    for (Index i = 0; i < grid.nx; ++i)
-      for (Index j = 0; j < fft.modes_y(); ++j) {
-        // A mode on a Nyquist line is its own mirror image, so that an odd symbol vanishes there.
-        const Index signed_i = 2 * i > grid.nx ? i - grid.nx : i;
-        const double qx = 2 * pi * static_cast<double>(signed_i) / grid.lx;
-        const double qy = 2 * pi * static_cast<double>(j) / grid.ly;
-        const double square = qx * qx + qy * qy;
-        const auto at = static_cast<std::size_t>(i * fft.modes_y() + j);
-        const auto symbol = [&](double q, bool own_mirror) {
-          return own_mirror || square == 0
-                     ? std::complex<double>{}
-                     : std::complex<double>{0, -2 * pi * constant * q / square};
-        };
-        kernel_x[at] = symbol(qx, 2 * i == grid.nx);
-        kernel_y[at] = symbol(qy, 2 * j == grid.ny);
-      }
+    const auto set = [&](int component, Parity parity) {
+      kernels.set_symbol(
+          0, component,
+          [this, constant, component](Index i, Index j) {
+            const double qx = 2 * pi * static_cast<double>(i) / grid.lx;
+            const double qy = 2 * pi * static_cast<double>(j) / grid.ly;
+            // A mode on a Nyquist line is its own mirror image, so that an odd symbol vanishes
+            // there.
+            const bool own_mirror = component == 0 ? 2 * i == grid.nx : 2 * j == grid.ny;
+            if (own_mirror || (i == 0 && j == 0)) return 0.0;
+            return -2 * pi * constant * (component == 0 ? qx : qy) / (qx * qx + qy * qy);
+          },
+          parity);
+    };
+    set(0, Parity::odd_along_x);
+    set(1, Parity::odd_along_y);
   }
 
   void set_free(double constant) {
-    const auto transform = [&](Modes& kernel, auto integral) {
-      const Index half_x = fft.nx() / 2, half_y = fft.ny() / 2;
-      parallel::for_slabs(fft.nx(), [&](Index begin, Index end) {
+    const Index nx = kernels.shape().period_x, ny = kernels.shape().period_y;
+    RealFft2D<double> fft(nx, ny);
+    Field kernel(nx, ny);
+    std::vector<std::complex<double>> modes(static_cast<std::size_t>(nx * fft.modes_y()));
+    const auto set = [&](int component, Parity parity, auto integral) {
+      parallel::for_slabs(nx, [&](Index begin, Index end) {
         for (Index a = begin; a < end; ++a)
-          for (Index b = 0; b < fft.ny(); ++b) {
-            // Distances of half a period are never used.
-            const Index i = a > half_x ? a - fft.nx() : a, j = b > half_y ? b - fft.ny() : b;
-            padded(a, b) = constant * integral(static_cast<double>(i) * grid.dx(),
-                                               static_cast<double>(j) * grid.dy());
+          for (Index b = 0; b < ny; ++b) {
+            // Distances of half a period are never used, and must not make the kernel less odd.
+            const Index i = 2 * a > nx ? a - nx : a, j = 2 * b > ny ? b - ny : b;
+            const bool halfway = component == 0 ? 2 * a == nx : 2 * b == ny;
+            kernel(a, b) = halfway ? 0
+                                   : constant * integral(static_cast<double>(i) * grid.dx(),
+                                                         static_cast<double>(j) * grid.dy());
           }
       });
-      kernel.resize(modes.size());
-      fft.forward(padded.data(), kernel.data());
+      fft.forward(kernel.data(), modes.data());
+      kernels.set_symbol(
+          0, component,
+          [&](Index i, Index j) {
+            return modes[static_cast<std::size_t>(i * fft.modes_y() + j)].imag();
+          },
+          parity);
     };
-    transform(kernel_x, [&](double x, double y) {
-      return cell_gradient_integral(x, y, grid.dx(), grid.dy());
-    });
-    transform(kernel_y, [&](double x, double y) {
-      return cell_gradient_integral(y, x, grid.dy(), grid.dx());
-    });
-    padded.setZero();
+    set(0, Parity::odd_along_x,
+        [&](double x, double y) { return cell_gradient_integral(x, y, grid.dx(), grid.dy()); });
+    set(1, Parity::odd_along_y,
+        [&](double x, double y) { return cell_gradient_integral(y, x, grid.dy(), grid.dx()); });
   }
 
-  void forward(const Field& field, Modes& to) {
-    padded.topLeftCorner(grid.nx, grid.ny) = field;
-    fft.forward(padded.data(), to.data());
-  }
-  Field backward(Modes& from) {
-    fft.backward(from.data(), padded.data());
-    Field field = padded.topLeftCorner(grid.nx, grid.ny);
-    padded.setZero();
-    return field;
-  }
   void require_field(const Field& field, const char* name) const {
     require(field.rows() == grid.nx && field.cols() == grid.ny, name, field.size(),
             "values do not match the grid; give nx × ny values");
@@ -151,24 +145,29 @@ Field NormalTangentialCoupling::normal_displacement(const TangentialField& tract
   Parts& p = *parts_;
   p.require_field(traction.x, "traction");
   p.require_field(traction.y, "traction");
-  p.forward(traction.x, p.modes);
-  p.forward(traction.y, p.second_modes);
-  for (std::size_t k = 0; k < p.modes.size(); ++k)
-    p.modes[k] = p.kernel_x[k] * p.modes[k] + p.kernel_y[k] * p.second_modes[k];
-  return p.backward(p.modes);
+  Field displacement(p.grid.nx, p.grid.ny);
+  p.kernels.apply(
+      [&](int component, Index row, double*) {
+        return (component == 0 ? traction.x : traction.y).data() + row * p.grid.ny;
+      },
+      [&](int component, Index row, const double* values) {
+        if (component == 0) std::copy_n(values, p.grid.ny, displacement.data() + row * p.grid.ny);
+      });
+  return displacement;
 }
 
 TangentialField NormalTangentialCoupling::tangential_displacement(const Field& pressure) {
   Parts& p = *parts_;
   p.require_field(pressure, "pressure");
-  p.forward(pressure, p.modes);
-  for (std::size_t k = 0; k < p.modes.size(); ++k) {
-    p.second_modes[k] = -p.kernel_y[k] * p.modes[k];
-    p.modes[k] *= -p.kernel_x[k];
-  }
-  TangentialField displacement;
-  displacement.x = p.backward(p.modes);
-  displacement.y = p.backward(p.second_modes);
+  TangentialField displacement{Field(p.grid.nx, p.grid.ny), Field(p.grid.nx, p.grid.ny)};
+  p.kernels.apply(
+      [&](int component, Index row, double*) {
+        return component == 0 ? pressure.data() + row * p.grid.ny : nullptr;
+      },
+      [&](int component, Index row, const double* values) {
+        double* to = (component == 0 ? displacement.x : displacement.y).data() + row * p.grid.ny;
+        std::transform(values, values + p.grid.ny, to, std::negate<>());
+      });
   return displacement;
 }
 

@@ -29,9 +29,7 @@ struct CoupledContact::Parts {
   double dundurs;
   NormalTangentialCoupling coupling;
   SlidingContact sliding;
-  double indentation = 0, normal_work = 0, gap_work = 0;
-  Field gap;  // now
-  Termination termination = Termination::converged;
+  CoupledState kept;  // without that of `sliding`
 
   Parts(const Surface& given, const Material& material, const CoupledContactOptions& wanted)
       : surface(given),
@@ -44,8 +42,33 @@ struct CoupledContact::Parts {
         coupling(given.grid,
                  wanted.coupling_constant ? *wanted.coupling_constant : coupling_constant(material),
                  wanted.contact.boundary),
-        sliding(given.grid, material, wanted.sliding),
-        gap(highest - given.heights) {}
+        sliding(given.grid, material, wanted.sliding) {
+    const Index nx = given.grid.nx, ny = given.grid.ny;
+    kept.gap = highest - given.heights;
+    kept.pressure_before = Field::Zero(nx, ny);
+    kept.traction_before = {Field::Zero(nx, ny), Field::Zero(nx, ny)};
+  }
+
+  // Where a smooth path leads: what the last increment changed is changed again, as far as this one
+  // goes the same way.
+  SlidingContact::Increment foreseen(double step, const TangentialMove& move) const {
+    const double along =
+        step * kept.last_step + move.x * kept.last_move_x + move.y * kept.last_move_y;
+    const double square = kept.last_step * kept.last_step + kept.last_move_x * kept.last_move_x +
+                          kept.last_move_y * kept.last_move_y;
+    const double part = square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0;
+    const auto further = [part](const Field& now, const Field& before) -> Field {
+      return now + part * (now - before);
+    };
+    const TangentialField& now = sliding.traction();
+    SlidingContact::Increment next;
+    next.contact_pressure = further(sliding.contact_pressure(), kept.pressure_before).max(0.0);
+    const ContactSet touching = next.contact_pressure > 0;
+    next.traction = {touching.select(further(now.x, kept.traction_before.x), 0.0),
+                     touching.select(further(now.y, kept.traction_before.y), 0.0)};
+    next.traction_halfway = {(now.x + next.traction.x) / 2, (now.y + next.traction.y) / 2};
+    return next;
+  }
 
   double force() const { return surface.grid.cell_area() * sliding.contact_pressure().sum(); }
 
@@ -102,9 +125,8 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   const double motion_scale =
       scale > 0 ? std::min(p.options.sliding.motion_scale, scale) : p.options.sliding.motion_scale;
   CoupledReport report;
-  SlidingContact::Increment increment;
-  increment.contact_pressure = p.sliding.contact_pressure();
-  increment.traction = p.sliding.traction();
+  const double step = indentation - p.kept.indentation;
+  SlidingContact::Increment increment = p.foreseen(step, move);
   Field gap;
   Termination solved = Termination::iteration_limit;
   // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has
@@ -124,8 +146,8 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     if (report.sweeps > patience)
       barred = barred || (increment.contact_pressure > 0 && state.contact_pressure <= 0);
     const TangentialField shift = p.coupling.tangential_displacement(state.contact_pressure);
-    SlidingContact::Increment next = p.sliding.attempt(state.contact_pressure, move, &shift,
-                                                       report.sweeps > 0 ? &increment : nullptr);
+    SlidingContact::Increment next =
+        p.sliding.attempt(state.contact_pressure, move, &shift, &increment);
     const double change = (next.contact_pressure - increment.contact_pressure).abs().sum() +
                           (next.traction.x - increment.traction.x).abs().sum() +
                           (next.traction.y - increment.traction.y).abs().sum();
@@ -143,52 +165,52 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     if (solved == Termination::interrupted) break;
   }
   report.termination = still ? solved : std::max(solved, Termination::iteration_limit);
-  p.termination = std::max(p.termination, report.termination);
+  CoupledState& now = p.kept;
+  now.termination = std::max(now.termination, report.termination);
   const Field &pressure = p.sliding.contact_pressure(), &next_pressure = increment.contact_pressure;
-  const Field across = (pressure <= 0).select(next_pressure * p.gap, 0.0) -
+  const Field across = (pressure <= 0).select(next_pressure * now.gap, 0.0) -
                        (next_pressure <= 0).select(pressure * gap, 0.0);
-  p.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
-  p.gap = std::move(gap);
+  now.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
+  now.gap = std::move(gap);
+  now.pressure_before = pressure;
+  now.traction_before = p.sliding.traction();
   p.sliding.accept(std::move(increment));
-  p.normal_work += (force_before + p.force()) / 2 * (indentation - p.indentation);
-  p.indentation = indentation;
+  now.normal_work += (force_before + p.force()) / 2 * step;
+  now.indentation = indentation;
+  now.last_step = step;
+  now.last_move_x = move.x;
+  now.last_move_y = move.y;
   return report;
 }
 
 CoupledState CoupledContact::state() const {
-  const Parts& p = *parts_;
-  return {.sliding = p.sliding.state(),
-          .gap = p.gap,
-          .indentation = p.indentation,
-          .normal_work = p.normal_work,
-          .gap_work = p.gap_work,
-          .termination = p.termination};
+  CoupledState state = parts_->kept;
+  state.sliding = parts_->sliding.state();
+  return state;
 }
 
 void CoupledContact::restore(CoupledState state) {
   Parts& p = *parts_;
-  require(state.gap.rows() == p.gap.rows() && state.gap.cols() == p.gap.cols(), "state",
-          state.gap.size(), "cells do not match the grid; resume with the run's own settings");
+  for (const Field* field :
+       {&state.gap, &state.pressure_before, &state.traction_before.x, &state.traction_before.y})
+    require(field->rows() == p.surface.grid.nx && field->cols() == p.surface.grid.ny, "state",
+            field->size(), "cells do not match the grid; resume with the run's own settings");
   p.sliding.restore(std::move(state.sliding));
-  p.gap = std::move(state.gap);
-  p.indentation = state.indentation;
-  p.normal_work = state.normal_work;
-  p.gap_work = state.gap_work;
-  p.termination = state.termination;
+  p.kept = std::move(state);
 }
 
 const SlidingContact& CoupledContact::sliding() const { return parts_->sliding; }
-double CoupledContact::indentation() const { return parts_->indentation; }
+double CoupledContact::indentation() const { return parts_->kept.indentation; }
 double CoupledContact::normal_force() const { return parts_->force(); }
-double CoupledContact::normal_work() const { return parts_->normal_work; }
-double CoupledContact::gap_work() const { return parts_->gap_work; }
-Termination CoupledContact::termination() const { return parts_->termination; }
+double CoupledContact::normal_work() const { return parts_->kept.normal_work; }
+double CoupledContact::gap_work() const { return parts_->kept.gap_work; }
+Termination CoupledContact::termination() const { return parts_->kept.termination; }
 
 double CoupledContact::stored_energy() const {
   const Parts& p = *parts_;
   // In contact the surface lies where the body is.
   const Field normal =
-      p.sliding.contact_pressure() * (p.indentation - (p.highest - p.surface.heights));
+      p.sliding.contact_pressure() * (p.kept.indentation - (p.highest - p.surface.heights));
   return p.sliding.tangential_energy() + p.surface.grid.cell_area() / 2 * normal.sum();
 }
 

@@ -36,6 +36,19 @@ Field limit_of(const Field& pressure, double friction) {
   return (pressure > 0).select(Field::Constant(pressure.rows(), pressure.cols(), friction), 0.0);
 }
 
+// A start for tractions within other limits than those that they were found for: where they were at
+// their limit they are at the new one, and slip as they did.
+void carry_to_limit(TangentialField& traction, const Field& limit_before, const Field& limit) {
+  constexpr double round_off = 1e-12;
+  for (Index k = 0; k < limit.size(); ++k) {
+    double &x = traction.x.data()[k], &y = traction.y.data()[k];
+    const double size = std::hypot(x, y);
+    if (!(size > 0) || size < (1 - round_off) * limit_before.data()[k]) continue;
+    x *= limit.data()[k] / size;
+    y *= limit.data()[k] / size;
+  }
+}
+
 // For how much of an increment the entering cells were in contact, 0 … 1: half of it on average.
 // Near the edge of a contact p² grows in proportion to the indentation, so that the part is c p²
 // where that is less than 1.
@@ -163,6 +176,11 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
                       .slip = {},
                       .move = move,
                       .report = {.termination = Termination::converged}};
+  if (std::isfinite(options_.friction_coefficient))
+    carry_to_limit(increment.traction,
+                   limit_of(guess ? guess->contact_pressure : state_.contact_pressure,
+                            options_.friction_coefficient),
+                   limit);
   if (entering.any()) {
     const TangentialField present =
         displacement_under(contact_, state_.traction, state_.shift, entering);
