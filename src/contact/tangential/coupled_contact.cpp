@@ -43,31 +43,15 @@ struct CoupledContact::Parts {
                  wanted.coupling_constant ? *wanted.coupling_constant : coupling_constant(material),
                  wanted.contact.boundary),
         sliding(given.grid, material, wanted.sliding) {
-    const Index nx = given.grid.nx, ny = given.grid.ny;
     kept.gap = highest - given.heights;
-    kept.pressure_before = Field::Zero(nx, ny);
-    kept.traction_before = {Field::Zero(nx, ny), Field::Zero(nx, ny)};
   }
 
-  // Where a smooth path leads: what the last increment changed is changed again, as far as this one
-  // goes the same way.
+  // Where a smooth path leads, as far as this increment goes the way of the last one.
   SlidingContact::Increment foreseen(double step, const TangentialMove& move) const {
-    const double along =
-        step * kept.last_step + move.x * kept.last_move_x + move.y * kept.last_move_y;
-    const double square = kept.last_step * kept.last_step + kept.last_move_x * kept.last_move_x +
-                          kept.last_move_y * kept.last_move_y;
-    const double part = square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0;
-    const auto further = [part](const Field& now, const Field& before) -> Field {
-      return now + part * (now - before);
-    };
-    const TangentialField& now = sliding.traction();
-    SlidingContact::Increment next;
-    next.contact_pressure = further(sliding.contact_pressure(), kept.pressure_before).max(0.0);
-    const ContactSet touching = next.contact_pressure > 0;
-    next.traction = {touching.select(further(now.x, kept.traction_before.x), 0.0),
-                     touching.select(further(now.y, kept.traction_before.y), 0.0)};
-    next.traction_halfway = {(now.x + next.traction.x) / 2, (now.y + next.traction.y) / 2};
-    return next;
+    const TangentialMove last = sliding.last_move();
+    const double square = kept.last_step * kept.last_step + last.x * last.x + last.y * last.y;
+    const double along = step * kept.last_step + move.x * last.x + move.y * last.y;
+    return sliding.foreseen(square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0);
   }
 
   double force() const { return surface.grid.cell_area() * sliding.contact_pressure().sum(); }
@@ -172,14 +156,10 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
                        (next_pressure <= 0).select(pressure * gap, 0.0);
   now.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
   now.gap = std::move(gap);
-  now.pressure_before = pressure;
-  now.traction_before = p.sliding.traction();
   p.sliding.accept(std::move(increment));
   now.normal_work += (force_before + p.force()) / 2 * step;
   now.indentation = indentation;
   now.last_step = step;
-  now.last_move_x = move.x;
-  now.last_move_y = move.y;
   return report;
 }
 
@@ -191,10 +171,8 @@ CoupledState CoupledContact::state() const {
 
 void CoupledContact::restore(CoupledState state) {
   Parts& p = *parts_;
-  for (const Field* field :
-       {&state.gap, &state.pressure_before, &state.traction_before.x, &state.traction_before.y})
-    require(field->rows() == p.surface.grid.nx && field->cols() == p.surface.grid.ny, "state",
-            field->size(), "cells do not match the grid; resume with the run's own settings");
+  require(state.gap.rows() == p.surface.grid.nx && state.gap.cols() == p.surface.grid.ny, "state",
+          state.gap.size(), "cells do not match the grid; resume with the run's own settings");
   p.sliding.restore(std::move(state.sliding));
   p.kept = std::move(state);
 }

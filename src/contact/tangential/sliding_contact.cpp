@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tangential contact with Coulomb friction in increments of pressure and of the rigid displacement.
+#include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
@@ -74,8 +75,8 @@ SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
       options_(options),
       solver_(grid, material, options.stick),
       contact_(ContactSet::Constant(grid.nx, grid.ny, false)) {
-  state_.contact_pressure = state_.loss = Field::Zero(grid.nx, grid.ny);
-  state_.shift = state_.traction = state_.displacement = zero(grid);
+  state_.contact_pressure = state_.pressure_before = state_.loss = Field::Zero(grid.nx, grid.ny);
+  state_.shift = state_.traction = state_.traction_before = state_.displacement = zero(grid);
   validate(options);
   state_.motion_scale = options.motion_scale;
 }
@@ -88,7 +89,8 @@ void SlidingContact::set_motion_scale(double scale) {
 void SlidingContact::restore(SlidingState state) {
   for (const Field* field :
        {&state.contact_pressure, &state.loss, &state.shift.x, &state.shift.y, &state.traction.x,
-        &state.traction.y, &state.displacement.x, &state.displacement.y})
+        &state.traction.y, &state.displacement.x, &state.displacement.y, &state.pressure_before,
+        &state.traction_before.x, &state.traction_before.y})
     require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
             field->size(), "cells do not match the grid; resume with the run's own settings");
   require_positive(state.motion_scale, "motion_scale");
@@ -154,6 +156,7 @@ void SlidingContact::slide(const Field& pressure, const TangentialMove& directio
   state_.contact_pressure = pressure;
   state_.traction = {limit * (direction.x / length), limit * (direction.y / length)};
   state_.displacement = displacement_under(contact_, state_.traction, state_.shift, contact_);
+  state_.last_move_x = state_.last_move_y = 0;
   state_.loss.setZero();
   state_.work = state_.released = 0;
   state_.slipping = contact_.count();
@@ -223,36 +226,75 @@ void SlidingContact::accept(Increment increment) {
   state_.slipping = increment.report.slipping;
   const ContactSet contact =
       limit_of(increment.contact_pressure, options_.friction_coefficient) > 0;
-  const ContactSet leaving = contact_ && !contact, entering = contact && !contact_;
-  const TangentialField middle = mean(state_.traction, increment.traction);
-  // The body's motion as the cells feel it, those that enter from their entry on.
-  TangentialField motion{Field::Constant(contact.rows(), contact.cols(), increment.move.x),
-                         Field::Constant(contact.rows(), contact.cols(), increment.move.y)};
-  const auto from_entry = [&](Field& whole, const Field& before, const Field& after,
-                              const Field& slip) {
-    whole = entering.select(after + slip - before, whole);
-  };
-  from_entry(motion.x, increment.displacement_before.x, increment.displacement.x, increment.slip.x);
-  from_entry(motion.y, increment.displacement_before.y, increment.displacement.y, increment.slip.y);
-  state_.work += cell_area_ * dot(middle, motion).sum();
-  state_.loss += cell_area_ * contact.select(dot(middle, increment.slip), 0.0);
-  if (leaving.any()) {
-    const TangentialField carried = moved(state_.displacement, increment.move, 1, leaving);
-    const TangentialField relaxed =
-        displacement_under(contact, increment.traction, increment.shift, leaving);
-    const Field released = cell_area_ * dot(middle, {carried.x - relaxed.x, carried.y - relaxed.y});
-    state_.loss += released;
-    state_.released += released.sum();
+  const ContactSet leaving = contact_ && !contact;
+  TangentialField relaxed;
+  if (leaving.any())
+    relaxed = displacement_under(contact, increment.traction, increment.shift, leaving);
+  double work = 0, released = 0;
+  for (Index k = 0; k < contact.size(); ++k) {
+    const bool stayed = contact_.data()[k], stays = contact.data()[k];
+    if (!stayed && !stays) continue;
+    const auto at = [k](const TangentialField& field) {
+      return TangentialMove{field.x.data()[k], field.y.data()[k]};
+    };
+    const auto by_middle = [before = at(state_.traction), after = at(increment.traction)](
+                               double x, double y) {
+      return (before.x + after.x) / 2 * x + (before.y + after.y) / 2 * y;
+    };
+    const TangentialMove& move = increment.move;
+    double& loss = state_.loss.data()[k];
+    if (!stays) {
+      const TangentialMove carried = at(state_.displacement), free = at(relaxed);
+      const double let_go =
+          cell_area_ * by_middle(carried.x + move.x - free.x, carried.y + move.y - free.y);
+      work += by_middle(move.x, move.y);
+      loss += let_go;
+      released += let_go;
+      continue;
+    }
+    const TangentialMove slip = at(increment.slip);
+    loss += cell_area_ * by_middle(slip.x, slip.y);
+    if (stayed) {
+      work += by_middle(move.x, move.y);
+    } else {
+      // The body's motion as the cell feels it, from its entry on.
+      const TangentialMove end = at(increment.displacement),
+                           start = at(increment.displacement_before);
+      work += by_middle(end.x + slip.x - start.x, end.y + slip.y - start.y);
+    }
   }
+  state_.work += cell_area_ * work;
+  state_.released += released;
   contact_ = contact;
-  state_.contact_pressure = std::move(increment.contact_pressure);
+  state_.pressure_before =
+      std::exchange(state_.contact_pressure, std::move(increment.contact_pressure));
+  state_.traction_before = std::exchange(state_.traction, std::move(increment.traction));
   state_.shift = std::move(increment.shift);
-  state_.traction = std::move(increment.traction);
   state_.displacement = std::move(increment.displacement);
+  state_.last_move_x = increment.move.x;
+  state_.last_move_y = increment.move.y;
+}
+
+SlidingContact::Increment SlidingContact::foreseen(double part) const {
+  const auto further = [part](const Field& now, const Field& before) -> Field {
+    return now + part * (now - before);
+  };
+  const TangentialField &now = state_.traction, &before = state_.traction_before;
+  Increment guess;
+  guess.contact_pressure = further(state_.contact_pressure, state_.pressure_before).max(0.0);
+  const ContactSet touching = guess.contact_pressure > 0;
+  guess.traction = {touching.select(further(now.x, before.x), 0.0),
+                    touching.select(further(now.y, before.y), 0.0)};
+  guess.traction_halfway = mean(now, guess.traction);
+  return guess;
 }
 
 PartialSlipReport SlidingContact::advance(const Field& pressure, const TangentialMove& move) {
-  Increment increment = attempt(pressure, move);
+  const TangentialMove last = last_move();
+  const double square = last.x * last.x + last.y * last.y;
+  const double along = move.x * last.x + move.y * last.y;
+  const Increment start = foreseen(square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0);
+  Increment increment = attempt(pressure, move, nullptr, &start);
   const PartialSlipReport report = increment.report;
   accept(std::move(increment));
   return report;

@@ -260,7 +260,7 @@ TEST_CASE("An increment begins where a smooth path leads", "[coupling]") {
   contact.advance(1e-5);
   for (int k = 1; k <= 3; ++k) contact.advance(1e-5 + k * 1e-7, move);
   CoupledState state = contact.state();
-  state.last_step = state.last_move_x = state.last_move_y = 0;
+  state.last_step = state.sliding.last_move_x = state.sliding.last_move_y = 0;
   unaware.restore(state);
   const auto go_on = [&](CoupledContact& some) {
     REQUIRE(some.advance(1e-5 + 4e-7, move).converged());

@@ -32,10 +32,7 @@ struct CoupledReport {
 /// All that a coupled contact remembers from one increment to the next.
 struct CoupledState {
   SlidingState sliding;
-  Field pressure_before;                             ///< last increment's start (nx, ny), Pa
-  TangentialField traction_before;                   ///< the same, Pa
   double last_step = 0;                              ///< of the indentation, m
-  double last_move_x = 0, last_move_y = 0;           ///< of the body, m
   Field gap;                                         ///< (nx, ny), m
   double indentation = 0;                            ///< m
   double normal_work = 0;                            ///< ∫F dδ since the start, J
@@ -47,13 +44,7 @@ constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
   using enum Dimension;
   using S = CoupledState;
   visit(&S::sliding, Part{"sliding", "tractions and slip"});
-  visit(&S::pressure_before,
-        Kept{"pressure_before", "contact pressure before the last increment", pressure});
-  visit(&S::traction_before,
-        Kept{"traction_before", "shear traction before the last increment", pressure});
   visit(&S::last_step, Kept{"last_step", "last change of the indentation", length});
-  visit(&S::last_move_x, Kept{"last_move_x", "last move of the body along x", length});
-  visit(&S::last_move_y, Kept{"last_move_y", "last move of the body along y", length});
   visit(&S::gap, Kept{"gap", "gap between the deformed surfaces", length});
   visit(&S::indentation, Kept{"indentation", "indentation", length});
   visit(&S::normal_work, Kept{"normal_work", "work of the normal force", energy});

@@ -25,11 +25,14 @@ struct TangentialMove {
 
 /// All that a sliding contact remembers from one increment to the next.
 struct SlidingState {
-  Field contact_pressure;        ///< (nx, ny), Pa
-  TangentialField shift;         ///< displacement by other causes, m
-  TangentialField traction;      ///< Pa
-  TangentialField displacement;  ///< of the cells in contact, `shift` included, m
-  Field loss;                    ///< since the start, J in each cell
+  Field contact_pressure;                   ///< (nx, ny), Pa
+  TangentialField shift;                    ///< displacement by other causes, m
+  TangentialField traction;                 ///< Pa
+  TangentialField displacement;             ///< of the cells in contact, `shift` included, m
+  Field pressure_before;                    ///< at the start of the last increment, Pa
+  TangentialField traction_before;          ///< the same, Pa
+  double last_move_x = 0, last_move_y = 0;  ///< of the last increment, m
+  Field loss;                               ///< since the start, J in each cell
   ContactSet
       prepared;  ///< cells within which no contact rebuilds the kernels, whose rounding depends on
                  ///< it
@@ -49,6 +52,12 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
   visit(&S::shift, Kept{"shift", "displacement by other causes", length});
   visit(&S::traction, Kept{"traction", "shear traction", pressure});
   visit(&S::displacement, Kept{"displacement", "displacement of cells in contact", length});
+  visit(&S::pressure_before,
+        Kept{"pressure_before", "contact pressure before the last increment", pressure});
+  visit(&S::traction_before,
+        Kept{"traction_before", "shear traction before the last increment", pressure});
+  visit(&S::last_move_x, Kept{"last_move_x", "last move of the body along x", length});
+  visit(&S::last_move_y, Kept{"last_move_y", "last move of the body along y", length});
   visit(&S::loss, Kept{"loss", "energy dissipated in each cell since the start", energy});
   visit(&S::prepared, Kept{"prepared", "1 within the window of the kernels"});
   visit(&S::motion_scale,
@@ -101,7 +110,10 @@ class SlidingContact {
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
   void accept(Increment increment);
-  /// attempt and accept.
+  /// A guess of where a smooth path leads: what the last increment changed, `part` of it again.
+  Increment foreseen(double part) const;
+  TangentialMove last_move() const { return {state_.last_move_x, state_.last_move_y}; }
+  /// attempt and accept, from where the last move leads as far as this one goes the same way.
   PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
 
   /// The state after endless sliding along (direction.x, direction.y) at these pressures: τ = μp
