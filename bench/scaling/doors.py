@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the program does around a contact, by two builds of it in one run:  bench/scaling/doors.py OLD NEW [ROUNDS [JOB...]]
+"""What the program does around a contact, and cycles with friction, by two builds in one run:  bench/scaling/doors.py OLD NEW [ROUNDS [JOB...]]
 
 OLD and NEW are programs `salebra`. A line for each job: medians over ROUNDS (5) of the seconds of processor time of a program and its
 children on one thread, start of the program included, their ratio, and the greatest memory of a process in MB. OLD and NEW take turns.
@@ -12,9 +12,15 @@ import subprocess
 import sys
 import tempfile
 
-SURFACE = "--hurst 0.8 --size-x 4mm --short-cutoff 16um --rolloff 400um --rms-slope 0.1 --overwrite"
+SURFACE = "--hurst 0.8 --size-x 4mm --rolloff 400um --rms-slope 0.1 --overwrite"
+OSCILLATION = """--pressure 200MPa --young 210GPa --poisson 0.3 --normal-amplitude 20nm --tangential-amplitude 50nm --phase 45deg
+    --friction 0.3"""
 JOBS = {
-    "generate 4096": f"generate --points 4096 {SURFACE} -o g.h5",
+    "start": "--version",
+    "contact 1024": "contact s1024.h5 --pressure 230MPa --contact-modulus 115GPa",
+    "friction 256": f"oscillate --surface s256.h5 {OSCILLATION}",
+    "coupled 128": f"oscillate --surface s128.h5 {OSCILLATION} --coupled --steps 32 --levels 4",
+    "generate 4096": f"generate --points 4096 --short-cutoff 16um {SURFACE} -o g.h5",
     "statistics 4096": "statistics s4096.h5 --overwrite -o s.json",
     "read .h5 4096": "convert s4096.h5 c.npy --overwrite --crop 0,0,10um,10um",
     "read .txt 2048": "convert s2048.txt c.npy --overwrite --crop 0,0,10um,10um",
@@ -39,8 +45,9 @@ def main():
     jobs = sys.argv[4:] or list(JOBS)
     with tempfile.TemporaryDirectory(dir=os.environ.get("TMPDIR", "/dev/shm")) as folder:
         os.chdir(folder)
-        run(programs[1], f"generate --points 4096 {SURFACE} -o s4096.h5")
-        run(programs[1], f"generate --points 2048 {SURFACE} -o s2048.h5")
+        for points in (128, 256, 1024, 2048, 4096):
+            cutoff = max(16, 4 * 4000 / points)
+            run(programs[1], f"generate --points {points} --short-cutoff {cutoff}um {SURFACE} -o s{points}.h5")
         for form in ("txt", "xyz"):
             run(programs[1], f"convert s2048.h5 s2048.{form}")
         print(f"{'job':<16} {'old, s':>8} {'new, s':>8} {'ratio':>6} {'old, MB':>8} {'new, MB':>8}")

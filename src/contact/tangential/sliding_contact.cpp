@@ -43,7 +43,7 @@ void carry_to_limit(TangentialField& traction, const Field& limit_before, const 
   constexpr double round_off = 1e-12;
   for (Index k = 0; k < limit.size(); ++k) {
     double &x = traction.x.data()[k], &y = traction.y.data()[k];
-    const double size = std::hypot(x, y);
+    const double size = std::sqrt(x * x + y * y);
     if (!(size > 0) || size < (1 - round_off) * limit_before.data()[k]) continue;
     x *= limit.data()[k] / size;
     y *= limit.data()[k] / size;
