@@ -50,6 +50,10 @@ void carry_to_limit(TangentialField& traction, const Field& limit_before, const 
   }
 }
 
+// Where cells enter is known to the square of an increment only. The solve that says it may leave so
+// many times what others may, as long as this is a small part of the motion.
+double entry_looseness(double tolerance) { return std::clamp(1e-4 / tolerance, 1.0, 100.0); }
+
 // For how much of an increment the entering cells were in contact, 0 … 1: half of it on average.
 // Near the edge of a contact p² grows in proportion to the indentation, so that the part is c p²
 // where that is less than 1.
@@ -130,7 +134,8 @@ TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
   target.y -= contact_.select(halfway.y, 0.0);
   const PartialSlipReport report =
       solver_.solve(limit_of(state_.contact_pressure, options_.friction_coefficient), target,
-                    state_.motion_scale, increment.traction_halfway, slip);
+                    entry_looseness(options_.stick.tolerance) * state_.motion_scale,
+                    increment.traction_halfway, slip);
   count(report);
   increment.report.termination = report.termination;
   return displacement_under(contact_, increment.traction_halfway, halfway, entering);
