@@ -12,6 +12,7 @@
 #include <queue>
 #include <salebra/base/parallel.hpp>
 #include <salebra/contact/sweep.hpp>
+#include <salebra/damping/cycle.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/surface/areal_parameters.hpp>
@@ -91,6 +92,18 @@ void statistics(const Surface& surface) {
   areal_parameters(surface);
 }
 
+// Its tangential motion is as large as the normal one, which presses the mean contact by a tenth.
+void cycle(const Surface& surface, const Material& material, double indentation) {
+  CycleOptions options;
+  options.steps = 16;
+  options.friction_coefficient = 0.3;
+  const Oscillation motion = EqualFrequency{.normal_amplitude = 0.1 * indentation,
+                                            .tangential_amplitude = 0.1 * indentation,
+                                            .phase = 0.8};
+  simulate_frictional_cycle(boundary_element_pressures(surface, material.contact_modulus),
+                            surface.grid, material, trajectory_of(motion, indentation), options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -103,6 +116,8 @@ int main(int argc, char** argv) {
   std::vector<Surface> small;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) small.push_back(surface_of(n / 4, seed));
   const Material material = Material::of_contact_modulus(1);
+  const Material sliding = Material::of_contact_modulus(1, 0.3);
+  const double indentation = press(small[0], 1, {.pressure = 2e-3}).indentation;
   // Parts of the contact modulus times the slope of 0.1.
   const std::vector<double> pressures{1e-4, 3e-4, 1e-3, 3e-3, 1e-2};
   const std::vector<std::pair<const char*, std::function<void()>>> jobs{
@@ -114,6 +129,7 @@ int main(int argc, char** argv) {
            sweep_pressures(small[static_cast<std::size_t>(k)], material, pressures);
          });
        }},
+      {"cycle with friction", [&] { cycle(small[0], sliding, indentation); }},
       {"statistics", [&] { statistics(surface); }},
       {"generate", [&] { surface_of(n, 2); }}};
   std::printf("%-22s %7s %10s %8s %8s %8s %8s\n", "job", "threads", "one, s", "serial", "path, s",
