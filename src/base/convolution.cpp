@@ -489,6 +489,8 @@ template <class Real>
 void Convolution2D<Real>::set_symbol(int a, int b, const Symbol& symbol, Parity parity) {
   require(a >= 0 && a < passes_->components && b >= 0 && b < passes_->components, "component",
           std::max(a, b), "must be below the number of components");
+  require(passes_->components == 2 || !Passes::imaginary(parity), "parity", "odd along one axis",
+          "needs two components");
   passes_->set_symbol(a, b, symbol, parity);
 }
 

@@ -96,6 +96,8 @@ TEST_CASE("A convolution equals the sum over the kernel's points, circular and z
       0, 1,
       [&](Index i, Index j) { return odd_along_one_symbol(j, i, shape.period_y, shape.period_x); },
       Parity::odd_along_y);
+  CHECK_THROWS_WITH(scalar.set_symbol(0, 0, even, Parity::odd_along_x),
+                    Catch::Contains("parity: odd along one axis needs two components"));
   Field divergence(shape.nx, shape.ny), along_y(shape.nx, shape.ny);
   gradient.apply({field.data(), second.data()}, {divergence.data(), along_y.data()});
   for (Index a = 0; a < shape.nx; ++a)

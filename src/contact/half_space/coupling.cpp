@@ -12,6 +12,7 @@
 
 #include "base/convolution.hpp"
 #include "base/fft.hpp"
+#include "half_space.hpp"
 
 namespace salebra {
 namespace {
@@ -61,17 +62,11 @@ struct NormalTangentialCoupling::Parts {
   Convolution2D<double> kernels;
 
   Parts(const Grid2D& cells, double constant, Boundary boundary)
-      : grid(cells), kernels(shape_of(cells, boundary), 2) {
+      : grid(cells), kernels(shape_of<double>(cells, boundary), 2) {
     if (boundary == Boundary::periodic)
       set_periodic(constant);
     else
       set_free(constant);
-  }
-
-  static Convolution2D<double>::Shape shape_of(const Grid2D& grid, Boundary boundary) {
-    if (boundary == Boundary::periodic) return {grid.nx, grid.ny, grid.nx, grid.ny};
-    return {grid.nx, grid.ny, fast_transform_size(2 * grid.nx - 1),
-            fast_transform_size(2 * grid.ny - 1)};
   }
 
   void set_periodic(double constant) {

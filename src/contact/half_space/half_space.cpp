@@ -28,13 +28,6 @@ using std::numbers::pi;
 // a asinh(b/|a|), continued to a = 0.
 double corner_term(double a, double b) { return a == 0 ? 0 : a * std::asinh(b / std::abs(a)); }
 
-template <class Real>
-typename Convolution2D<Real>::Shape shape_of(const Grid2D& grid, Boundary boundary) {
-  if (boundary == Boundary::periodic) return {grid.nx, grid.ny, grid.nx, grid.ny};
-  return {grid.nx, grid.ny, fast_transform_size(2 * grid.nx - 1),
-          fast_transform_size(2 * grid.ny - 1)};
-}
-
 // Transform of a kernel that is given by its value at the distance of (a, b) cells, even or odd
 // along both axes, on the period of the zero-padded convolution. Each process has rows 0 …
 // period_x/2 of the transform along y, which is real or imaginary; columns are made of them.

@@ -23,6 +23,14 @@ struct CellIntegrals {
 /// quadrature. Relative error below 1e-12 for squares at any distance.
 CellIntegrals cell_integrals(double x, double y, double dx, double dy);
 
+/// What a convolution of fields on this grid needs: as it is, or padded with zeros.
+template <class Real>
+typename Convolution2D<Real>::Shape shape_of(const Grid2D& grid, Boundary boundary) {
+  if (boundary == Boundary::periodic) return {grid.nx, grid.ny, grid.nx, grid.ny};
+  return {grid.nx, grid.ny, fast_transform_size(2 * grid.nx - 1),
+          fast_transform_size(2 * grid.ny - 1)};
+}
+
 /// Normal displacement of a pressure field, u = Gp:
 ///     periodic  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0;      free  u = (1/πE*) ∬ p/r, uniform over each cell, zero-padded.
 /// contact_modulus   E* > 0, Pa

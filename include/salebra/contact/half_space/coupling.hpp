@@ -36,9 +36,9 @@ class NormalTangentialCoupling {
   NormalTangentialCoupling& operator=(NormalTangentialCoupling&&) noexcept;
   ~NormalTangentialCoupling();
 
-  /// u_z (nx, ny), m, of tractions. Cost: three real transforms.
+  /// u_z (nx, ny), m, of tractions. Cost: two real transforms forward and two backward.
   Field normal_displacement(const TangentialField& traction);
-  /// u_t, m, of pressures. Cost: three real transforms.
+  /// u_t, m, of pressures. Cost: the same, with rows of zeros left out.
   TangentialField tangential_displacement(const Field& pressure);
 
  private:

@@ -106,7 +106,7 @@ class SlidingContact {
   /// Where an increment would lead.
   /// shift   tangential displacement of the surface by causes other than τ (the coupling to the
   ///         pressures) at the end; nullptr: as it was
-  /// guess   an earlier attempt to begin from; its pressure and tractions are enough
+  /// guess   an earlier attempt or foreseen() to begin from; pressure and tractions are enough
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
   void accept(Increment increment);
