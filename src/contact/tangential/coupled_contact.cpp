@@ -46,14 +46,6 @@ struct CoupledContact::Parts {
     kept.gap = highest - given.heights;
   }
 
-  // Where a smooth path leads, as far as this increment goes the way of the last one.
-  SlidingContact::Increment foreseen(double step, const TangentialMove& move) const {
-    const TangentialMove last = sliding.last_move();
-    const double square = kept.last_step * kept.last_step + last.x * last.x + last.y * last.y;
-    const double along = step * kept.last_step + move.x * last.x + move.y * last.y;
-    return sliding.foreseen(square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0);
-  }
-
   double force() const { return surface.grid.cell_area() * sliding.contact_pressure().sum(); }
 
   // Presses to the same rigid approach above a surface that the tractions have displaced by `sunk`;
@@ -110,7 +102,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
       scale > 0 ? std::min(p.options.sliding.motion_scale, scale) : p.options.sliding.motion_scale;
   CoupledReport report;
   const double step = indentation - p.kept.indentation;
-  SlidingContact::Increment increment = p.foreseen(step, move);
+  SlidingContact::Increment increment = p.sliding.foreseen(move, step, p.kept.last_step);
   Field gap;
   Termination solved = Termination::iteration_limit;
   // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has

@@ -10,12 +10,6 @@
 #include "conjugate_gradients.hpp"
 
 namespace salebra::detail {
-namespace {
-
-// A point that was projected on its circle stays there up to round-off.
-constexpr double round_off = 1e-12;
-
-}  // namespace
 
 DiscProblem::DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
                          std::vector<double> targets, double stiffness_scale)
@@ -33,7 +27,7 @@ double DiscProblem::length(const std::vector<double>& vector, std::size_t point)
 }
 
 bool DiscProblem::at_limit(const std::vector<double>& tractions, std::size_t point) const {
-  return length(tractions, point) >= (1 - round_off) * limits_[point];
+  return length(tractions, point) >= (1 - limit_round_off) * limits_[point];
 }
 
 bool DiscProblem::slips(const std::vector<double>& tractions, const std::vector<double>& gradient,

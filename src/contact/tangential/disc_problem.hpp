@@ -9,6 +9,9 @@
 
 namespace salebra::detail {
 
+/// A traction that was projected on its limit stays there up to so much of it.
+inline constexpr double limit_round_off = 1e-12;
+
 /// minimise ½ τ·Kτ − τ·v with |τ_i| <= limit_i, the quadratic programme of PartialSlipSolver, on
 /// the points of a contact set. A vector is (components × points); with one component the discs are
 /// intervals.

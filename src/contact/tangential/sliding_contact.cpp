@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "disc_problem.hpp"
+
 namespace salebra {
 namespace {
 
@@ -40,11 +42,10 @@ Field limit_of(const Field& pressure, double friction) {
 // A start for tractions within other limits than those that they were found for: where they were at
 // their limit they are at the new one, and slip as they did.
 void carry_to_limit(TangentialField& traction, const Field& limit_before, const Field& limit) {
-  constexpr double round_off = 1e-12;
   for (Index k = 0; k < limit.size(); ++k) {
     double &x = traction.x.data()[k], &y = traction.y.data()[k];
     const double size = std::sqrt(x * x + y * y);
-    if (!(size > 0) || size < (1 - round_off) * limit_before.data()[k]) continue;
+    if (!(size > 0) || size < (1 - detail::limit_round_off) * limit_before.data()[k]) continue;
     x *= limit.data()[k] / size;
     y *= limit.data()[k] / size;
   }
@@ -280,7 +281,12 @@ void SlidingContact::accept(Increment increment) {
   state_.last_move_y = increment.move.y;
 }
 
-SlidingContact::Increment SlidingContact::foreseen(double part) const {
+SlidingContact::Increment SlidingContact::foreseen(const TangentialMove& move, double step,
+                                                   double last_step) const {
+  const double x = state_.last_move_x, y = state_.last_move_y;
+  const double square = x * x + y * y + last_step * last_step;
+  const double along = move.x * x + move.y * y + step * last_step;
+  const double part = square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0;
   const auto further = [part](const Field& now, const Field& before) -> Field {
     return now + part * (now - before);
   };
@@ -295,10 +301,7 @@ SlidingContact::Increment SlidingContact::foreseen(double part) const {
 }
 
 PartialSlipReport SlidingContact::advance(const Field& pressure, const TangentialMove& move) {
-  const TangentialMove last = last_move();
-  const double square = last.x * last.x + last.y * last.y;
-  const double along = move.x * last.x + move.y * last.y;
-  const Increment start = foreseen(square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0);
+  const Increment start = foreseen(move);
   Increment increment = attempt(pressure, move, nullptr, &start);
   const PartialSlipReport report = increment.report;
   accept(std::move(increment));

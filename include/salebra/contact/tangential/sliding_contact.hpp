@@ -110,10 +110,11 @@ class SlidingContact {
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
   void accept(Increment increment);
-  /// A guess of where a smooth path leads: what the last increment changed, `part` of it again.
-  Increment foreseen(double part) const;
-  TangentialMove last_move() const { return {state_.last_move_x, state_.last_move_y}; }
-  /// attempt and accept, from where the last move leads as far as this one goes the same way.
+  /// A guess of where a smooth path leads: what the last increment changed is changed again, as far
+  /// as this one goes the same way. `step` and `last_step` are these increments of an indentation
+  /// that moves with the body, m.
+  Increment foreseen(const TangentialMove& move, double step = 0, double last_step = 0) const;
+  /// attempt and accept, from foreseen().
   PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
 
   /// The state after endless sliding along (direction.x, direction.y) at these pressures: τ = μp
