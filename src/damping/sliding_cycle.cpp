@@ -154,8 +154,7 @@ class ForcedBody final : public FrictionalBody {
   ForcedBody(const PressureLevels& levels, const Grid2D& grid, const Material& material,
              const Trajectory& at_rest, const std::function<double(double t)>& force,
              const CycleOptions& options, const detail::TrajectoryRange& range)
-      : FrictionalBody(levels, grid, material, at_rest, options, range),
-        cell_area_(grid.cell_area()) {
+      : FrictionalBody(levels, grid, material, at_rest, options, range) {
     double greatest = 0;
     for (int k = 0; k <= options.steps; ++k) {
       forces_.push_back(force(time(k)));
@@ -185,7 +184,8 @@ class ForcedBody final : public FrictionalBody {
     for (int search = 0;; ++search) {
       increment =
           contact().attempt(pressure, along(distance), nullptr, increment ? &*increment : nullptr);
-      const double excess = force_of(*increment) - forces_[std::size_t(step)];
+      const double excess =
+          component(contact().tangential_force(*increment)) - forces_[std::size_t(step)];
       const bool met = std::abs(excess) <= tolerance_;
       if (met || search == 60 || increment->report.termination == Termination::interrupted) {
         if (!met) termination_ = std::max(termination_, Termination::iteration_limit);
@@ -210,12 +210,8 @@ class ForcedBody final : public FrictionalBody {
   }
 
  private:
-  double force_of(const SlidingContact::Increment& increment) const {
-    return cell_area_ * component({increment.traction.x.sum(), increment.traction.y.sum()});
-  }
-
   std::vector<double> forces_;
-  double cell_area_, stiffness_ = 0, tolerance_ = 0;
+  double stiffness_ = 0, tolerance_ = 0;
   Termination termination_ = Termination::converged;
 };
 

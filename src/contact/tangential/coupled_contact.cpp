@@ -103,6 +103,8 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   CoupledReport report;
   const double step = indentation - p.kept.indentation;
   SlidingContact::Increment increment = p.sliding.foreseen(move, step, p.kept.last_step);
+  Field pressure = p.sliding.contact_pressure(increment);
+  TangentialField traction = p.sliding.traction(increment);
   Field gap;
   Termination solved = Termination::iteration_limit;
   // Without a limit a cell at the edge carries traction or not, and may do so in turn: one that has
@@ -117,18 +119,16 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
       looseness = std::clamp(inner_share * report.change / p.options.tolerance, 1.0, looseness);
     p.sliding.set_motion_scale(looseness * motion_scale);
     NormalContactState state =
-        p.press(indentation, p.coupling.normal_displacement(increment.traction),
-                increment.contact_pressure, barred, looseness);
-    if (report.sweeps > patience)
-      barred = barred || (increment.contact_pressure > 0 && state.contact_pressure <= 0);
+        p.press(indentation, p.coupling.normal_displacement(traction), pressure, barred, looseness);
+    if (report.sweeps > patience) barred = barred || (pressure > 0 && state.contact_pressure <= 0);
     const TangentialField shift = p.coupling.tangential_displacement(state.contact_pressure);
-    SlidingContact::Increment next =
-        p.sliding.attempt(state.contact_pressure, move, &shift, &increment);
-    const double change = (next.contact_pressure - increment.contact_pressure).abs().sum() +
-                          (next.traction.x - increment.traction.x).abs().sum() +
-                          (next.traction.y - increment.traction.y).abs().sum();
-    const double total = next.contact_pressure.sum();
-    increment = std::move(next);
+    increment = p.sliding.attempt(state.contact_pressure, move, &shift, &increment);
+    TangentialField next = p.sliding.traction(increment);
+    const double change = (state.contact_pressure - pressure).abs().sum() +
+                          (next.x - traction.x).abs().sum() + (next.y - traction.y).abs().sum();
+    pressure = std::move(state.contact_pressure);
+    traction = std::move(next);
+    const double total = pressure.sum();
     gap = std::move(state.gap);
     solved = std::max(state.termination, increment.report.termination);
     const double before = report.change;
@@ -143,9 +143,9 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
   report.termination = still ? solved : std::max(solved, Termination::iteration_limit);
   CoupledState& now = p.kept;
   now.termination = std::max(now.termination, report.termination);
-  const Field &pressure = p.sliding.contact_pressure(), &next_pressure = increment.contact_pressure;
-  const Field across = (pressure <= 0).select(next_pressure * now.gap, 0.0) -
-                       (next_pressure <= 0).select(pressure * gap, 0.0);
+  const Field& last = p.sliding.contact_pressure();
+  const Field across =
+      (last <= 0).select(pressure * now.gap, 0.0) - (pressure <= 0).select(last * gap, 0.0);
   now.gap_work += p.surface.grid.cell_area() / 2 * across.sum();
   now.gap = std::move(gap);
   p.sliding.accept(std::move(increment));

@@ -1,30 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/tangential/partial_slip.hpp>
 #include <vector>
 
-#include "surface_response.hpp"
+#include "tangential_workspace.hpp"
 
 namespace salebra::detail {
 
 /// A traction that was projected on its limit stays there up to so much of it.
 inline constexpr double limit_round_off = 1e-12;
 
+/// Tractions whose displacements are known.
+struct KnownResponse {
+  const std::vector<double>& tractions;
+  const std::vector<double>& displacements;
+  double error = 0;  ///< of the displacements, m
+};
+
 /// minimise ½ τ·Kτ − τ·v with |τ_i| <= limit_i, the quadratic programme of PartialSlipSolver, on
 /// the points of a contact set. A vector is (components × points); with one component the discs are
-/// intervals.
+/// intervals. Where the limit is 0, τ is, and the point tells only where it goes.
 class DiscProblem {
  public:
-  /// limits: for each point, > 0, Pa, may be infinite. stiffness_scale: E of K ≈ 2/(E q), Pa.
+  /// limits: for each point, >= 0, Pa, may be infinite. stiffness_scale: E of K ≈ 2/(E q), Pa.
   DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
               std::vector<double> targets, double stiffness_scale);
 
   /// From a guess, which need not be feasible, to residual < tolerance, m. On return `gradient` is
-  /// Kτ − v.
+  /// Kτ − v. `known`, near the guess, saves a response in double precision; nullptr: none.
   PartialSlipReport solve(double tolerance, int max_iterations, const Progress& progress,
-                          std::vector<double>& tractions, std::vector<double>& gradient);
+                          std::vector<double>& tractions, std::vector<double>& gradient,
+                          const KnownResponse* known = nullptr);
 
   /// Whether a point slips: |τ − κg| exceeds its limit. (|τ| itself may be short of a limit that
   /// has grown by less than the tolerance since the guess.)
@@ -37,30 +46,37 @@ class DiscProblem {
 
  private:
   // What a Newton step may change: everything in free points, the direction of traction in bound
-  // ones.
+  // ones, nothing where there is no limit.
   struct Face {
-    std::vector<char> bound;        // per point
-    std::vector<double> normal;     // τ/|τ| of bound points
-    std::vector<double> curvature;  // λ = |g|/limit of bound points, m/Pa; 0 elsewhere
+    std::vector<std::size_t> bound;
+    std::vector<double> normal;     // τ/|τ| of each bound point (bound × components)
+    std::vector<double> curvature;  // λ = |g|/limit of each, m/Pa
   };
   struct Iterate {
     std::vector<double> tractions, gradient;
-    double energy = 0;
+    double doubt = 0;  // how far the gradient may be off, m
+  };
+  struct Direction {
+    std::vector<double> step;  // Pa
+    bool small = false;        // enough for the response to it in single precision
   };
 
   std::size_t count() const { return limits_.size(); }
+  // Of those that can carry traction.
+  double root_of_count() const { return std::sqrt(static_cast<double>(open_)); }
   std::size_t components() const { return targets_.size() / limits_.size(); }
   double length(const std::vector<double>& vector, std::size_t point) const;
   bool at_limit(const std::vector<double>& tractions, std::size_t point) const;
   void project(std::vector<double>& tractions) const;
-  void evaluate(Iterate& iterate);
+  Iterate start(std::vector<double> tractions, const KnownResponse* known);
+  Iterate evaluated(std::vector<double> tractions);
+  Iterate moved(const Iterate& from, std::vector<double> tractions);
   double residual(const Iterate& iterate) const;
   Face face_of(const Iterate& iterate) const;
   void project_on(const Face& face, std::vector<double>& vector) const;
-  std::vector<double> newton_direction(const Iterate& iterate, const Face& face, double reduction,
-                                       double tolerance, int max_iterations,
-                                       PartialSlipReport& report);
-  bool newton_step(const Face& face, const std::vector<double>& direction, Iterate& iterate);
+  Direction newton_direction(const Iterate& iterate, const Face& face, double reduction,
+                             int max_iterations, PartialSlipReport& report);
+  bool newton_step(const Face& face, const Direction& direction, Iterate& iterate);
   bool gradient_step(Iterate& iterate);
   bool accept(Iterate&& trial, Iterate& iterate) const;
 
@@ -69,7 +85,17 @@ class DiscProblem {
   std::vector<double> limits_, targets_;
   double cell_stiffness_;   // κ, Pa/m
   double gradient_length_;  // of the last projected gradient step, Pa/m
+  double tolerance_ = 0;    // of the residual, m
+  std::ptrdiff_t open_;     // points of a limit > 0
   bool newton_ = true;
 };
+
+/// PartialSlipSolver::solve on points of its workspace: `slip` is v − Kτ where a point slips, as it
+/// does where its limit is 0, and 0 elsewhere.
+PartialSlipReport solve_discs(TangentialWorkspace& workspace, ContactSystem& system,
+                              const PointList& points, std::vector<double> limits,
+                              std::vector<double> targets, double scale,
+                              std::vector<double>& tractions, std::vector<double>& slip,
+                              const KnownResponse* known = nullptr);
 
 }  // namespace salebra::detail

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tangential contact with Coulomb friction in increments of pressure and of the rigid displacement.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/tangential/sliding_contact.hpp>
 #include <utility>
 #include <vector>
 
 #include "disc_problem.hpp"
+#include "tangential_workspace.hpp"
 
 namespace salebra {
 namespace {
+
+using Values = std::vector<double>;
 
 TangentialField zero(const Grid2D& grid) {
   return {Field::Zero(grid.nx, grid.ny), Field::Zero(grid.nx, grid.ny)};
@@ -18,58 +23,30 @@ TangentialField zero(const Grid2D& grid) {
 
 Field dot(const TangentialField& a, const TangentialField& b) { return a.x * b.x + a.y * b.y; }
 
-TangentialField mean(const TangentialField& a, const TangentialField& b) {
-  return {(a.x + b.x) / 2, (a.y + b.y) / 2};
-}
-
-// a + part · move on `where`, 0 elsewhere.
-TangentialField moved(const TangentialField& a, const TangentialMove& move, double part,
-                      const ContactSet& where) {
-  return {where.select(a.x + part * move.x, 0.0), where.select(a.y + part * move.y, 0.0)};
-}
-
 void validate(const SlidingContactOptions& options) {
   require(options.friction_coefficient >= 0, "friction_coefficient", options.friction_coefficient,
           "must be >= 0 (infinity: full stick)");
   require_positive(options.motion_scale, "motion_scale");
 }
 
-Field limit_of(const Field& pressure, double friction) {
-  if (std::isfinite(friction)) return friction * pressure;
-  return (pressure > 0).select(Field::Constant(pressure.rows(), pressure.cols(), friction), 0.0);
-}
-
-// A start for tractions within other limits than those that they were found for: where they were at
-// their limit they are at the new one, and slip as they did.
-void carry_to_limit(TangentialField& traction, const Field& limit_before, const Field& limit) {
-  for (Index k = 0; k < limit.size(); ++k) {
-    double &x = traction.x.data()[k], &y = traction.y.data()[k];
-    const double size = std::sqrt(x * x + y * y);
-    if (!(size > 0) || size < (1 - detail::limit_round_off) * limit_before.data()[k]) continue;
-    x *= limit.data()[k] / size;
-    y *= limit.data()[k] / size;
-  }
-}
-
 // Where cells enter is known to the square of an increment only. The solve that says it may leave so
 // many times what others may, as long as this is a small part of the motion.
 double entry_looseness(double tolerance) { return std::clamp(1e-4 / tolerance, 1.0, 100.0); }
 
-// For how much of an increment the entering cells were in contact, 0 … 1: half of it on average.
-// Near the edge of a contact p² grows in proportion to the indentation, so that the part is c p²
-// where that is less than 1.
-Field part_in_contact(const Field& pressure, const ContactSet& entering) {
-  const Field squared = entering.select(pressure.square(), 0.0);
-  std::vector<double> squares;
-  for (Index k = 0; k < squared.size(); ++k)
-    if (entering.data()[k]) squares.push_back(squared.data()[k]);
-  const Eigen::Map<const Eigen::ArrayXd> some(squares.data(), static_cast<Index>(squares.size()));
-  double low = 0, high = 1 / some.minCoeff();
+// For how much of an increment a cell that enters at a pressure is in contact, 0 … 1: the mean of
+// `pressures` for half of it. Near the edge of a contact p² grows in proportion to the indentation,
+// so that the part is c p² where that is less than 1: the factor c.
+double entry_factor(const Values& pressures) {
+  double least = pressures.front();
+  for (const double pressure : pressures) least = std::min(least, pressure);
+  double low = 0, high = 1 / (least * least);
   for (int halving = 0; halving < 100; ++halving) {
     const double factor = (low + high) / 2;
-    ((factor * some).min(1.0).sum() < static_cast<double>(some.size()) / 2 ? low : high) = factor;
+    double sum = 0;
+    for (const double pressure : pressures) sum += std::min(factor * (pressure * pressure), 1.0);
+    (sum < static_cast<double>(pressures.size()) / 2 ? low : high) = factor;
   }
-  return (high * squared).min(1.0);
+  return high;
 }
 
 }  // namespace
@@ -78,13 +55,15 @@ SlidingContact::SlidingContact(const Grid2D& grid, const Material& material,
                                const SlidingContactOptions& options)
     : cell_area_(grid.cell_area()),
       options_(options),
-      solver_(grid, material, options.stick),
-      contact_(ContactSet::Constant(grid.nx, grid.ny, false)) {
+      workspace_(std::make_unique<detail::TangentialWorkspace>(grid, material, options.stick)) {
   state_.contact_pressure = state_.pressure_before = state_.loss = Field::Zero(grid.nx, grid.ny);
   state_.shift = state_.traction = state_.traction_before = state_.displacement = zero(grid);
   validate(options);
   state_.motion_scale = options.motion_scale;
 }
+SlidingContact::SlidingContact(SlidingContact&&) noexcept = default;
+SlidingContact& SlidingContact::operator=(SlidingContact&&) noexcept = default;
+SlidingContact::~SlidingContact() = default;
 
 void SlidingContact::set_motion_scale(double scale) {
   require_positive(scale, "motion_scale");
@@ -92,60 +71,45 @@ void SlidingContact::set_motion_scale(double scale) {
 }
 
 void SlidingContact::restore(SlidingState state) {
+  const Grid2D& grid = workspace_->grid();
   for (const Field* field :
        {&state.contact_pressure, &state.loss, &state.shift.x, &state.shift.y, &state.traction.x,
         &state.traction.y, &state.displacement.x, &state.displacement.y, &state.pressure_before,
         &state.traction_before.x, &state.traction_before.y})
-    require(field->rows() == contact_.rows() && field->cols() == contact_.cols(), "state",
-            field->size(), "cells do not match the grid; resume with the run's own settings");
+    require(field->rows() == grid.nx && field->cols() == grid.ny, "state", field->size(),
+            "cells do not match the grid; resume with the run's own settings");
   require_positive(state.motion_scale, "motion_scale");
   state_ = std::move(state);
   if (state_.prepared.size() > 0) reserve(state_.prepared);
-  contact_ = limit_of(state_.contact_pressure, options_.friction_coefficient) > 0;
+  note_cells();
 }
 
 SlidingState SlidingContact::state() const {
   SlidingState state = state_;
-  state.prepared = solver_.prepared();
+  state.prepared = workspace_->prepared();
   return state;
 }
 
-void SlidingContact::reserve(const ContactSet& largest) { solver_.reserve(largest); }
-
-TangentialField SlidingContact::displacement_under(const ContactSet& loaded,
-                                                   const TangentialField& traction,
-                                                   const TangentialField& shift,
-                                                   const ContactSet& where) {
-  TangentialField displacement = solver_.displacement(loaded, traction, where);
-  state_.fft_count += 2;
-  displacement.x += where.select(shift.x, 0.0);
-  displacement.y += where.select(shift.y, 0.0);
-  return displacement;
+void SlidingContact::reserve(const ContactSet& largest) {
+  detail::require_contact(largest, workspace_->grid(), Boundary::free);
+  workspace_->system_for(largest);
 }
 
-// Half of the increment with the cells that are in contact already: where it takes those that enter
-// in its middle.
-TangentialField SlidingContact::displacement_halfway(const TangentialMove& move,
-                                                     const TangentialField& shift,
-                                                     const ContactSet& entering,
-                                                     Increment& increment) {
-  const TangentialField halfway = mean(state_.shift, shift);
-  TangentialField target = moved(state_.displacement, move, 0.5, contact_), slip;
-  target.x -= contact_.select(halfway.x, 0.0);
-  target.y -= contact_.select(halfway.y, 0.0);
-  const PartialSlipReport report =
-      solver_.solve(limit_of(state_.contact_pressure, options_.friction_coefficient), target,
-                    entry_looseness(options_.stick.tolerance) * state_.motion_scale,
-                    increment.traction_halfway, slip);
-  count(report);
-  increment.report.termination = report.termination;
-  return displacement_under(contact_, increment.traction_halfway, halfway, entering);
+void SlidingContact::note_cells() {
+  cells_.clear();
+  for (Index k = 0; k < state_.contact_pressure.size(); ++k)
+    if (state_.contact_pressure.data()[k] > 0 || state_.pressure_before.data()[k] > 0)
+      cells_.push_back(k);
+}
+
+double SlidingContact::limit(double pressure) const {
+  return pressure > 0 ? options_.friction_coefficient * pressure : 0;
 }
 
 void SlidingContact::require_pressure(const Field& pressure) const {
-  require(pressure.rows() == state_.contact_pressure.rows() &&
-              pressure.cols() == state_.contact_pressure.cols(),
-          "pressure", pressure.size(), "values do not match the grid; give nx × ny values");
+  const Grid2D& grid = workspace_->grid();
+  require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "pressure", pressure.size(),
+          "values do not match the grid; give nx × ny values");
   require((pressure >= 0).all(), "pressure", pressure.minCoeff(), "must be >= 0 in every cell");
 }
 
@@ -157,16 +121,172 @@ void SlidingContact::slide(const Field& pressure, const TangentialMove& directio
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
   const double length = std::hypot(direction.x, direction.y);
   require_positive(length, "direction");
-  const Field limit = limit_of(pressure, options_.friction_coefficient);
-  contact_ = limit > 0;
-  state_.contact_pressure = pressure;
+  const Field limit = options_.friction_coefficient * pressure;
+  const ContactSet contact = limit > 0;
+  state_.contact_pressure = state_.pressure_before = pressure;
   state_.traction = {limit * (direction.x / length), limit * (direction.y / length)};
-  state_.displacement = displacement_under(contact_, state_.traction, state_.shift, contact_);
+  state_.traction_before = state_.traction;
+  state_.displacement = workspace_->displacement(contact, state_.traction, contact);
+  state_.fft_count += 2;
+  state_.displacement.x += contact.select(state_.shift.x, 0.0);
+  state_.displacement.y += contact.select(state_.shift.y, 0.0);
   state_.last_move_x = state_.last_move_y = 0;
   state_.loss.setZero();
   state_.work = state_.released = 0;
-  state_.slipping = contact_.count();
+  state_.slipping = contact.count();
+  note_cells();
 }
+
+/// An increment as it is computed: vectors of the cells in contact before or after it. A cell that
+/// is out of contact before or after has no limit then, and its displacement is read off all the
+/// same.
+class SlidingContact::Attempt {
+ public:
+  Attempt(SlidingContact& contact, const Field& pressure, const TangentialMove& move,
+          const TangentialField* shift)
+      : contact_(contact),
+        workspace_(*contact.workspace_),
+        touching_(pressure > 0 || contact.state_.contact_pressure > 0),
+        system_(workspace_.system_for(touching_)),
+        points_(system_.points(touching_)),
+        size_(points_.cell.size() * workspace_.components()),
+        stays_put_(!shift && move.x == 0 && move.y == 0),
+        pressure_before_(detail::values_at(contact.state_.contact_pressure, points_)),
+        traction_before_(workspace_.gather(contact.state_.traction, points_)),
+        shift_before_(workspace_.gather(contact.state_.shift, points_)),
+        shift_after_(shift ? workspace_.gather(*shift, points_) : shift_before_),
+        response_(size_, 0.0) {
+    increment_.cells = points_.cell;
+    increment_.contact_pressure = detail::values_at(pressure, points_);
+    increment_.traction = increment_.traction_halfway = Values(size_, 0.0);
+    increment_.displacement_before = workspace_.gather(contact.state_.displacement, points_);
+    if (shift) increment_.shift = *shift;
+    increment_.move = move;
+    for (std::size_t k = 0; k < points_.cell.size(); ++k)
+      if (enters(k)) entering_pressures_.push_back(increment_.contact_pressure[k]);
+  }
+
+  Increment from(const Increment& guess) {
+    begin_from(guess);
+    respond();
+    increment_.displacement = increment_.displacement_before;
+    for (std::size_t i = 0; i < size_; ++i) increment_.displacement[i] += distance(i);
+    const Termination entered =
+        entering_pressures_.empty() ? Termination::converged : place_entering();
+    Values targets(size_);
+    for (std::size_t i = 0; i < size_; ++i)
+      targets[i] = increment_.displacement[i] - shift_after_[i];
+    increment_.report =
+        solve(increment_.contact_pressure, std::move(targets), 1, increment_.traction);
+    increment_.report.termination = std::max(increment_.report.termination, entered);
+    for (std::size_t i = 0; i < size_; ++i) increment_.displacement[i] -= increment_.slip[i];
+    return std::move(increment_);
+  }
+
+ private:
+  bool enters(std::size_t i) const { return !(pressure_before_[i % points_.cell.size()] > 0); }
+  double distance(std::size_t i) const {
+    return i < points_.cell.size() ? increment_.move.x : increment_.move.y;
+  }
+
+  // Takes the tractions of the guess. Where they were at their limit they are carried to the new
+  // one: what slipped is taken to slip on.
+  void begin_from(const Increment& guess) {
+    const std::size_t count = points_.cell.size(), given = guess.cells.size();
+    for (std::size_t k = 0, at = 0; k < count; ++k) {
+      while (at < given && guess.cells[at] < points_.cell[k]) ++at;
+      if (at == given) break;
+      if (guess.cells[at] != points_.cell[k]) continue;
+      double square = 0;
+      for (std::size_t i = k, from = at; i < size_; i += count, from += given) {
+        increment_.traction[i] = guess.traction[from];
+        increment_.traction_halfway[i] = guess.traction_halfway[from];
+        square += guess.traction[from] * guess.traction[from];
+      }
+      const double length = std::sqrt(square), last = contact_.limit(guess.contact_pressure[at]);
+      if (!(length > 0) || length < (1 - detail::limit_round_off) * last) continue;
+      const double stretch = contact_.limit(increment_.contact_pressure[k]) / length;
+      for (std::size_t i = k; i < size_; i += count) increment_.traction[i] *= stretch;
+    }
+  }
+
+  // K times the tractions before. Of the cells in contact it is known, to the tolerance, but not of
+  // those that enter.
+  void respond() {
+    Values& before = increment_.displacement_before;
+    if (entering_pressures_.empty()) {
+      for (std::size_t i = 0; i < size_; ++i) response_[i] = before[i] - shift_before_[i];
+      response_error_ = contact_.options_.stick.tolerance * contact_.state_.motion_scale;
+      return;
+    }
+    if (!all_enter()) {
+      system_.response().apply(points_, traction_before_.data(), points_, response_.data());
+      contact_.state_.fft_count += 2;
+    }
+    for (std::size_t i = 0; i < size_; ++i)
+      if (enters(i)) before[i] = response_[i] + shift_before_[i];
+  }
+
+  // Where the cells that enter are at the end of the increment, if they stick.
+  Termination place_entering() {
+    const Values& before = increment_.displacement_before;
+    Values in_middle = before;
+    Termination termination = Termination::converged;
+    if (!stays_put_ && !all_enter()) {
+      // Half of the increment with the cells that are in contact already: where it takes those that
+      // enter in its middle.
+      Values targets(size_);
+      for (std::size_t i = 0; i < size_; ++i)
+        targets[i] = before[i] + (enters(i) ? 0 : distance(i) / 2) - shift_halfway(i);
+      termination =
+          solve(pressure_before_, targets, entry_looseness(contact_.options_.stick.tolerance),
+                increment_.traction_halfway)
+              .termination;
+      for (std::size_t i = 0; i < size_; ++i)
+        in_middle[i] = targets[i] - increment_.slip[i] + shift_halfway(i);
+    }
+    const double factor = entry_factor(entering_pressures_);
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (!enters(i)) continue;
+      const double pressure = increment_.contact_pressure[i % points_.cell.size()];
+      const double stay = std::min(factor * (pressure * pressure), 1.0);
+      // Linear in time before and after the middle.
+      increment_.displacement[i] =
+          in_middle[i] + (1 - 2 * stay) * (in_middle[i] - before[i]) + stay * distance(i);
+    }
+    return termination;
+  }
+
+  PartialSlipReport solve(const Values& pressures, Values targets, double looseness,
+                          Values& tractions) {
+    Values limits(pressures.size());
+    std::ranges::transform(pressures, limits.begin(),
+                           [this](double pressure) { return contact_.limit(pressure); });
+    const detail::KnownResponse known{traction_before_, response_, response_error_};
+    const PartialSlipReport report = detail::solve_discs(
+        workspace_, system_, points_, std::move(limits), std::move(targets),
+        looseness * contact_.state_.motion_scale, tractions, increment_.slip, &known);
+    contact_.state_.iterations += report.iterations;
+    contact_.state_.fft_count += report.fft_count;
+    return report;
+  }
+
+  bool all_enter() const { return entering_pressures_.size() == points_.cell.size(); }
+  double shift_halfway(std::size_t i) const { return (shift_before_[i] + shift_after_[i]) / 2; }
+
+  SlidingContact& contact_;
+  detail::TangentialWorkspace& workspace_;
+  const ContactSet touching_;
+  detail::ContactSystem& system_;
+  const detail::PointList points_;
+  const std::size_t size_;  // of a vector: components × cells
+  const bool stays_put_;
+  const Values pressure_before_, traction_before_, shift_before_, shift_after_;
+  Values response_;
+  double response_error_ = 0;
+  Values entering_pressures_;
+  Increment increment_;
+};
 
 SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const TangentialMove& move,
                                                   const TangentialField* shift,
@@ -174,111 +294,56 @@ SlidingContact::Increment SlidingContact::attempt(const Field& pressure, const T
   require_pressure(pressure);
   require(options_.stick.hold_lateral || move.y == 0, "move", move.y,
           "along y must be 0 where the lateral displacement is free; turn the surface instead");
-  const Field limit = limit_of(pressure, options_.friction_coefficient);
-  const ContactSet contact = limit > 0, entering = contact && !contact_;
-  Increment increment{.contact_pressure = pressure,
-                      .shift = shift ? *shift : state_.shift,
-                      .traction = guess ? guess->traction : state_.traction,
-                      .traction_halfway = guess ? guess->traction_halfway : state_.traction,
-                      .displacement = moved(state_.displacement, move, 1, contact && contact_),
-                      .displacement_before = state_.displacement,
-                      .slip = {},
-                      .move = move,
-                      .report = {.termination = Termination::converged}};
-  if (std::isfinite(options_.friction_coefficient))
-    carry_to_limit(increment.traction,
-                   limit_of(guess ? guess->contact_pressure : state_.contact_pressure,
-                            options_.friction_coefficient),
-                   limit);
-  if (entering.any()) {
-    const TangentialField present =
-        displacement_under(contact_, state_.traction, state_.shift, entering);
-    increment.displacement_before.x += present.x;
-    increment.displacement_before.y += present.y;
-    const bool at_rest = !shift && move.x == 0 && move.y == 0;
-    const TangentialField halfway =
-        at_rest || !contact_.any()
-            ? present
-            : displacement_halfway(move, increment.shift, entering, increment);
-    const Field stay = part_in_contact(pressure, entering);
-    // Linear in time before and after the middle.
-    const auto enter = [&](const Field& at_start, const Field& in_middle, double distance,
-                           Field& displacement) {
-      displacement += entering.select(
-          in_middle + (1 - 2 * stay) * (in_middle - at_start) + stay * distance, 0.0);
-    };
-    enter(present.x, halfway.x, move.x, increment.displacement.x);
-    enter(present.y, halfway.y, move.y, increment.displacement.y);
-  }
-  const TangentialField target{increment.displacement.x - increment.shift.x,
-                               increment.displacement.y - increment.shift.y};
-  const Termination halfway = increment.report.termination;
-  increment.report =
-      solver_.solve(limit, target, state_.motion_scale, increment.traction, increment.slip);
-  count(increment.report);
-  increment.report.termination = std::max(increment.report.termination, halfway);
-  increment.displacement.x -= increment.slip.x;
-  increment.displacement.y -= increment.slip.y;
-  return increment;
-}
-
-void SlidingContact::count(const PartialSlipReport& report) {
-  state_.iterations += report.iterations;
-  state_.fft_count += report.fft_count;
+  if (options_.friction_coefficient > 0)
+    detail::require_contact(pressure > 0, workspace_->grid(), options_.stick.boundary);
+  Attempt attempt(*this, pressure, move, shift);
+  return guess ? attempt.from(*guess) : attempt.from(foreseen(move));
 }
 
 void SlidingContact::accept(Increment increment) {
   state_.termination = std::max(state_.termination, increment.report.termination);
   state_.slipping = increment.report.slipping;
-  const ContactSet contact =
-      limit_of(increment.contact_pressure, options_.friction_coefficient) > 0;
-  const ContactSet leaving = contact_ && !contact;
-  TangentialField relaxed;
-  if (leaving.any())
-    relaxed = displacement_under(contact, increment.traction, increment.shift, leaving);
+  for (const Index cell : cells_)
+    for (Field* field :
+         {&state_.pressure_before, &state_.traction_before.x, &state_.traction_before.y})
+      field->data()[cell] = 0;
+  const std::size_t count = increment.cells.size();
+  const TangentialMove& move = increment.move;
+  struct Axis {
+    Field &traction, &before, &displacement;
+    double distance;
+  };
+  const std::array axes{
+      Axis{state_.traction.x, state_.traction_before.x, state_.displacement.x, move.x},
+      Axis{state_.traction.y, state_.traction_before.y, state_.displacement.y, move.y}};
   double work = 0, released = 0;
-  for (Index k = 0; k < contact.size(); ++k) {
-    const bool stayed = contact_.data()[k], stays = contact.data()[k];
-    if (!stayed && !stays) continue;
-    const auto at = [k](const TangentialField& field) {
-      return TangentialMove{field.x.data()[k], field.y.data()[k]};
-    };
-    const auto by_middle = [before = at(state_.traction), after = at(increment.traction)](
-                               double x, double y) {
-      return (before.x + after.x) / 2 * x + (before.y + after.y) / 2 * y;
-    };
-    const TangentialMove& move = increment.move;
-    double& loss = state_.loss.data()[k];
-    if (!stays) {
-      const TangentialMove carried = at(state_.displacement), free = at(relaxed);
-      const double let_go =
-          cell_area_ * by_middle(carried.x + move.x - free.x, carried.y + move.y - free.y);
-      work += by_middle(move.x, move.y);
-      loss += let_go;
-      released += let_go;
-      continue;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index cell = increment.cells[k];
+    double& pressure = state_.contact_pressure.data()[cell];
+    const bool stayed = pressure > 0, stays = increment.contact_pressure[k] > 0;
+    state_.pressure_before.data()[cell] = std::exchange(pressure, increment.contact_pressure[k]);
+    double lost = 0;
+    for (std::size_t c = 0, i = k; i < increment.traction.size(); ++c, i += count) {
+      double& traction = axes[c].traction.data()[cell];
+      const double last = std::exchange(traction, increment.traction[i]);
+      axes[c].before.data()[cell] = last;
+      axes[c].displacement.data()[cell] = stays ? increment.displacement[i] : 0;
+      const double middle = (last + traction) / 2, slip = increment.slip[i];
+      lost += middle * slip;
+      // Of a cell that enters, the body's motion as the cell feels it, from its entry on.
+      work +=
+          middle * (stayed ? axes[c].distance
+                           : increment.displacement[i] + slip - increment.displacement_before[i]);
     }
-    const TangentialMove slip = at(increment.slip);
-    loss += cell_area_ * by_middle(slip.x, slip.y);
-    if (stayed) {
-      work += by_middle(move.x, move.y);
-    } else {
-      // The body's motion as the cell feels it, from its entry on.
-      const TangentialMove end = at(increment.displacement),
-                           start = at(increment.displacement_before);
-      work += by_middle(end.x + slip.x - start.x, end.y + slip.y - start.y);
-    }
+    state_.loss.data()[cell] += cell_area_ * lost;
+    if (!stays) released += cell_area_ * lost;
   }
   state_.work += cell_area_ * work;
   state_.released += released;
-  contact_ = contact;
-  state_.pressure_before =
-      std::exchange(state_.contact_pressure, std::move(increment.contact_pressure));
-  state_.traction_before = std::exchange(state_.traction, std::move(increment.traction));
-  state_.shift = std::move(increment.shift);
-  state_.displacement = std::move(increment.displacement);
-  state_.last_move_x = increment.move.x;
-  state_.last_move_y = increment.move.y;
+  cells_ = std::move(increment.cells);
+  if (increment.shift) state_.shift = std::move(*increment.shift);
+  state_.last_move_x = move.x;
+  state_.last_move_y = move.y;
 }
 
 SlidingContact::Increment SlidingContact::foreseen(const TangentialMove& move, double step,
@@ -287,29 +352,65 @@ SlidingContact::Increment SlidingContact::foreseen(const TangentialMove& move, d
   const double square = x * x + y * y + last_step * last_step;
   const double along = move.x * x + move.y * y + step * last_step;
   const double part = square > 0 ? std::clamp(along / square, 0.0, 2.0) : 0;
-  const auto further = [part](const Field& now, const Field& before) -> Field {
-    return now + part * (now - before);
-  };
-  const TangentialField &now = state_.traction, &before = state_.traction_before;
   Increment guess;
-  guess.contact_pressure = further(state_.contact_pressure, state_.pressure_before).max(0.0);
-  const ContactSet touching = guess.contact_pressure > 0;
-  guess.traction = {touching.select(further(now.x, before.x), 0.0),
-                    touching.select(further(now.y, before.y), 0.0)};
-  guess.traction_halfway = mean(now, guess.traction);
+  guess.cells = cells_;
+  const auto add = [&](const Field& now, const Field& before) {
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      const double traction = now.data()[cells_[k]];
+      const double further = traction + part * (traction - before.data()[cells_[k]]);
+      guess.traction.push_back(guess.contact_pressure[k] > 0 ? further : 0);
+      guess.traction_halfway.push_back((traction + guess.traction.back()) / 2);
+    }
+  };
+  for (const Index cell : cells_) {
+    const double pressure = state_.contact_pressure.data()[cell];
+    guess.contact_pressure.push_back(
+        std::max(pressure + part * (pressure - state_.pressure_before.data()[cell]), 0.0));
+  }
+  add(state_.traction.x, state_.traction_before.x);
+  if (options_.stick.hold_lateral) add(state_.traction.y, state_.traction_before.y);
   return guess;
 }
 
 PartialSlipReport SlidingContact::advance(const Field& pressure, const TangentialMove& move) {
-  const Increment start = foreseen(move);
-  Increment increment = attempt(pressure, move, nullptr, &start);
+  Increment increment = attempt(pressure, move);
   const PartialSlipReport report = increment.report;
   accept(std::move(increment));
   return report;
 }
 
 TangentialMove SlidingContact::tangential_force() const {
-  return {cell_area_ * state_.traction.x.sum(), cell_area_ * state_.traction.y.sum()};
+  TangentialMove force;
+  for (const Index cell : cells_) {
+    force.x += state_.traction.x.data()[cell];
+    force.y += state_.traction.y.data()[cell];
+  }
+  return {cell_area_ * force.x, cell_area_ * force.y};
+}
+
+TangentialMove SlidingContact::tangential_force(const Increment& increment) const {
+  const auto middle =
+      increment.traction.begin() + static_cast<std::ptrdiff_t>(increment.cells.size());
+  return {cell_area_ * std::accumulate(increment.traction.begin(), middle, 0.0),
+          cell_area_ * std::accumulate(middle, increment.traction.end(), 0.0)};
+}
+
+Field SlidingContact::contact_pressure(const Increment& increment) const {
+  Field field = Field::Zero(state_.loss.rows(), state_.loss.cols());
+  for (std::size_t k = 0; k < increment.cells.size(); ++k)
+    field.data()[increment.cells[k]] = increment.contact_pressure[k];
+  return field;
+}
+
+TangentialField SlidingContact::traction(const Increment& increment) const {
+  TangentialField field = zero(workspace_->grid());
+  const std::size_t count = increment.cells.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    field.x.data()[increment.cells[k]] = increment.traction[k];
+    if (options_.stick.hold_lateral)
+      field.y.data()[increment.cells[k]] = increment.traction[count + k];
+  }
+  return field;
 }
 
 double SlidingContact::stored_energy() const {

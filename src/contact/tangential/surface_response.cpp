@@ -30,27 +30,32 @@ CellWindow affordable(const CellWindow& window, const Grid2D& grid, const Share&
   return window;
 }
 
-// Below this many points a team of threads costs more than it saves.
-constexpr Index worth_threads = 1 << 14;
-
-template <class Body>
-void for_points(Index count, const Body& body) {
-  if (count < worth_threads)
-    body(Index{0}, count);
-  else
-    parallel::for_slabs(count, body);
-}
-
 }  // namespace
 
+double largest_of(const double* values, Index count) {
+  double largest = 0;
+  for (const double part : parallel::map_blocks<double>(
+           count,
+           [values](Index begin, Index end) {
+             double size = 0;
+             for (Index i = begin; i < end; ++i) size = std::max(size, std::abs(values[i]));
+             return size;
+           },
+           count))
+    largest = std::max(largest, part);
+  return largest;
+}
+
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto part = [&](Index begin, Index end) {
-    double sum = 0;
-    for (std::size_t i = size_of(begin); i < size_of(end); ++i) sum += a[i] * b[i];
-    return sum;
-  };
   const Index count = static_cast<Index>(a.size());
-  return count < worth_threads ? part(0, count) : parallel::sum_blocks(count, part);
+  return parallel::sum_blocks(
+      count,
+      [&](Index begin, Index end) {
+        double sum = 0;
+        for (std::size_t i = size_of(begin); i < size_of(end); ++i) sum += a[i] * b[i];
+        return sum;
+      },
+      count);
 }
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
@@ -77,10 +82,7 @@ void SurfaceResponse::apply(const PointList& loaded, const double* tractions, co
 void SurfaceResponse::apply_loosely(const PointList& points, const double* tractions,
                                     double* displacements) {
   if (!single_) single_ = make_single_();
-  const double* end = tractions + components() * points.size();
-  double largest = 0;
-  for (const double* value = tractions; value < end; ++value)
-    largest = std::max(largest, std::abs(*value));
+  double largest = largest_of(tractions, components() * points.size());
   if (!(largest > 0)) largest = 1;
   through(*single_, {1 / largest, largest * single_unit_}, points, tractions, points,
           displacements);
@@ -137,9 +139,17 @@ StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary bounda
 void StencilPreconditioner::apply(const PointList& points, const double* in, double* out) {
   const Index length = field_.stride();
   double* field = field_.row(0);
-  for (std::size_t k = 0; k < points.framed.size(); ++k) field[points.framed[k]] = in[k];
+  const auto scatter = [&](const auto& value) {
+    parallel::for_slabs(
+        points.size(),
+        [&](Index begin, Index end) {
+          for (Index k = begin; k < end; ++k) field[points.framed[size_of(k)]] = value(k);
+        },
+        4 * points.size());
+  };
+  scatter([in](Index k) { return in[k]; });
   field_.fill_frame(boundary_, frame_rows_);
-  for_points(points.size(), [&](Index begin, Index end) {
+  const auto apply_to = [&](Index begin, Index end) {
     // Most points have neighbours in their row: eight together, each with its own sum.
     constexpr Index together = 8;
     const auto stencil = [&]<int count>(Index k, std::integral_constant<int, count>) {
@@ -160,8 +170,9 @@ void StencilPreconditioner::apply(const PointList& points, const double* in, dou
         stencil(k++, std::integral_constant<int, 1>{});
       }
     }
-  });
-  for (const Index at : points.framed) field[at] = 0;
+  };
+  parallel::for_slabs(points.size(), apply_to, width * width * points.size());
+  scatter([](Index) { return 0.0; });
 }
 
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,

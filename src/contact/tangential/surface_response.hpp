@@ -18,6 +18,8 @@
 
 namespace salebra::detail {
 
+double largest_of(const double* values, Index count);
+
 /// Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);
 
@@ -48,8 +50,10 @@ class SurfaceResponse {
   /// displacements (components × read.size()) of tractions (components × loaded.size()).
   void apply(const PointList& loaded, const double* tractions, const PointList& read,
              double* displacements);
-  /// The same in single precision, in half the time, with an error of 1e-6 of the largest
-  /// displacement: for directions of a search, not for residuals. Made at the first call.
+  /// The same in single precision, in half the time, with an error of loose_error of the largest
+  /// displacement: for directions of a search and for small changes, not for whole residuals. Made
+  /// at the first call.
+  static constexpr double loose_error = 1e-6;
   void apply_loosely(const PointList& points, const double* tractions, double* displacements);
   int fft_count() const { return fft_count_; }
 

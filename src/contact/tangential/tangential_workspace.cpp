@@ -16,6 +16,13 @@ void require_tangential(const Material& material) {
       "ratios, or a contact modulus with Poisson's ratio");
 }
 
+std::vector<double> values_at(const Field& field, const PointList& points) {
+  std::vector<double> values;
+  values.reserve(points.cell.size() * 2);  // room for the other component
+  for (const Index cell : points.cell) values.push_back(field.data()[cell]);
+  return values;
+}
+
 TangentialWorkspace::TangentialWorkspace(const Grid2D& grid, const Material& material,
                                          const StickOptions& options)
     : grid_(grid), material_(material), options_(options) {
@@ -42,9 +49,7 @@ ContactSet TangentialWorkspace::prepared() const {
 
 std::vector<double> TangentialWorkspace::gather(const TangentialField& field,
                                                 const PointList& points) const {
-  std::vector<double> values;
-  values.reserve(points.cell.size() * 2);
-  for (const Index cell : points.cell) values.push_back(field.x.data()[cell]);
+  std::vector<double> values = values_at(field.x, points);
   if (options_.hold_lateral)
     for (const Index cell : points.cell) values.push_back(field.y.data()[cell]);
   return values;

@@ -13,6 +13,8 @@ namespace salebra::detail {
 
 void require_tangential(const Material& material);
 
+std::vector<double> values_at(const Field& field, const PointList& points);
+
 /// What the solvers with and without slip share: the kernels, kept between calls, and the way from
 /// fields to vectors of points.
 class TangentialWorkspace {

@@ -62,10 +62,6 @@ class PartialSlipSolver : public StickSolver {
   /// begins to slip.
   PartialSlipReport solve(const Field& limit, const TangentialField& displacement, double scale,
                           TangentialField& traction, TangentialField& slip);
-
-  /// The window as a set, to be reserved by another solver that has to give the same bits; empty
-  /// before the first solve.
-  ContactSet prepared() const;
 };
 
 }  // namespace salebra

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <limits>
+#include <memory>
+#include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/tangential/partial_slip.hpp>
+#include <vector>
 
 namespace salebra {
+namespace detail {
+class TangentialWorkspace;
+}  // namespace detail
 
 struct SlidingContactOptions {
   /// μ >= 0: |τ| <= μp in every cell; infinite: full stick.
@@ -91,30 +97,37 @@ class SlidingContact {
   SlidingContact(const Grid2D& grid, const Material& material,
                  const SlidingContactOptions& options = {});
 
-  /// A state that an increment may lead to, and what it costs.
+  SlidingContact(SlidingContact&&) noexcept;
+  SlidingContact& operator=(SlidingContact&&) noexcept;
+  ~SlidingContact();
+
+  /// A state that an increment may lead to, and what it costs. Values are of `cells` only, for which
+  /// vectors are (components × cells), the components being x and, with hold_lateral, y.
   struct Increment {
-    Field contact_pressure;               ///< (nx, ny), Pa
-    TangentialField shift;                ///< displacement by other causes at the end, m
-    TangentialField traction;             ///< Pa
-    TangentialField traction_halfway;     ///< that led to the entering cells' displacement, Pa
-    TangentialField displacement;         ///< of the cells in contact, `shift` included, m
-    TangentialField displacement_before;  ///< the same before the increment, of all these cells, m
-    TangentialField slip;                 ///< of the body over the cells in contact, m
+    std::vector<Index> cells;              ///< in contact before or after it: ix·ny + iy, rising
+    std::vector<double> contact_pressure;  ///< (cells), Pa
+    std::vector<double> traction;          ///< Pa
+    std::vector<double> traction_halfway;  ///< that led to the entering cells' displacement, Pa
+    std::vector<double> displacement;      ///< of the cells, `shift` included, m
+    std::vector<double> displacement_before;  ///< the same before the increment, m
+    std::vector<double> slip;                 ///< of the body over the cells, m
+    /// Displacement by other causes at the end, m; none: as it was.
+    std::optional<TangentialField> shift;
     TangentialMove move;
     PartialSlipReport report;
   };
   /// Where an increment would lead.
   /// shift   tangential displacement of the surface by causes other than τ (the coupling to the
   ///         pressures) at the end; nullptr: as it was
-  /// guess   an earlier attempt or foreseen() to begin from; pressure and tractions are enough
+  /// guess   an earlier attempt or foreseen() to begin from; nullptr: foreseen(move)
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
   void accept(Increment increment);
   /// A guess of where a smooth path leads: what the last increment changed is changed again, as far
   /// as this one goes the same way. `step` and `last_step` are these increments of an indentation
-  /// that moves with the body, m.
+  /// that moves with the body, m. Only pressures and tractions are given.
   Increment foreseen(const TangentialMove& move, double step = 0, double last_step = 0) const;
-  /// attempt and accept, from foreseen().
+  /// attempt and accept.
   PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
 
   /// The state after endless sliding along (direction.x, direction.y) at these pressures: τ = μp
@@ -137,6 +150,9 @@ class SlidingContact {
   const Field& contact_pressure() const { return state_.contact_pressure; }
   const TangentialField& traction() const { return state_.traction; }
   TangentialMove tangential_force() const;  ///< the body's on the surface: x, y in N
+  TangentialMove tangential_force(const Increment& increment) const;
+  Field contact_pressure(const Increment& increment) const;
+  TangentialField traction(const Increment& increment) const;
   Index slipping() const {
     return state_.slipping;
   }  ///< cells at their limit after the last increment
@@ -157,18 +173,17 @@ class SlidingContact {
   long fft_count() const { return state_.fft_count; }
 
  private:
+  class Attempt;
+
   void require_pressure(const Field& pressure) const;
-  TangentialField displacement_under(const ContactSet& loaded, const TangentialField& traction,
-                                     const TangentialField& shift, const ContactSet& where);
-  TangentialField displacement_halfway(const TangentialMove& move, const TangentialField& shift,
-                                       const ContactSet& entering, Increment& increment);
-  void count(const PartialSlipReport& report);
+  double limit(double pressure) const;
+  void note_cells();
 
   double cell_area_;
   SlidingContactOptions options_;
-  PartialSlipSolver solver_;
+  std::unique_ptr<detail::TangentialWorkspace> workspace_;
   SlidingState state_;
-  ContactSet contact_;  // cells that carry traction: p > 0 and μ > 0
+  std::vector<Index> cells_;  // in contact before or after the last increment
 };
 
 }  // namespace salebra
