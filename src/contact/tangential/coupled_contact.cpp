@@ -16,8 +16,9 @@ namespace {
 constexpr double inner_share = 0.005;
 constexpr double loosest_contact = 1e-2;
 constexpr double first_looseness = 1000;
-// A sweep that changed less was lucky.
-constexpr double least_fall = 0.1;
+// A sweep that changed less was lucky, and one that changed more than this was round-off: the error
+// falls by about β² < 1/4.
+constexpr double least_fall = 0.1, most_fall = 0.99;
 
 }  // namespace
 
@@ -134,10 +135,11 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     const double before = report.change;
     report.change = total > 0 ? change / total : 0;
     ++report.sweeps;
-    // What remains, where the sweeps to come fall as this one fell from the last. Round-off of the
-    // last digits apart, nothing that is less than the solvers' own error can be asked for.
-    const double fall = std::max(least_fall, report.sweeps > 1 ? report.change / before : 1);
-    still = looseness == 1 && report.change * fall < (1 - fall) * p.options.tolerance;
+    // What remains, where the sweeps to come fall as this one fell from the last. Nothing that is
+    // less than the solvers' own error can be asked for.
+    const double fall = std::min(most_fall, std::max(least_fall, report.change / before));
+    still = looseness == 1 && report.sweeps > 1 &&
+            report.change * fall < (1 - fall) * p.options.tolerance;
     if (solved == Termination::interrupted) break;
   }
   report.termination = still ? solved : std::max(solved, Termination::iteration_limit);
