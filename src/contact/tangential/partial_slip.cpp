@@ -29,8 +29,8 @@ PartialSlipReport PartialSlipSolver::solve(const Field& limit, const TangentialF
   const PartialSlipReport report =
       detail::solve_discs(workspace, system, points, detail::values_at(limit, points),
                           std::move(targets), scale, tractions, slips);
-  workspace.scatter(tractions, points, traction);
-  workspace.scatter(slips, points, slip);
+  traction = workspace.scatter(tractions, points.cell);
+  slip = workspace.scatter(slips, points.cell);
   return report;
 }
 

@@ -33,12 +33,11 @@ void validate(const SlidingContactOptions& options) {
 // many times what others may, as long as this is a small part of the motion.
 double entry_looseness(double tolerance) { return std::clamp(1e-4 / tolerance, 1.0, 100.0); }
 
-// For how much of an increment a cell that enters at a pressure is in contact, 0 … 1: the mean of
-// `pressures` for half of it. Near the edge of a contact p² grows in proportion to the indentation,
-// so that the part is c p² where that is less than 1: the factor c.
+// A cell that enters and ends at the pressure p is in contact for a part min(c p², 1) of an
+// increment, since near the edge of a contact p² grows in proportion to the indentation. The factor
+// c, for which the cells that end at these pressures are in contact for half of it on average.
 double entry_factor(const Values& pressures) {
-  double least = pressures.front();
-  for (const double pressure : pressures) least = std::min(least, pressure);
+  const double least = *std::ranges::min_element(pressures);
   double low = 0, high = 1 / (least * least);
   for (int halving = 0; halving < 100; ++halving) {
     const double factor = (low + high) / 2;
@@ -403,14 +402,7 @@ Field SlidingContact::contact_pressure(const Increment& increment) const {
 }
 
 TangentialField SlidingContact::traction(const Increment& increment) const {
-  TangentialField field = zero(workspace_->grid());
-  const std::size_t count = increment.cells.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    field.x.data()[increment.cells[k]] = increment.traction[k];
-    if (options_.stick.hold_lateral)
-      field.y.data()[increment.cells[k]] = increment.traction[count + k];
-  }
-  return field;
+  return workspace_->scatter(increment.traction, increment.cells);
 }
 
 double SlidingContact::stored_energy() const {

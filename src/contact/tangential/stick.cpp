@@ -80,7 +80,7 @@ StickReport StickSolver::solve(const ContactSet& contact, const TangentialField&
       {options.tolerance * scale / per_point, options.max_iterations, options.on_progress},
       tractions, misfit);
   report.residual *= per_point / scale;
-  workspace.scatter(tractions, points, traction);
+  traction = workspace.scatter(tractions, points.cell);
   return report;
 }
 

@@ -55,14 +55,14 @@ std::vector<double> TangentialWorkspace::gather(const TangentialField& field,
   return values;
 }
 
-void TangentialWorkspace::scatter(const std::vector<double>& values, const PointList& points,
-                                  TangentialField& field) const {
-  field.x = Field::Zero(grid_.nx, grid_.ny);
-  field.y = Field::Zero(grid_.nx, grid_.ny);
-  const std::size_t count = points.cell.size();
-  for (std::size_t k = 0; k < count; ++k) field.x.data()[points.cell[k]] = values[k];
+TangentialField TangentialWorkspace::scatter(const std::vector<double>& values,
+                                             const std::vector<Index>& cells) const {
+  TangentialField field{Field::Zero(grid_.nx, grid_.ny), Field::Zero(grid_.nx, grid_.ny)};
+  const std::size_t count = cells.size();
+  for (std::size_t k = 0; k < count; ++k) field.x.data()[cells[k]] = values[k];
   if (options_.hold_lateral)
-    for (std::size_t k = 0; k < count; ++k) field.y.data()[points.cell[k]] = values[count + k];
+    for (std::size_t k = 0; k < count; ++k) field.y.data()[cells[k]] = values[count + k];
+  return field;
 }
 
 void TangentialWorkspace::require_field(const TangentialField& field, const char* name) const {
@@ -82,9 +82,7 @@ TangentialField TangentialWorkspace::displacement(const ContactSet& loaded,
   const std::vector<double> tractions = gather(traction, sources);
   std::vector<double> values(readings.cell.size() * components());
   system.response().apply(sources, tractions.data(), readings, values.data());
-  TangentialField result;
-  scatter(values, readings, result);
-  return result;
+  return scatter(values, readings.cell);
 }
 
 }  // namespace salebra::detail

@@ -32,8 +32,8 @@ class TangentialWorkspace {
   /// The cells of the window that the last set-up was for; empty where there was none.
   ContactSet prepared() const;
   std::vector<double> gather(const TangentialField& field, const PointList& points) const;
-  void scatter(const std::vector<double>& values, const PointList& points,
-               TangentialField& field) const;
+  /// The field that has these values in the cells, and 0 in all others.
+  TangentialField scatter(const std::vector<double>& values, const std::vector<Index>& cells) const;
   /// Throws InvalidInput unless both components have the grid's shape.
   void require_field(const TangentialField& field, const char* name) const;
   /// Displacements in `where` under tractions on `loaded`.

@@ -78,7 +78,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
 
 /// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes
 /// from one state of rest to the next by increments (a new field of pressures and a move of the
-/// body, at once), each solved implicitly by PartialSlipSolver:
+/// body, at once), each solved implicitly as by PartialSlipSolver:
 ///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has
 ///               |τ| = μp along its slip
 ///     leave     p = 0 and so τ = 0; at finite μ the cell slips while its pressure goes
@@ -150,6 +150,7 @@ class SlidingContact {
   const Field& contact_pressure() const { return state_.contact_pressure; }
   const TangentialField& traction() const { return state_.traction; }
   TangentialMove tangential_force() const;  ///< the body's on the surface: x, y in N
+  /// What an increment would lead to.
   TangentialMove tangential_force(const Increment& increment) const;
   Field contact_pressure(const Increment& increment) const;
   TangentialField traction(const Increment& increment) const;
