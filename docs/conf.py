@@ -7,8 +7,10 @@ import pathlib
 import re
 
 from docutils import nodes
+from furo.navigation import get_navigation_tree
 from latex2mathml.converter import convert
 from sphinx import addnodes
+from sphinx.environment.adapters.toctree import global_toctree_for_doc
 from sphinx.util import logging
 
 logger = logging.getLogger(__name__)
@@ -124,32 +126,43 @@ def _make_signatures():
                 del function.__wrapped__
 
 
-# The navigation of each page shows the titles of all pages. Sphinx copies every entry of every page first, those of the names in C++
-# headers too, and then leaves them out: that took half the time of the site.
-_titles = {}
+# Half of the references in C++ declarations are to the standard library, which this site does not hold; Sphinx looks for each through all names.
+def _no_references_to_std(app, doctree):
+    for reference in list(doctree.findall(addnodes.pending_xref)):
+        if reference.get("refdomain") == "cpp" and re.match(r"std\b", reference["reftarget"]):
+            reference.replace_self(reference.children)
+
+
+# The navigation of a page shows the titles of all pages. The theme would make it anew for each page, which took a third of the time of the
+# site; only the links, which are relative, and the marks of the page and of those above it differ, and are set here in one that it made.
+_navigation = []
+
+
+def _place(entry, deepest):
+    """An entry of the navigation, from its class on, that is the page (deepest) or stands above it."""
+    entry = ("current-page " if deepest else "") + "current " + entry.replace(' type="checkbox"', ' checked="" type="checkbox"', 1)
+    return re.sub(r'href="[^"]*"', 'href="#"', entry, count=1) if deepest else entry
 
 
 def _navigation_of_titles(app, pagename, templatename, context, doctree):
     toctree = context.get("toctree")
-    if not toctree:
-        return
-    if not _titles:
-        for page, contents in app.env.tocs.items():
-            _titles[page] = contents.deepcopy()
-            for entry in _titles[page].children:
-                if len(entry) > 1:
-                    entry[1][:] = list(entry.findall(addnodes.toctree))
-                    if not entry[1].children:
-                        entry.pop(1)
+    if toctree and not _navigation:
+        tree = global_toctree_for_doc(app.env, "search", app.builder, collapse=False, titles_only=True, maxdepth=-1, includehidden=True)
+        _navigation.extend(get_navigation_tree(app.builder.render_partial(tree)["fragment"]).split('<li class="'))
+    context["toctree"] = lambda **options: ""
 
-    def of_titles(**options):
-        whole, app.env.tocs = app.env.tocs, _titles
-        try:
-            return toctree(**options)
-        finally:
-            app.env.tocs = whole
 
-    context["toctree"] = of_titles
+def _navigation_of_page(app, pagename, templatename, context, doctree):
+    target, above, path = f'href="{app.builder.get_target_uri(pagename)}"', [], {}
+    for number, entry in enumerate(_navigation[1:], 1):
+        above.append(number)
+        if target in entry:
+            path = {place: place == number for place in above}
+            break
+        del above[len(above) - entry.count("</li>"):]
+    entries = [_place(entry, path[number]) if number in path else entry for number, entry in enumerate(_navigation)]
+    up = "../" * pagename.count("/")
+    context["furo_navigation_tree"] = re.sub(r'href="(?!#)', f'href="{up}', '<li class="'.join(entries))
 
 
 def setup(app):
@@ -157,7 +170,9 @@ def setup(app):
         _make_signatures()
         app.connect("autodoc-process-docstring", _plain_text, priority=400)
         app.connect("autodoc-process-signature", _documented_types)
+    app.connect("doctree-read", _no_references_to_std)
     app.connect("html-page-context", _navigation_of_titles, priority=400)
+    app.connect("html-page-context", _navigation_of_page, priority=600)
     app.add_html_math_renderer(
         "mathml",
         (lambda translator, node: _formula(translator, node, False), None),
