@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""run_page.py PAGE --program FILE --scratch FOLDER: runs what a page of the documentation shows, block after block, in an empty folder
+"""run_page.py PAGE... --program FILE --scratch FOLDER: runs what pages of the documentation show, block after block, in an empty folder
 that has the tree's data/ and examples/, a scan.txt, and out/, and ends with 1 and the reason where something fails or prints other than the page says.
 
-  console   commands after "$ ", which go on after "> ", and under each what it prints. Numbers may differ by one in the last digit that the page gives, blanks in
+  console   commands after "$ ", which go on after "> ", and under each what it prints. A command that a later page shows again is not run again. Numbers may differ by one in the last digit that the page gives, blanks in
             their number; "…" stands for any text, alone in a line for any lines. A command with nothing under it may print what it likes.
   sh        a script; it must succeed
   python    run where the package can be imported (--python); the blocks of a page share their variables
@@ -76,6 +76,8 @@ def smaller(text):
         added = " --steps 16" if "--steps" not in given else ""
         if "--points" not in given and "--surface" not in given:
             added += " --points 32"
+        if "--levels" not in given and "--surface" in given:
+            added += " --levels 8"
         return f"{found[1]}{added}{given[len(found[1]):]}"
 
     return re.sub(r"(salebra oscillate\b)(?:[^\n\\]|\\\n)*", direct, text)
@@ -177,14 +179,18 @@ def is_excerpt(block):
     return False
 
 
-def check(page, arguments):
-    scratch = pathlib.Path(arguments.scratch)
+def make_scratch(folder):
+    scratch = pathlib.Path(folder)
     shutil.rmtree(scratch, ignore_errors=True)
     scratch.mkdir(parents=True)
     for folder in ("data", "examples"):
         (scratch / folder).symlink_to(ROOT / folder)
     (scratch / "scan.txt").symlink_to(ROOT / "data/surfaces/afm-scan.txt")
     (scratch / "out").mkdir()
+    return scratch
+
+
+def check(page, scratch, printed_by, arguments):
     environment = dict(os.environ, OMP_WAIT_POLICY="passive", COLUMNS="200")
     environment["PATH"] = f"{pathlib.Path(arguments.program).resolve().parent}:{environment['PATH']}"
     python_blocks, counts = [], {}
@@ -197,10 +203,12 @@ def check(page, arguments):
             continue
         elif block.language == "console":
             for command, shown in commands_of(block.text, where):
-                small = "small" in block.marks
-                printed = run(smaller(command) if small else command, scratch, environment, where)
-                if not small:
-                    compare(shown, printed, where)
+                if "small" in block.marks:
+                    run(smaller(command), scratch, environment, where)
+                    continue
+                if command not in printed_by:
+                    printed_by[command] = run(command, scratch, environment, where)
+                compare(shown, printed_by[command], where)
         elif block.language in ("sh", "bash"):
             run(smaller(block.text) if "small" in block.marks else block.text, scratch, environment, where)
         elif block.language == "python":
@@ -222,13 +230,15 @@ def check(page, arguments):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("page", type=lambda path: pathlib.Path(path).resolve())
+    parser.add_argument("pages", nargs="+", type=lambda path: pathlib.Path(path).resolve())
     parser.add_argument("--program", required=True)
     parser.add_argument("--scratch", required=True)
     parser.add_argument("--python", default="", help="an interpreter that can import the package; empty: Python blocks are not run")
     arguments = parser.parse_args()
+    scratch, printed_by = make_scratch(arguments.scratch), {}
     try:
-        check(arguments.page, arguments)
+        for page in arguments.pages:
+            check(page, scratch, printed_by, arguments)
     except PageError as error:
         sys.exit(str(error))
 
