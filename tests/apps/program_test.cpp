@@ -247,7 +247,7 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
     // Once the program handles it: a signal before would end it at once.
     const auto result = test.run(command + " -o out.h5 --quiet --threads 1",
                                  "(until grep -q '^SigCgt:.*[2367abef]$' /proc/$$/status; do sleep "
-                                 "0.01; done; sleep 0.2; kill -INT $$) &");
+                                 "0.01; done; sleep 0.05; kill -INT $$) &");
     CHECK(result.status == 130);
     CHECK(result.out.empty());
     CHECK(std::ranges::count(result.err, '\n') == 1);

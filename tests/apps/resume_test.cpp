@@ -25,11 +25,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Two points of 24 surfaces, without stick solves.
-const std::string study = std::regex_replace(
-    std::regex_replace(study_text("seed_count = 24"), std::regex("hurst = 0.8\n"), ""),
-    std::regex("\\[contact\\]"),
-    "[ensemble]\nhurst = [0.5, 0.8]\n[contact]\ntangential_stiffness = \"proportional\"");
+/// Two points of so many surfaces, of few loads and without stick solves.
+std::string study_of(int seeds) {
+  return std::regex_replace(
+      std::regex_replace(study_text("seed_count = " + std::to_string(seeds), 5),
+                         std::regex("hurst = 0.8\n"), ""),
+      std::regex("\\[contact\\]"),
+      "[ensemble]\nhurst = [0.5, 0.8]\n[contact]\ntangential_stiffness = \"proportional\"");
+}
 
 std::size_t parts_in(const fs::path& folder) {
   std::size_t count = 0;
@@ -52,7 +55,7 @@ bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::micro
     dup2(silence, 2);
     if (chdir(test.folder().c_str()) != 0) _exit(99);
     execl(SALEBRA_PROGRAM, "salebra", "study", "study.toml", "-o", "result.h5", "--no-report",
-          "--resume", nullptr);
+          "--resume", "--threads", "2", nullptr);
     _exit(99);
   }
   int status = 0;
@@ -70,12 +73,12 @@ bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::micro
 
 TEST_CASE("A study killed at twenty random moments ends as if nothing had happened", "[resume]") {
   const ProgramTest test;
-  test.write("study.toml", study);
+  test.write("study.toml", study_of(18));
   int killed = 0;
   for (int moment = 0; moment < 20; ++moment) {
     const RandomPair chance = uniform_pair(20, moment, 0);
     killed += run_and_kill(test, chance.first < 0.7,
-                           std::chrono::microseconds(int(60000 * chance.second)));
+                           std::chrono::microseconds(int(30000 * chance.second)));
     if (fs::exists(test.folder() / "result.h5")) break;
   }
   // All twenty unless the machine is so fast that it finished between them.
@@ -110,6 +113,7 @@ TEST_CASE("A study killed at twenty random moments ends as if nothing had happen
 
 TEST_CASE("A study killed while it tidied up is complete, and says so", "[resume]") {
   const ProgramTest test;
+  const std::string study = study_of(6);
   test.write("study.toml", study);
   const fs::path parts = test.folder() / "result.h5.parts", copy = test.folder() / "copy";
   while (parts_in(parts) < 2) REQUIRE(run_and_kill(test, true, std::chrono::microseconds(0)));
@@ -139,9 +143,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
   if (testing::skipped(!can_report(), "no page can be made: this build carries no plotly.js"))
     return;
   const ProgramTest test;
-  std::string few = study;
-  few.replace(few.find("seed_count = 24"), 15, "seed_count = 2");
-  test.write("study.toml", few);
+  test.write("study.toml", study_of(2));
   test.done("study study.toml -o result.h5");
   const std::string page = test.read("result.html");
   const std::set<std::string> all{"study.toml", "result.h5", "result.html"};
@@ -174,7 +176,7 @@ TEST_CASE("A study killed between its result and its page gets the page when it 
 
 TEST_CASE("A study that cannot write its next surface keeps the others", "[resume]") {
   const ProgramTest test;
-  test.write("study.toml", study);
+  test.write("study.toml", study_of(2));
   // No file may grow beyond 8 blocks, which no realisation does without.
   const auto full = test.run("study study.toml -o result.h5", "ulimit -f 8;");
   CHECK(full.status == 1);

@@ -112,7 +112,7 @@ TEST_CASE("Twenty of four concurrent processes are killed: all surfaces are comp
   for (pid_t& worker : workers) worker = start(test, "any");
   for (int k = 0; k < 20; ++k) {
     const RandomPair chance = uniform_pair(21, k, 0);
-    std::this_thread::sleep_for(std::chrono::microseconds(int(120000 * chance.first)));
+    std::this_thread::sleep_for(std::chrono::microseconds(int(70000 * chance.first)));
     pid_t& victim = workers[std::size_t(4 * chance.second)];
     kill(victim, SIGKILL);
     waitpid(victim, nullptr, 0);

@@ -158,10 +158,11 @@ TEST_CASE("An interrupted study keeps the surfaces that it has finished and says
   test.write("study.toml", many);
   const std::string signal = GENERATE("INT", "TERM", "HUP");
   // The signal goes to the program itself, once something is finished after the first second: the
-  // remaining time is told from then on.
+  // remaining time is told from then on. It spends that second stopped.
   const auto result = test.run("study study.toml -o result.h5 --json",
                                "(while ! ls result.h5.parts/*.realisation >/dev/null 2>&1; do "
-                               "sleep 0.1; done; sleep 2; n=$(ls result.h5.parts | wc -l); "
+                               "sleep 0.1; done; kill -STOP $$; sleep 1; kill -CONT $$; "
+                               "n=$(ls result.h5.parts | wc -l); "
                                "while [ $(ls result.h5.parts | wc -l) -lt $((n + 3)) ]; do "
                                "sleep 0.1; done; kill -" +
                                    signal + " $$) &");

@@ -92,14 +92,14 @@ TEST_CASE("The memory of a study grows with its surfaces as their samples do", "
       write_ensembles(scratch / "study.h5", results);
     });
   };
-  const double few = written(400), many = written(800), more = written(1200);
+  const double few = written(300), many = written(600), more = written(900);
   INFO(few << ' ' << many << ' ' << more);
   // Per surface: the Realisation itself, 0.8 kB; three models of 0.4 kB, and for each of four loads
   // 3 × 216 bytes of samples and 140 of spots: 5.2 kB. The file has 4 kB of it, and goes to the disk
   // while it is made. The bootstrap's table took 4000 bytes for each surface and each smaller number
-  // of them, 3.2 MB for each of the last 400.
-  CHECK((more - few) / 800 < 7e3);
-  // Linear: the second 400 take what the first took, but for two megabytes of the heap.
+  // of them, 3 MB for each of the last 300.
+  CHECK((more - few) / 600 < 7e3);
+  // Linear: the second 300 take what the first took, but for two megabytes of the heap.
   CHECK(more - many < many - few + 2e6);
 }
 

@@ -82,12 +82,12 @@ TEST_CASE("A study over processes has the bits of one process", "[study][share]"
     compare(study, bits_of(run_ensembles(study)), 3, 1);
   }
   SECTION("of odd numbers of points, whose cells are doubled") {
-    StudyConfiguration study = study_of("seeds = [1, 2]");
+    StudyConfiguration study = study_of("seeds = [1]");
     std::get<GeneratedSurfaces>(study.surfaces).grid = {65, 65, 4e-6, 4e-6};
     compare(study, bits_of(run_ensembles(study)), 3, 1);
   }
   SECTION("with processes that have no rows") {
-    StudyConfiguration study = study_of("seeds = [1, 2]");
+    StudyConfiguration study = study_of("seeds = [1]");
     // On this grid a contact without a start begins on a coarser one.
     auto& surfaces = std::get<GeneratedSurfaces>(study.surfaces);
     surfaces.grid = {128, 128, 4e-6, 4e-6};

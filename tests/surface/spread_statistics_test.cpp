@@ -108,8 +108,9 @@ void spectra_of(const Surface& surface, Numbers& numbers) {
     numbers.add(radial.wavenumber);
     numbers.add(radial.psd);
     numbers.add(radial.modes);
-    // The fit takes longer than all the rest, and knows only whether there is a window.
-    if (window != Window::radial_hann) {
+    // The fit takes longer than all the rest, and knows of the surface only whether it was seen
+    // through a window: each once.
+    if (window == (surface.periodic ? Window::none : Window::hann)) {
       const SelfAffineFit fit = fit_self_affine(spectrum);
       numbers.add({fit.hurst.value, fit.hurst.low, fit.hurst.high, fit.hurst.wavenumber_min,
                    fit.hurst.wavenumber_max, static_cast<double>(fit.hurst.modes)});
