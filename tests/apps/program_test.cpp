@@ -222,19 +222,19 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
       "--mode equal-frequency --normal-amplitude 2um --tangential-amplitude 1um --phase 80deg "
       "--frequency 1kHz ";
   const std::string surface =
-      "generate --points 8192 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 1um "
+      "generate --points 4096 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 1um "
       "--rms-height 1um ";
-  // Each takes seconds to minutes; the slider because 1 kHz leaves it unstable, so that its
+  // Each takes a second to minutes; the slider because 1 kHz leaves it unstable, so that its
   // slow cycles are followed.
   for (const std::string& command :
        {"sliding " + law +
             "--normal-amplitude 2nm --frequency 1kHz --mass 10g --spring-stiffness 1kN/m "
             "--velocities 3um/s --falling-slope 1 --friction-coefficient 0.3 --tolerance 1e-6",
         "viscoelastic " + sphere + motion + "--prony 3MPa:1ms --steps 20000 --springs 20000",
-        "damping " + sphere + motion + "--friction-coefficient 0.3 --steps 10000000",
+        "damping " + sphere + motion + "--friction-coefficient 0.3 --steps 4000000",
         "damping " + law + normal +
             "--mode two-frequencies --tangential-amplitude 1nm --phase 0.5 --tangential-frequency "
-            "10kHz --friction-coefficient 0.3 --steps 10000000",
+            "10kHz --friction-coefficient 0.3 --steps 4000000",
         "joint " + law +
             "--friction-coefficient 0.3 --normal-amplitude 2nm --tangential-forces 3mN --steps "
             "400000",

@@ -146,7 +146,7 @@ TEST_CASE("Workers of two hosts share a study, and go on where one was killed", 
   const std::string killed =
       elsewhere + "'hostname node2; for attempt in 1 2 3 4 5; do " + claims + " && break; " + any +
       " & until " + claims +
-      " || ! kill -0 $!; do sleep 0.002; done; kill -9 $!; wait $!; done' > /dev/null 2>&1;";
+      " || ! kill -0 $!; do sleep 0.01; done; kill -9 $!; wait $!; done' > /dev/null 2>&1;";
   // Two more workers, of two hosts, take what it had claimed and finish the study.
   const auto merged = test.run(merge, killed + elsewhere + "'hostname node3; exec " + any + "' & " +
                                           any + " > /dev/null; wait;");
@@ -160,9 +160,9 @@ TEST_CASE("Workers of two hosts share a study, and go on where one was killed", 
       test.run("study again.toml -o again.h5 --no-report --quiet --merge",
                elsewhere + "'hostname node4; " + std::string(SALEBRA_PROGRAM) +
                    " study again.toml -o again.h5 --quiet --threads 1 --shard any & until ls "
-                   "again.h5.parts/*.claim; do sleep 0.002; done; kill -STOP $!; touch stopped; "
+                   "again.h5.parts/*.claim; do sleep 0.01; done; kill -STOP $!; touch stopped; "
                    "for k in $(seq 3000); do [ -e done ] && break; sleep 0.01; done; kill -9 $!' > "
-                   "/dev/null 2>&1 & until [ -e stopped ]; do sleep 0.002; done;");
+                   "/dev/null 2>&1 & until [ -e stopped ]; do sleep 0.01; done;");
   test.write("done", "");
   check_refused(early, "in use by shards, the latest of them process");
 }

@@ -27,21 +27,21 @@ std::vector<double> of_plane_waves(const Grid2D& grid, double kappa, bool drift)
   for (int direction = 0; direction < directions; ++direction)
     for (const double phase : {0.0, pi / 2}) {
       const double angle = (direction + 0.5) / directions * pi;
-      const auto height = [&](double x, double y) {
-        return micro * std::cos(q * (x * std::cos(angle) + y * std::sin(angle)) + phase);
+      // cos(qx + qy + phase), by the cosines and sines of its parts.
+      const auto along = [](Index n, double step, double at) {
+        return (step * Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1)) + at).eval();
       };
+      const Eigen::ArrayXd x = along(grid.nx, q * std::cos(angle) * grid.dx(), phase),
+                           y = along(grid.ny, q * std::sin(angle) * grid.dy(), 0);
       ScanSpectrum spectrum;
       if (grid.ny == 1) {
-        std::vector<double> line;
-        for (Index i = 0; i < grid.nx; ++i)
-          line.push_back(height(static_cast<double>(i) * grid.dx(), 0));
+        const Eigen::ArrayXd heights = micro * x.cos();
+        const std::vector<double> line(heights.begin(), heights.end());
         spectrum = profile_spectrum(line, grid.lx, instrument);
       } else {
-        Field heights(grid.nx, grid.ny);
-        for (Index i = 0; i < grid.nx; ++i)
-          for (Index j = 0; j < grid.ny; ++j)
-            heights(i, j) =
-                height(static_cast<double>(i) * grid.dx(), static_cast<double>(j) * grid.dy());
+        const Field heights = micro * (x.cos().matrix() * y.cos().matrix().transpose() -
+                                       x.sin().matrix() * y.sin().matrix().transpose())
+                                          .array();
         spectrum = scan_spectrum(heights, grid, instrument);
       }
       mean.resize(spectrum.psd.size());
