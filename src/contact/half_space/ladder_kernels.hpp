@@ -7,9 +7,10 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list. The tests'
-// ladder_reference.hpp says in plain loops what each does. One source is compiled for each vector
-// width; no header with inline functions may be included there.
+// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list, and the stencil
+// that stands in for an inverse. The tests' ladder_reference.hpp says in plain loops what each
+// does. One source is compiled for each vector width; no header with inline functions may be
+// included there.
 
 // A framed field: its first cell, the cells from one row to the next, and the cells of a row.
 struct FramedView {
@@ -41,6 +42,11 @@ struct LadderKernels {
   // With a stencil of 7 × 7, for tiles of one row, into its cells.
   void (*last_ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
                       const Ascent& sum, float* row);
+  // A stencil of 7 × 7, symmetric about both axes, on a framed field, for cells [begin, end) of a
+  // list: their distances from the first cell of the field, in ascending order.
+  void (*at_cells)(const double* field, std::ptrdiff_t stride, const double* stencil,
+                   const std::ptrdiff_t* cells, std::ptrdiff_t begin, std::ptrdiff_t end,
+                   double* sums);
 };
 
 // The table for the widest vectors that this processor has.

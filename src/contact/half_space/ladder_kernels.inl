@@ -148,6 +148,18 @@ void last_ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum,
   }
 }
 
-LadderKernels ladder_table() { return {restriction, ascent, last_ascent}; }
+// Most cells have neighbours in their row: 16 together. The sum of a cell has the same bits wherever
+// it is among them.
+void at_cells(const double* field, Length stride, const double* stencil, const Length* cells,
+              Length begin, Length end, double* sums) {
+  for (Length k = begin; k < end;) {
+    const Length first = cells[k];
+    double together[tile_width];
+    StencilLoop<double, frame>::apply(field + first, stride, stencil, together);
+    for (; k < end && cells[k] - first < tile_width; ++k) sums[k] = together[cells[k] - first];
+  }
+}
+
+LadderKernels ladder_table() { return {restriction, ascent, last_ascent, at_cells}; }
 
 }  // namespace salebra::detail::SALEBRA_SIMD

@@ -67,6 +67,18 @@ inline void last_ascent(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t 
                  [&](std::ptrdiff_t i, std::ptrdiff_t j) { row[j] = ascended(sum, 3, i, j); });
 }
 
-inline LadderKernels ladder_table() { return {restriction, ascent, last_ascent}; }
+inline void at_cells(const double* field, std::ptrdiff_t stride, const double* stencil,
+                     const std::ptrdiff_t* cells, std::ptrdiff_t begin, std::ptrdiff_t end,
+                     double* sums) {
+  for (std::ptrdiff_t k = begin; k < end; ++k) {
+    sums[k] = 0;
+    for (int a = -frame; a <= frame; ++a)
+      for (int b = -frame; b <= frame; ++b)
+        sums[k] +=
+            stencil[(a + frame) * (2 * frame + 1) + b + frame] * field[cells[k] + a * stride + b];
+  }
+}
+
+inline LadderKernels ladder_table() { return {restriction, ascent, last_ascent, at_cells}; }
 
 }  // namespace salebra::detail::reference
