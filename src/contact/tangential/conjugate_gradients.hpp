@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <salebra/base/parallel.hpp>
 #include <vector>
 
 #include "surface_response.hpp"
@@ -29,21 +28,14 @@ CgOutcome conjugate_gradients(const Apply& apply, const Precondition& preconditi
                               std::vector<double>& misfit) {
   const std::size_t unknowns = misfit.size();
   std::vector<double> preconditioned(unknowns), direction(unknowns, 0.0), image(unknowns);
-  const auto for_all = [count = static_cast<Index>(unknowns)](const auto& body) {
-    parallel::for_slabs(
-        count,
-        [&](Index begin, Index end) {
-          for (Index i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
-        },
-        count);
-  };
   CgOutcome outcome;
   double curvature = 1;
   while (!stop(dot(misfit, misfit), outcome.iterations)) {
     precondition(misfit, preconditioned);
     const double weight = dot(misfit, preconditioned);
     const double beta = outcome.iterations > 0 ? -dot(preconditioned, image) / curvature : 0;
-    for_all([&](std::size_t i) { direction[i] = preconditioned[i] + beta * direction[i]; });
+    for_each(unknowns, unknowns,
+             [&](std::size_t i) { direction[i] = preconditioned[i] + beta * direction[i]; });
     apply(direction, image);
     curvature = dot(direction, image);
     if (!(curvature > 0)) {
@@ -51,7 +43,7 @@ CgOutcome conjugate_gradients(const Apply& apply, const Precondition& preconditi
       break;
     }
     const double step = weight / curvature;
-    for_all([&](std::size_t i) {
+    for_each(unknowns, unknowns, [&](std::size_t i) {
       x[i] += step * direction[i];
       misfit[i] -= step * image[i];
     });

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <utility>
 
 #include "conjugate_gradients.hpp"
@@ -20,6 +19,13 @@ double largest(const std::vector<double>& vector) {
   return largest_of(vector.data(), static_cast<Index>(vector.size()));
 }
 
+template <class Each, class Value>
+double length(const Each& each, const Value& value) {
+  double square = 0;
+  each([&](std::size_t i) { square += value(i) * value(i); });
+  return std::sqrt(square);
+}
+
 }  // namespace
 
 DiscProblem::DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
@@ -32,117 +38,121 @@ DiscProblem::DiscProblem(ContactSystem& system, const PointList& points, std::ve
       gradient_length_(cell_stiffness_),
       open_(std::ranges::count_if(limits_, [](double limit) { return limit > 0; })) {}
 
-double DiscProblem::length(const std::vector<double>& vector, std::size_t point) const {
-  if (components() == 1) return std::abs(vector[point]);
-  const double x = vector[point], y = vector[count() + point];
-  return std::sqrt(x * x + y * y);
+template <class Body>
+void DiscProblem::for_values(const Body& body) const {
+  for_each(targets_.size(), 2 * targets_.size(), body);
 }
 
-bool DiscProblem::at_limit(const std::vector<double>& tractions, std::size_t point) const {
-  return length(tractions, point) >= (1 - limit_round_off) * limits_[point];
-}
-
-bool DiscProblem::slips(const std::vector<double>& tractions, const std::vector<double>& gradient,
-                        std::size_t point) const {
-  double square = 0;
-  for (std::size_t i = point; i < tractions.size(); i += count())
-    square += std::pow(tractions[i] - cell_stiffness_ * gradient[i], 2);
-  return std::sqrt(square) > limits_[point];
-}
-
-void DiscProblem::project(std::vector<double>& tractions) const {
-  for (std::size_t k = 0; k < count(); ++k) {
-    const double size = length(tractions, k);
-    if (size <= limits_[k]) continue;
-    for (std::size_t i = k; i < tractions.size(); i += count()) tractions[i] *= limits_[k] / size;
+// body(point, each), where each(visit) calls visit(i) for the places of its components.
+template <class Body>
+void DiscProblem::for_points(const Body& body) const {
+  const std::size_t points = count(), work = 4 * targets_.size();
+  if (targets_.size() == points) {
+    for_each(points, work, [&](std::size_t k) { body(k, [k](const auto& visit) { visit(k); }); });
+  } else {
+    for_each(points, work, [&, points](std::size_t k) {
+      body(k, [k, points](const auto& visit) {
+        visit(k);
+        visit(points + k);
+      });
+    });
   }
+}
+
+template <class Each>
+void DiscProblem::project(std::vector<double>& tractions, std::size_t point,
+                          const Each& each) const {
+  const double size = length(each, [&](std::size_t i) { return tractions[i]; });
+  if (size <= limits_[point]) return;
+  each([&, stretch = limits_[point] / size](std::size_t i) { tractions[i] *= stretch; });
 }
 
 DiscProblem::Iterate DiscProblem::evaluated(std::vector<double> tractions) {
   Iterate iterate{std::move(tractions), std::vector<double>(targets_.size(), 0.0), 0};
   if (largest(iterate.tractions) > 0)
     system_.response().apply(points_, iterate.tractions.data(), points_, iterate.gradient.data());
-  for (std::size_t i = 0; i < targets_.size(); ++i) iterate.gradient[i] -= targets_[i];
+  for_values([&](std::size_t i) { iterate.gradient[i] -= targets_[i]; });
   return iterate;
 }
 
 // The response to what has changed, in single precision, is added to what is known.
 DiscProblem::Iterate DiscProblem::moved(const Iterate& from, std::vector<double> tractions) {
   std::vector<double> change(tractions.size());
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] = tractions[i] - from.tractions[i];
+  for_values([&](std::size_t i) { change[i] = tractions[i] - from.tractions[i]; });
   Iterate iterate{std::move(tractions), std::vector<double>(targets_.size()), 0};
   system_.response().apply_loosely(points_, change.data(), iterate.gradient.data());
   iterate.doubt = from.doubt + SurfaceResponse::loose_error * largest(iterate.gradient);
-  for (std::size_t i = 0; i < targets_.size(); ++i) iterate.gradient[i] += from.gradient[i];
+  for_values([&](std::size_t i) { iterate.gradient[i] += from.gradient[i]; });
   return iterate;
 }
 
 DiscProblem::Iterate DiscProblem::start(std::vector<double> tractions, const KnownResponse* known) {
-  project(tractions);
+  for_points([&](std::size_t k, const auto& each) { project(tractions, k, each); });
   if (known == nullptr) return evaluated(std::move(tractions));
   Iterate begin{known->tractions, known->displacements, known->error};
-  for (std::size_t i = 0; i < targets_.size(); ++i) begin.gradient[i] -= targets_[i];
+  for_values([&](std::size_t i) { begin.gradient[i] -= targets_[i]; });
   Iterate iterate = moved(begin, std::move(tractions));
   if (iterate.doubt < allowed_doubt * residual(iterate)) return iterate;
   return evaluated(std::move(iterate.tractions));
 }
 
 double DiscProblem::residual(const Iterate& iterate) const {
-  std::vector<double> moved = iterate.tractions;
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= cell_stiffness_ * iterate.gradient[i];
-  project(moved);
-  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] -= iterate.tractions[i];
+  std::vector<double> moved(targets_.size());
+  for_points([&](std::size_t k, const auto& each) {
+    each([&](std::size_t i) {
+      moved[i] = iterate.tractions[i] - cell_stiffness_ * iterate.gradient[i];
+    });
+    project(moved, k, each);
+    each([&](std::size_t i) { moved[i] -= iterate.tractions[i]; });
+  });
   return open_ > 0 ? std::sqrt(dot(moved, moved)) / root_of_count() / cell_stiffness_ : 0;
 }
 
 DiscProblem::Face DiscProblem::face_of(const Iterate& iterate) const {
-  Face face;
-  for (std::size_t k = 0; k < count(); ++k) {
-    if (!at_limit(iterate.tractions, k)) continue;
+  Face face{std::vector<unsigned char>(count()), std::vector<double>(targets_.size()),
+            std::vector<double>(count())};
+  for_points([&](std::size_t k, const auto& each) {
+    const double size = length(each, [&](std::size_t i) { return iterate.tractions[i]; });
+    if (limits_[k] == 0 || size < (1 - limit_round_off) * limits_[k]) return;
     double outward = 0;
-    for (std::size_t i = k; limits_[k] > 0 && i < targets_.size(); i += count())
-      outward -= iterate.tractions[i] / limits_[k] * iterate.gradient[i];
+    each(
+        [&](std::size_t i) { outward -= iterate.tractions[i] / limits_[k] * iterate.gradient[i]; });
     // Pulled inwards, the point sticks again.
-    if (outward < 0) continue;
-    face.bound.push_back(k);
-    face.curvature.push_back(limits_[k] > 0 ? outward / limits_[k] : 0);
-    for (std::size_t i = k; i < targets_.size(); i += count())
-      face.normal.push_back(limits_[k] > 0 ? iterate.tractions[i] / limits_[k] : 0);
-  }
+    if (outward < 0) return;
+    face.bound[k] = 1;
+    face.curvature[k] = outward / limits_[k];
+    each([&](std::size_t i) { face.normal[i] = iterate.tractions[i] / limits_[k]; });
+  });
   return face;
 }
 
-void DiscProblem::project_on(const Face& face, std::vector<double>& vector) const {
-  const double* normal = face.normal.data();
-  for (const std::size_t k : face.bound) {
-    const double share = limits_[k] > 0 ? 1 : 0;
+// vector = value(i, point), less what of it the face does not allow.
+template <class Value>
+void DiscProblem::project_on(const Face& face, std::vector<double>& vector,
+                             const Value& value) const {
+  for_points([&](std::size_t k, const auto& each) {
     double outward = 0;
-    for (std::size_t i = k, c = 0; i < vector.size(); i += count(), ++c)
-      outward += normal[c] * vector[i];
-    for (std::size_t i = k; i < vector.size(); i += count())
-      vector[i] = share * (vector[i] - *normal++ * outward);
-  }
+    each([&](std::size_t i) {
+      vector[i] = value(i, k);
+      outward += face.normal[i] * vector[i];
+    });
+    each([&](std::size_t i) {
+      vector[i] = limits_[k] > 0 ? vector[i] - face.normal[i] * outward : 0;
+    });
+  });
 }
 
 DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, const Face& face,
                                                      double reduction, int max_iterations,
                                                      PartialSlipReport& report) {
   const std::size_t unknowns = targets_.size();
-  std::vector<double> solution(unknowns, 0.0), misfit(unknowns), scaled;
-  for (std::size_t i = 0; i < unknowns; ++i) misfit[i] = -iterate.gradient[i];
-  project_on(face, misfit);
-  const auto for_bound = [&](const std::vector<double>& values, const auto& body) {
-    for (std::size_t bound = 0; bound < face.bound.size(); ++bound)
-      for (std::size_t i = face.bound[bound]; i < unknowns; i += count()) body(i, values[bound]);
-  };
+  std::vector<double> solution(unknowns, 0.0), misfit(unknowns), scaled(unknowns), scale(count());
+  project_on(face, misfit, [&](std::size_t i, std::size_t) { return -iterate.gradient[i]; });
   // The stencil is the inverse of K, but for a factor, not of K + Λ: where the curvature Λ prevails,
   // the inverse is 1/Λ.
-  std::vector<double> scales;
-  for (const double curvature : face.curvature)
-    scales.push_back(1 / std::sqrt(1 + cell_stiffness_ * curvature));
-  const auto scale = [&](std::vector<double>& vector) {
-    for_bound(scales, [&](std::size_t i, double factor) { vector[i] *= factor; });
-  };
+  for_points([&](std::size_t k, const auto&) {
+    scale[k] = 1 / std::sqrt(1 + cell_stiffness_ * face.curvature[k]);
+  });
   const double goal =
       std::max(reduction * std::sqrt(dot(misfit, misfit)), 0.3 * tolerance_ * root_of_count());
   // What the response to the step in single precision would leave in doubt, beside what is to be
@@ -152,18 +162,17 @@ DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, con
   const CgOutcome outcome = conjugate_gradients(
       [&](const std::vector<double>& in, std::vector<double>& out) {
         system_.response().apply_loosely(points_, in.data(), out.data());
-        for_bound(face.curvature,
-                  [&](std::size_t i, double curvature) { out[i] += curvature * in[i]; });
-        project_on(face, out);
+        project_on(face, out, [&](std::size_t i, std::size_t k) {
+          return out[i] + face.curvature[k] * in[i];
+        });
       },
       [&](const std::vector<double>& in, std::vector<double>& out) {
-        scaled = in;
-        scale(scaled);
-        for (std::size_t c = 0; c < components(); ++c)
-          system_.preconditioner().apply(points_, scaled.data() + c * count(),
-                                         out.data() + c * count());
-        scale(out);
-        project_on(face, out);
+        for_points([&](std::size_t k, const auto& each) {
+          each([&](std::size_t i) { scaled[i] = scale[k] * in[i]; });
+        });
+        for (std::size_t first = 0; first < unknowns; first += count())
+          system_.preconditioner().apply(scaled.data() + first, out.data() + first);
+        project_on(face, out, [&](std::size_t i, std::size_t k) { return scale[k] * out[i]; });
       },
       [&](double square, int iterations) {
         return std::sqrt(square) <= goal || before + iterations >= max_iterations;
@@ -176,28 +185,40 @@ DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, con
 
 // Armijo's rule for the energy, which a step d changes by d·(g + g')/2, with room for round-off.
 bool DiscProblem::accept(Iterate&& trial, Iterate& iterate) const {
-  double slope = 0, change = 0, noise = 0;
-  for (std::size_t i = 0; i < targets_.size(); ++i) {
-    const double step = trial.tractions[i] - iterate.tractions[i];
-    slope += iterate.gradient[i] * step;
-    change += (iterate.gradient[i] + trial.gradient[i]) / 2 * step;
-    noise += std::abs(step * targets_[i]);
-  }
-  if (change > 1e-4 * std::min(slope, 0.0) + 1e-14 * noise) return false;
+  using Sums = Eigen::Array3d;  // g·d, the change, and its noise
+  const Index unknowns = static_cast<Index>(targets_.size());
+  Sums sums = Sums::Zero();
+  for (const Sums& part : parallel::map_blocks<Sums>(
+           unknowns,
+           [&](Index begin, Index end) {
+             Sums of_block = Sums::Zero();
+             for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end);
+                  ++i) {
+               const double step = trial.tractions[i] - iterate.tractions[i];
+               of_block += Sums(iterate.gradient[i] * step,
+                                (iterate.gradient[i] + trial.gradient[i]) / 2 * step,
+                                std::abs(step * targets_[i]));
+             }
+             return of_block;
+           },
+           4 * unknowns))
+    sums += part;
+  if (sums[1] > 1e-4 * std::min(sums[0], 0.0) + 1e-14 * sums[2]) return false;
   iterate = std::move(trial);
   return true;
 }
 
 bool DiscProblem::newton_step(const Face& face, const Direction& direction, Iterate& iterate) {
   for (const double part : {1.0, 0.5, 0.1}) {
-    std::vector<double> tractions = iterate.tractions;
-    for (std::size_t i = 0; i < tractions.size(); ++i) tractions[i] += part * direction.step[i];
-    for (const std::size_t k : face.bound) {
-      if (limits_[k] == 0) continue;
-      const double stretch = limits_[k] / length(tractions, k);
-      for (std::size_t i = k; i < tractions.size(); i += count()) tractions[i] *= stretch;
-    }
-    project(tractions);
+    std::vector<double> tractions(targets_.size());
+    for_points([&](std::size_t k, const auto& each) {
+      each([&](std::size_t i) { tractions[i] = iterate.tractions[i] + part * direction.step[i]; });
+      if (face.bound[k]) {
+        const double size = length(each, [&](std::size_t i) { return tractions[i]; });
+        each([&, stretch = limits_[k] / size](std::size_t i) { tractions[i] *= stretch; });
+      }
+      project(tractions, k, each);
+    });
     if (accept(direction.small ? moved(iterate, std::move(tractions))
                                : evaluated(std::move(tractions)),
                iterate))
@@ -209,10 +230,13 @@ bool DiscProblem::newton_step(const Face& face, const Direction& direction, Iter
 bool DiscProblem::gradient_step(Iterate& iterate) {
   const Iterate before = iterate;
   for (int halving = 0; halving < 60; ++halving) {
-    std::vector<double> tractions = before.tractions;
-    for (std::size_t i = 0; i < targets_.size(); ++i)
-      tractions[i] -= gradient_length_ * before.gradient[i];
-    project(tractions);
+    std::vector<double> tractions(targets_.size());
+    for_points([&](std::size_t k, const auto& each) {
+      each([&](std::size_t i) {
+        tractions[i] = before.tractions[i] - gradient_length_ * before.gradient[i];
+      });
+      project(tractions, k, each);
+    });
     if (!accept(evaluated(std::move(tractions)), iterate)) {
       gradient_length_ /= 4;
       continue;
@@ -231,13 +255,14 @@ bool DiscProblem::gradient_step(Iterate& iterate) {
 }
 
 PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const Progress& progress,
-                                     std::vector<double>& tractions, std::vector<double>& gradient,
+                                     std::vector<double>& tractions, std::vector<double>& slip,
                                      const KnownResponse* known) {
   PartialSlipReport report;
   const int first_fft = system_.response().fft_count();
+  system_.preconditioner().hold(points_);
   tolerance_ = tolerance;
   Iterate iterate = start(std::move(tractions), known);
-  std::optional<std::vector<std::size_t>> last_bound;
+  std::vector<unsigned char> last_bound;
   for (;;) {
     report.residual = residual(iterate);
     if (report.residual < tolerance && iterate.doubt > allowed_doubt * tolerance) {
@@ -272,11 +297,20 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
       break;
     }
   }
-  for (std::size_t k = 0; k < count(); ++k)
-    report.slipping += limits_[k] > 0 && slips(iterate.tractions, iterate.gradient, k);
+  // |τ − κg| exceeds the limit of a point that slips. (|τ| itself may be short of a limit that has
+  // grown by less than the tolerance since the guess.)
+  std::vector<unsigned char> slipping(count());
+  for_points([&](std::size_t k, const auto& each) {
+    const bool slips = length(each, [&](std::size_t i) {
+                         return iterate.tractions[i] - cell_stiffness_ * iterate.gradient[i];
+                       }) > limits_[k];
+    slipping[k] = slips && limits_[k] > 0;
+    each([&](std::size_t i) { iterate.gradient[i] = slips ? -iterate.gradient[i] : 0; });
+  });
+  report.slipping = std::ranges::count(slipping, 1);
   report.fft_count = system_.response().fft_count() - first_fft;
   tractions = std::move(iterate.tractions);
-  gradient = std::move(iterate.gradient);
+  slip = std::move(iterate.gradient);
   return report;
 }
 
@@ -295,11 +329,6 @@ PartialSlipReport solve_discs(TangentialWorkspace& workspace, ContactSystem& sys
   PartialSlipReport report = problem.solve(options.tolerance * scale, options.max_iterations,
                                            options.on_progress, tractions, slip, known);
   report.residual /= scale;
-  const std::size_t count = points.cell.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const double sign = problem.slips(tractions, slip, k) ? -1 : 0;
-    for (std::size_t i = k; i < slip.size(); i += count) slip[i] *= sign;
-  }
   return report;
 }
 

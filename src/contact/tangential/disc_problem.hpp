@@ -29,16 +29,12 @@ class DiscProblem {
   DiscProblem(ContactSystem& system, const PointList& points, std::vector<double> limits,
               std::vector<double> targets, double stiffness_scale);
 
-  /// From a guess, which need not be feasible, to residual < tolerance, m. On return `gradient` is
-  /// Kτ − v. `known`, near the guess, saves a response in double precision; nullptr: none.
+  /// From a guess, which need not be feasible, to residual < tolerance, m. On return `slip` is
+  /// v − Kτ where a point slips, as it does where its limit is 0, and 0 elsewhere. `known`, near the
+  /// guess, saves a response in double precision; nullptr: none.
   PartialSlipReport solve(double tolerance, int max_iterations, const Progress& progress,
-                          std::vector<double>& tractions, std::vector<double>& gradient,
+                          std::vector<double>& tractions, std::vector<double>& slip,
                           const KnownResponse* known = nullptr);
-
-  /// Whether a point slips: |τ − κg| exceeds its limit. (|τ| itself may be short of a limit that
-  /// has grown by less than the tolerance since the guess.)
-  bool slips(const std::vector<double>& tractions, const std::vector<double>& gradient,
-             std::size_t point) const;
 
   /// Takes only projected gradient steps, which is slow and always converges: the Newton steps'
   /// fallback, for tests of it.
@@ -48,9 +44,9 @@ class DiscProblem {
   // What a Newton step may change: everything in free points, the direction of traction in bound
   // ones, nothing where there is no limit.
   struct Face {
-    std::vector<std::size_t> bound;
-    std::vector<double> normal;     // τ/|τ| of each bound point (bound × components)
-    std::vector<double> curvature;  // λ = |g|/limit of each, m/Pa
+    std::vector<unsigned char> bound;  // of each point
+    std::vector<double> normal;        // τ/|τ| of a bound point, else 0 (components × points)
+    std::vector<double> curvature;     // λ = |g|/limit of a bound point, else 0, m/Pa
   };
   struct Iterate {
     std::vector<double> tractions, gradient;
@@ -64,16 +60,19 @@ class DiscProblem {
   std::size_t count() const { return limits_.size(); }
   // Of those that can carry traction.
   double root_of_count() const { return std::sqrt(static_cast<double>(open_)); }
-  std::size_t components() const { return targets_.size() / limits_.size(); }
-  double length(const std::vector<double>& vector, std::size_t point) const;
-  bool at_limit(const std::vector<double>& tractions, std::size_t point) const;
-  void project(std::vector<double>& tractions) const;
+  template <class Body>
+  void for_values(const Body& body) const;
+  template <class Body>
+  void for_points(const Body& body) const;
+  template <class Each>
+  void project(std::vector<double>& tractions, std::size_t point, const Each& each) const;
   Iterate start(std::vector<double> tractions, const KnownResponse* known);
   Iterate evaluated(std::vector<double> tractions);
   Iterate moved(const Iterate& from, std::vector<double> tractions);
   double residual(const Iterate& iterate) const;
   Face face_of(const Iterate& iterate) const;
-  void project_on(const Face& face, std::vector<double>& vector) const;
+  template <class Value>
+  void project_on(const Face& face, std::vector<double>& vector, const Value& value) const;
   Direction newton_direction(const Iterate& iterate, const Face& face, double reduction,
                              int max_iterations, PartialSlipReport& report);
   bool newton_step(const Face& face, const Direction& direction, Iterate& iterate);
@@ -90,8 +89,7 @@ class DiscProblem {
   bool newton_ = true;
 };
 
-/// PartialSlipSolver::solve on points of its workspace: `slip` is v − Kτ where a point slips, as it
-/// does where its limit is 0, and 0 elsewhere.
+/// PartialSlipSolver::solve on points of its workspace.
 PartialSlipReport solve_discs(TangentialWorkspace& workspace, ContactSystem& system,
                               const PointList& points, std::vector<double> limits,
                               std::vector<double> targets, double scale,

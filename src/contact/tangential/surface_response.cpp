@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/parallel.hpp>
-#include <type_traits>
 #include <utility>
 
 #include "base/memory.hpp"
 #include "conjugate_gradients.hpp"
+#include "contact/half_space/ladder_kernels.hpp"
 #include "contact/normal/contact_memory.hpp"
 
 namespace salebra::detail {
@@ -37,9 +36,7 @@ double largest_of(const double* values, Index count) {
   for (const double part : parallel::map_blocks<double>(
            count,
            [values](Index begin, Index end) {
-             double size = 0;
-             for (Index i = begin; i < end; ++i) size = std::max(size, std::abs(values[i]));
-             return size;
+             return Eigen::Map<const Eigen::ArrayXd>(values + begin, end - begin).abs().maxCoeff();
            },
            count))
     largest = std::max(largest, part);
@@ -51,9 +48,10 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return parallel::sum_blocks(
       count,
       [&](Index begin, Index end) {
-        double sum = 0;
-        for (std::size_t i = size_of(begin); i < size_of(end); ++i) sum += a[i] * b[i];
-        return sum;
+        const auto part = [=](const std::vector<double>& vector) {
+          return Eigen::Map<const Eigen::VectorXd>(vector.data() + begin, end - begin);
+        };
+        return part(a).dot(part(b));
       },
       count);
 }
@@ -130,49 +128,30 @@ StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary bounda
       boundary_(boundary),
       field_(rows.count(), window.ny),
       frame_rows_(frame_rows(rows, boundary)) {
+  static_assert(frame == InverseStencil::radius);
   const InverseStencil stencil(grid);
   for (int a = 0; a < width; ++a)
     for (int b = 0; b < width; ++b)
-      weights_[size_of(a * width + b)] = stencil.weight(a - reach, b - reach);
+      weights_[static_cast<std::size_t>(a * width + b)] = stencil.weight(a - frame, b - frame);
 }
 
-void StencilPreconditioner::apply(const PointList& points, const double* in, double* out) {
-  const Index length = field_.stride();
+void StencilPreconditioner::hold(const PointList& points) {
+  for (const Index cell : held_) field_.row(0)[cell] = 0;
+  held_ = points.framed;
+}
+
+void StencilPreconditioner::apply(const double* in, double* out) {
   double* field = field_.row(0);
-  const auto scatter = [&](const auto& value) {
-    parallel::for_slabs(
-        points.size(),
-        [&](Index begin, Index end) {
-          for (Index k = begin; k < end; ++k) field[points.framed[size_of(k)]] = value(k);
-        },
-        4 * points.size());
-  };
-  scatter([in](Index k) { return in[k]; });
+  for_each(held_.size(), 4 * held_.size(), [&](std::size_t k) { field[held_[k]] = in[k]; });
   field_.fill_frame(boundary_, frame_rows_);
-  const auto apply_to = [&](Index begin, Index end) {
-    // Most points have neighbours in their row: eight together, each with its own sum.
-    constexpr Index together = 8;
-    const auto stencil = [&]<int count>(Index k, std::integral_constant<int, count>) {
-      using Some = Eigen::Array<double, count, 1>;
-      const double* corner = field + points.framed[size_of(k)] - reach * length - reach;
-      Some sum = Some::Zero();
-      for (Index a = 0; a < width; ++a)
-        for (Index b = 0; b < width; ++b)
-          sum += weights_[size_of(a * width + b)] * Eigen::Map<const Some>(corner + a * length + b);
-      Eigen::Map<Some>(out + k) = sum;
-    };
-    for (Index k = begin; k < end;) {
-      const Index last = k + together - 1;
-      if (last < end && points.framed[size_of(last)] == points.framed[size_of(k)] + together - 1) {
-        stencil(k, std::integral_constant<int, together>{});
-        k += together;
-      } else {
-        stencil(k++, std::integral_constant<int, 1>{});
-      }
-    }
-  };
-  parallel::for_slabs(points.size(), apply_to, width * width * points.size());
-  scatter([](Index) { return 0.0; });
+  const Index count = static_cast<Index>(held_.size());
+  parallel::for_slabs(
+      count,
+      [&](Index begin, Index end) {
+        ladder_kernels().at_cells(field, field_.stride(), weights_.data(), held_.data(), begin, end,
+                                  out);
+      },
+      width * width * count);
 }
 
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,
@@ -258,27 +237,27 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
   };
   if (!inverse_) inverse_.emplace(window_grid_, rows_, boundary_);
   const bool on_ladder = inverse_->hold(points.windowed);
+  if (!on_ladder) preconditioner_.hold(points);
   const int first_ladder = inverse_->ladder_count();
-  report.iterations =
-      conjugate_gradients(
-          [&](const std::vector<double>& in, std::vector<double>& out) {
-            response_.apply(points, in.data(), points, out.data());
-          },
-          [&](const std::vector<double>& in, std::vector<double>& out) {
-            for (int c = 0; c < components; ++c) {
-              const std::size_t offset = size_of(c * points.size());
-              if (on_ladder)
-                inverse_->apply(in.data() + offset, out.data() + offset);
-              else
-                preconditioner_.apply(points, in.data() + offset, out.data() + offset);
-            }
-          },
-          stop,
-          [&](const std::vector<double>& a, const std::vector<double>& b) {
-            return dot(points, a.data(), b.data(), components);
-          },
-          tractions, misfit)
-          .iterations;
+  const CgOutcome outcome = conjugate_gradients(
+      [&](const std::vector<double>& in, std::vector<double>& out) {
+        response_.apply(points, in.data(), points, out.data());
+      },
+      [&](const std::vector<double>& in, std::vector<double>& out) {
+        for (int c = 0; c < components; ++c) {
+          const std::size_t offset = size_of(c * points.size());
+          if (on_ladder)
+            inverse_->apply(in.data() + offset, out.data() + offset);
+          else
+            preconditioner_.apply(in.data() + offset, out.data() + offset);
+        }
+      },
+      stop,
+      [&](const std::vector<double>& a, const std::vector<double>& b) {
+        return dot(points, a.data(), b.data(), components);
+      },
+      tractions, misfit);
+  report.iterations = outcome.iterations;
   report.fft_count = response_.fft_count() - first_fft;
   report.ladder_count = inverse_->ladder_count() - first_ladder;
   return report;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <salebra/base/grid.hpp>
+#include <salebra/base/parallel.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/tangential/stick.hpp>
@@ -17,6 +18,17 @@
 #include "contact/normal/set_inverse.hpp"
 
 namespace salebra::detail {
+
+/// body(i) for all i < count, in parallel where there are so many operations that it pays.
+template <class Body>
+void for_each(std::size_t count, std::size_t operations, const Body& body) {
+  parallel::for_slabs(
+      static_cast<Index>(count),
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) body(static_cast<std::size_t>(i));
+      },
+      static_cast<Index>(operations));
+}
 
 double largest_of(const double* values, Index count);
 
@@ -85,17 +97,19 @@ class StencilPreconditioner {
   Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0) * field_.stride() + iy - window_.y0;
   }
-  double diagonal() const { return weights_[reach * width + reach]; }  ///< 1/m, of E* = 1
-  /// One component; out may not be in.
-  void apply(const PointList& points, const double* in, double* out);
+  double diagonal() const { return weights_[weights_.size() / 2]; }  ///< 1/m, of E* = 1
+  /// Takes the points on which it is applied from now on.
+  void hold(const PointList& points);
+  /// One component.
+  void apply(const double* in, double* out);
 
  private:
-  static constexpr Index reach = InverseStencil::radius;
-  static constexpr Index width = InverseStencil::width;
+  static constexpr int width = InverseStencil::width;
 
   CellWindow window_;
   Boundary boundary_;
   std::array<double, width * width> weights_;
+  std::vector<Index> held_;  // where field_ may differ from zero
   FramedField<double> field_;
   RowExchange frame_rows_;
 };
