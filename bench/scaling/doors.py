@@ -20,6 +20,7 @@ JOBS = {
     "contact 1024": "contact s1024.h5 --pressure 230MPa --contact-modulus 115GPa",
     "friction 256": f"oscillate --surface s256.h5 {OSCILLATION}",
     "coupled 128": f"oscillate --surface s128.h5 {OSCILLATION} --coupled --steps 32 --levels 4",
+    "coupled 256": f"oscillate --surface s256.h5 {OSCILLATION} --coupled --steps 32 --levels 4",
     "generate 4096": f"generate --points 4096 --short-cutoff 16um {SURFACE} -o g.h5",
     "statistics 4096": "statistics s4096.h5 --overwrite -o s.json",
     "read .h5 4096": "convert s4096.h5 c.npy --overwrite --crop 0,0,10um,10um",
