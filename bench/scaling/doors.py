@@ -23,9 +23,9 @@ JOBS = {
     "coupled 256": f"oscillate --surface s256.h5 {OSCILLATION} --coupled --steps 32 --levels 4",
     "generate 4096": f"generate --points 4096 --short-cutoff 16um {SURFACE} -o g.h5",
     "statistics 4096": "statistics s4096.h5 --overwrite -o s.json",
-    "read .h5 4096": "convert s4096.h5 c.npy --overwrite --crop 0,0,10um,10um",
-    "read .txt 2048": "convert s2048.txt c.npy --overwrite --crop 0,0,10um,10um",
-    "read .xyz 2048": "convert s2048.xyz c.npy --overwrite --crop 0,0,10um,10um",
+    "h5 to npy 4096": "convert s4096.h5 c.npy --overwrite",
+    "txt to npy 2048": "convert s2048.txt c.npy --overwrite",
+    "xyz to npy 2048": "convert s2048.xyz c.npy --overwrite",
 }
 
 
