@@ -82,8 +82,8 @@ AttributeValue value_of(hid_t object, const std::string& name) {
   return value;
 }
 
-/// Names of scales by their places in the file. HDF5 finds the name of one by a search of the file, which
-/// for each axis of each dataset took nine tenths of reading a study.
+/// Names of scales by their places in the file. HDF5 finds the name of one by a search of the file,
+/// which for each axis of each dataset took nine tenths of reading a study.
 using ScaleNames = std::map<haddr_t, std::string>;
 
 std::string name_of(hid_t scale) {

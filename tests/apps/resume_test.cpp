@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <fstream>
-#include <regex>
 #include <salebra/io/result_file.hpp>
 #include <salebra/report/report.hpp>
 #include <thread>
@@ -17,7 +14,7 @@
 #include "run_program.hpp"
 #include "same_results.hpp"
 #include "skipped.hpp"
-#include "study/study_text.hpp"
+#include "study_parts.hpp"
 
 using namespace salebra;
 using Catch::Contains;
@@ -25,39 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Two points of so many surfaces, of few loads and without stick solves.
-std::string study_of(int seeds) {
-  return std::regex_replace(
-      std::regex_replace(study_text("seed_count = " + std::to_string(seeds), 5),
-                         std::regex("hurst = 0.8\n"), ""),
-      std::regex("\\[contact\\]"),
-      "[ensemble]\nhurst = [0.5, 0.8]\n[contact]\ntangential_stiffness = \"proportional\"");
-}
-
-std::size_t parts_in(const fs::path& folder) {
-  std::size_t count = 0;
-  std::error_code gone;
-  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end;
-       entry.increment(gone))
-    count += entry->path().extension() == ".realisation";
-  return count;
-}
-
 /// Starts the program and kills it a while after its next part has appeared, or without waiting for
 /// one. False: it ended before.
 bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::microseconds delay) {
   const fs::path parts = test.folder() / "result.h5.parts";
   const std::size_t before = parts_in(parts);
-  const pid_t child = fork();
-  if (child == 0) {
-    const int silence = open("/dev/null", O_WRONLY);
-    dup2(silence, 1);
-    dup2(silence, 2);
-    if (chdir(test.folder().c_str()) != 0) _exit(99);
-    execl(SALEBRA_PROGRAM, "salebra", "study", "study.toml", "-o", "result.h5", "--no-report",
-          "--resume", "--threads", "2", nullptr);
-    _exit(99);
-  }
+  const pid_t child = start_study(test, {"--no-report", "--resume", "--threads", "2"});
   int status = 0;
   while (after_a_part && parts_in(parts) <= before) {
     if (waitpid(child, &status, WNOHANG) == child) return false;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -15,7 +14,7 @@
 #include "run_program.hpp"
 #include "same_results.hpp"
 #include "skipped.hpp"
-#include "study/study_text.hpp"
+#include "study_parts.hpp"
 
 using namespace salebra;
 using Catch::Contains;
@@ -23,34 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Two points of so many surfaces, without stick solves.
-std::string study_of(int seeds) {
-  return std::regex_replace(
-      std::regex_replace(study_text("seed_count = " + std::to_string(seeds), 5),
-                         std::regex("hurst = 0.8\n"), ""),
-      std::regex("\\[contact\\]"),
-      "[ensemble]\nhurst = [0.5, 0.8]\n[contact]\ntangential_stiffness = \"proportional\"");
-}
-
-std::size_t parts_in(const fs::path& folder) {
-  std::size_t count = 0;
-  std::error_code gone;
-  for (fs::directory_iterator entry(folder, gone), end; !gone && entry != end;
-       entry.increment(gone))
-    count += entry->path().extension() == ".realisation";
-  return count;
-}
-
 pid_t start(const ProgramTest& test, const char* shard) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  const int silence = open("/dev/null", O_WRONLY);
-  dup2(silence, 1);
-  dup2(silence, 2);
-  if (chdir(test.folder().c_str()) != 0) _exit(99);
-  execl(SALEBRA_PROGRAM, "salebra", "study", "study.toml", "-o", "result.h5", "--threads", "1",
-        "--shard", shard, nullptr);
-  _exit(99);
+  return start_study(test, {"--threads", "1", "--shard", shard});
 }
 
 /// Four processes with one --shard each, at once, as shell commands; their answers go to 1.json …

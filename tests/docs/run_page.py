@@ -2,8 +2,9 @@
 """run_page.py PAGE... --program FILE --scratch FOLDER: runs what pages of the documentation show, block after block, in an empty folder
 that has the tree's data/ and examples/, a scan.txt, and out/, and ends with 1 and the reason where something fails or prints other than the page says.
 
-  console   commands after "$ ", which go on after "> ", and under each what it prints. A command that a later page shows again is not run again. Numbers may differ by one in the last digit that the page gives, blanks in
-            their number; "…" stands for any text, alone in a line for any lines. A command with nothing under it may print what it likes.
+  console   commands after "$ ", which go on after "> ", and under each what it prints. Numbers may differ by one in the last digit that the page
+            gives, blanks in their number; "…" stands for any text, alone in a line for any lines. A command with nothing under it may print
+            what it likes. What an earlier page ran is not run again: a later page that shows it too is compared with what it printed there.
   sh        a script; it must succeed
   python    run where the package can be imported (--python); the blocks of a page share their variables
   cpp, cmake, toml, ini, json   part of a file of the tree that is built or run elsewhere: examples/, tests/project/consumer or data/
@@ -190,10 +191,11 @@ def make_scratch(folder):
     return scratch
 
 
-def check(page, scratch, printed_by, arguments):
+def check(page, scratch, before, arguments):
+    """Returns what each command printed; `before`: the same of earlier pages."""
     environment = dict(os.environ, OMP_WAIT_POLICY="passive", COLUMNS="200")
     environment["PATH"] = f"{pathlib.Path(arguments.program).resolve().parent}:{environment['PATH']}"
-    python_blocks, counts = [], {}
+    printed_by, python_blocks, counts = {}, [], {}
     for block in blocks_of(page):
         where = f"{page.name}:{block.line}"
         counts[block.language] = counts.get(block.language, 0) + 1
@@ -206,8 +208,7 @@ def check(page, scratch, printed_by, arguments):
                 if "small" in block.marks:
                     run(smaller(command), scratch, environment, where)
                     continue
-                if command not in printed_by:
-                    printed_by[command] = run(command, scratch, environment, where)
+                printed_by[command] = before[command] if command in before else run(command, scratch, environment, where)
                 compare(shown, printed_by[command], where)
         elif block.language in ("sh", "bash"):
             run(smaller(block.text) if "small" in block.marks else block.text, scratch, environment, where)
@@ -226,6 +227,7 @@ def check(page, scratch, printed_by, arguments):
             script.write_text("\n".join(python_blocks))
             run(f"MPLBACKEND=agg {arguments.python} page_blocks.py", scratch, environment, page.name)
     print(f"{page.name}: {sum(counts.values())} blocks, {counts}")
+    return printed_by
 
 
 def main():
@@ -235,10 +237,10 @@ def main():
     parser.add_argument("--scratch", required=True)
     parser.add_argument("--python", default="", help="an interpreter that can import the package; empty: Python blocks are not run")
     arguments = parser.parse_args()
-    scratch, printed_by = make_scratch(arguments.scratch), {}
+    scratch, before = make_scratch(arguments.scratch), {}
     try:
         for page in arguments.pages:
-            check(page, scratch, printed_by, arguments)
+            before |= check(page, scratch, before, arguments)
     except PageError as error:
         sys.exit(str(error))
 

@@ -20,6 +20,10 @@ $ for n in 1 2; do
 > done
 number 1 …
 number 2 …
+$ test -e seen && echo again || { touch seen; echo first; }
+first
+$ test -e seen && echo again || { touch seen; echo first; }
+again
 ```
 ```sh
 test -e data/README.md
@@ -65,10 +69,11 @@ WRONG = {
 with tempfile.TemporaryDirectory() as folder:
     folder = pathlib.Path(folder)
 
-    def status(text):
-        page = folder / "page.md"
-        page.write_text(text)
-        done = subprocess.run([sys.executable, here / "run_page.py", page, *sys.argv[1:], "--scratch", folder / "scratch",
+    def status(*texts):
+        pages = [folder / f"page{number}.md" for number in range(len(texts))]
+        for page, text in zip(pages, texts):
+            page.write_text(text)
+        done = subprocess.run([sys.executable, here / "run_page.py", *pages, *sys.argv[1:], "--scratch", folder / "scratch",
                                "--python", sys.executable],
                               capture_output=True, text=True)
         return done.returncode, done.stdout + done.stderr
@@ -80,4 +85,10 @@ with tempfile.TemporaryDirectory() as folder:
         code, said = status(text)
         if code != 1 or 'run_page.py", line' in said:
             sys.exit(f"{fault} is not caught: status {code}, {said}")
+    # What a page ran, the next one compares and does not run again.
+    first = "```console\n$ test -e seen && echo again || { touch seen; echo first; }\nfirst\n```\n"
+    for pages, expected in (((first, first), 0), ((first, first.replace("\nfirst\n", "\nagain\n")), 1)):
+        code, said = status(*pages)
+        if code != expected:
+            sys.exit(f"two pages with one command end with {code}, not {expected}: {said}")
 print(f"{len(WRONG)} faults are caught")

@@ -65,6 +65,8 @@ class InverseStencil {
   explicit InverseStencil(const Grid2D& grid);
   /// Weight of the neighbour (i, j), −radius <= i, j <= radius; 1/m.
   double weight(int i, int j) const { return weights_[index(i, j)]; }
+  /// All of them (i, j), row by row.
+  const double* weights() const { return weights_.data(); }
   /// z = M S M r with M the cells where mask > 0: z is zero elsewhere. All fields hold the rows of
   /// this process; neighbours wrap where periodic. Collective.
   void apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,

@@ -126,13 +126,10 @@ StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary bounda
                                              const CellWindow& window, const Share& rows)
     : window_(window),
       boundary_(boundary),
+      stencil_(grid),
       field_(rows.count(), window.ny),
       frame_rows_(frame_rows(rows, boundary)) {
   static_assert(frame == InverseStencil::radius);
-  const InverseStencil stencil(grid);
-  for (int a = 0; a < width; ++a)
-    for (int b = 0; b < width; ++b)
-      weights_[static_cast<std::size_t>(a * width + b)] = stencil.weight(a - frame, b - frame);
 }
 
 void StencilPreconditioner::hold(const PointList& points) {
@@ -148,10 +145,10 @@ void StencilPreconditioner::apply(const double* in, double* out) {
   parallel::for_slabs(
       count,
       [&](Index begin, Index end) {
-        ladder_kernels().at_cells(field, field_.stride(), weights_.data(), held_.data(), begin, end,
-                                  out);
+        ladder_kernels().at_cells(field, field_.stride(), stencil_.weights(), held_.data(), begin,
+                                  end, out);
       },
-      width * width * count);
+      InverseStencil::width * InverseStencil::width * count);
 }
 
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <salebra/base/grid.hpp>
@@ -97,18 +96,16 @@ class StencilPreconditioner {
   Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0) * field_.stride() + iy - window_.y0;
   }
-  double diagonal() const { return weights_[weights_.size() / 2]; }  ///< 1/m, of E* = 1
+  double diagonal() const { return stencil_.weight(0, 0); }  ///< 1/m, of E* = 1
   /// Takes the points on which it is applied from now on.
   void hold(const PointList& points);
   /// One component.
   void apply(const double* in, double* out);
 
  private:
-  static constexpr int width = InverseStencil::width;
-
   CellWindow window_;
   Boundary boundary_;
-  std::array<double, width * width> weights_;
+  InverseStencil stencil_;
   std::vector<Index> held_;  // where field_ may differ from zero
   FramedField<double> field_;
   RowExchange frame_rows_;
