@@ -2,6 +2,7 @@
 // Points that stand alone, by robust deviations from their neighbours.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -19,27 +20,37 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double deviation_per_median = 1.4826;  // of a Gaussian
 constexpr std::size_t largest_spike = 4;         // points
 
-/// Of up to eight values, whose order it may change.
+/// Of some values, whose order it may change.
 double middle_of(std::span<double> values) {
-  if (values.size() == 8) {
-    // Batcher's network: no branch that a processor could guess wrong.
-    constexpr std::array<std::uint8_t, 38> pairs{0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4,
-                                                 6, 5, 7, 1, 2, 5, 6, 0, 4, 1, 5, 2, 6,
-                                                 3, 7, 2, 4, 3, 5, 1, 2, 3, 4, 5, 6};
-    std::array<double, 8> sorted;
-    std::ranges::copy(values, sorted.begin());
-#pragma GCC unroll 19
-    for (std::size_t k = 0; k < pairs.size(); k += 2) {
-      double &a = sorted[pairs[k]], &b = sorted[pairs[k + 1]];
-      const double low = b < a ? b : a;
-      b = b < a ? a : b;
-      a = low;
-    }
-    return (sorted[3] + sorted[4]) / 2;
-  }
   std::ranges::sort(values);
   const std::size_t half = values.size() / 2;
   return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+/// Points beside each other in a row, as many as a pass takes.
+using Points = Eigen::Array<double, 4, 1>;
+
+/// Medians of the eight neighbours of points, whose heights begin in the middle one of three rows.
+/// NaN where a neighbour is undefined.
+Points medians_of_neighbours(const std::array<const double*, 3>& rows) {
+  const auto at = [](const double* place) { return Points(Eigen::Map<const Points>(place)); };
+  const auto [before, here, behind] = rows;
+  std::array<Points, 8> sorted{at(before - 1), at(before),     at(before + 1), at(here - 1),
+                               at(here + 1),   at(behind - 1), at(behind),     at(behind + 1)};
+  Points undefined_if_one_is = Points::Zero();
+  for (const Points& heights : sorted) undefined_if_one_is += 0 * heights;
+  // Batcher's network: no branch that a processor could guess wrong.
+  constexpr std::array<std::uint8_t, 38> pairs{0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4,
+                                               6, 5, 7, 1, 2, 5, 6, 0, 4, 1, 5, 2, 6,
+                                               3, 7, 2, 4, 3, 5, 1, 2, 3, 4, 5, 6};
+#pragma GCC unroll 19
+  for (std::size_t k = 0; k < pairs.size(); k += 2) {
+    Points &low = sorted[pairs[k]], &high = sorted[pairs[k + 1]];
+    const Points least = low.min(high);
+    high = low.max(high);
+    low = least;
+  }
+  return (sorted[3] + sorted[4]) / 2 + undefined_if_one_is;
 }
 
 struct GridPoint {
@@ -106,22 +117,71 @@ class Neighbourhoods {
   const Surface& surface_;
 };
 
+/// h − median(h_n); NaN where either is undefined.
+Field deviations_from_neighbours(const Surface& surface, const Neighbourhoods& neighbours) {
+  const Grid2D& grid = surface.grid;
+  Field deviations(grid.nx, grid.ny);
+  const auto alone = [&](Index ix, Index iy) {
+    return surface.heights(ix, iy) - neighbours.surroundings({ix, iy}, false).median;
+  };
+  const auto row = [&](Index ix, Index iy) { return &surface.heights(ix, iy); };
+  parallel::for_slabs(
+      grid.nx,
+      [&](Index begin, Index end) {
+        for (Index ix = begin; ix < end; ++ix) {
+          const bool inside = ix > 0 && ix + 1 < grid.nx;
+          for (Index iy = 0; iy < grid.ny;) {
+            if (!inside || iy == 0 || iy + Points::SizeAtCompileTime >= grid.ny) {
+              deviations(ix, iy) = alone(ix, iy);
+              ++iy;
+              continue;
+            }
+            const Points medians =
+                medians_of_neighbours({row(ix - 1, iy), row(ix, iy), row(ix + 1, iy)});
+            for (const double median : medians) {
+              deviations(ix, iy) =
+                  std::isnan(median) ? alone(ix, iy) : surface.heights(ix, iy) - median;
+              ++iy;
+            }
+          }
+        }
+      },
+      grid.points());
+  return deviations;
+}
+
+/// The size that a share of the deviations does not exceed; 0 where all are undefined. Sizes are
+/// counted by their first bits, which are in the order of the numbers; those of one count are then
+/// looked at.
+double quantile_of_sizes(const Field& deviations, double share) {
+  constexpr int dropped = 47;  // bits; 32 intervals in each octave
+  const auto interval = [](double size) { return std::bit_cast<std::uint64_t>(size) >> dropped; };
+  std::vector<std::size_t> counts(interval(std::numeric_limits<double>::infinity()) + 1);
+  std::size_t defined = 0;
+  for (const double deviation : deviations.reshaped<Eigen::RowMajor>())
+    if (!std::isnan(deviation)) {
+      ++counts[interval(std::abs(deviation))];
+      ++defined;
+    }
+  if (defined == 0) return 0;
+  auto below = static_cast<std::size_t>(share * static_cast<double>(defined - 1));
+  std::size_t sought = 0;
+  while (below >= counts[sought]) below -= counts[sought++];
+  std::vector<double> sizes;
+  sizes.reserve(counts[sought]);
+  for (const double deviation : deviations.reshaped<Eigen::RowMajor>())
+    if (const double size = std::abs(deviation); !std::isnan(size) && interval(size) == sought)
+      sizes.push_back(size);
+  const auto at = sizes.begin() + static_cast<std::ptrdiff_t>(below);
+  std::ranges::nth_element(sizes, at);
+  return *at;
+}
+
 /// s_0 of find_spikes(). Where most points equal their neighbours, as in a surface of few digits,
 /// the deviation that a hundredth exceeds takes its place.
 double scale_of(const Field& deviations) {
-  std::vector<double> sizes;
-  sizes.reserve(static_cast<std::size_t>(deviations.size()));
-  for (const double deviation : deviations.reshaped<Eigen::RowMajor>())
-    if (!std::isnan(deviation)) sizes.push_back(std::abs(deviation));
-  if (sizes.empty()) return 0;
-  const auto quantile = [&](double share) {
-    const auto at =
-        sizes.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sizes.size() - 1));
-    std::ranges::nth_element(sizes, at);
-    return *at;
-  };
-  const double middle = quantile(0.5);
-  return middle > 0 ? deviation_per_median * middle : quantile(0.99);
+  const double middle = quantile_of_sizes(deviations, 0.5);
+  return middle > 0 ? deviation_per_median * middle : quantile_of_sizes(deviations, 0.99);
 }
 
 }  // namespace
@@ -133,16 +193,7 @@ std::vector<Spike> find_spikes(const Surface& surface, double threshold) {
           "must be >= 3 robust standard deviations; 6 leaves every Gaussian surface as it is");
   const Grid2D& grid = surface.grid;
   const Neighbourhoods neighbours(surface);
-  Field deviations(grid.nx, grid.ny);
-  parallel::for_slabs(
-      grid.nx,
-      [&](Index begin, Index end) {
-        for (Index ix = begin; ix < end; ++ix)
-          for (Index iy = 0; iy < grid.ny; ++iy)
-            deviations(ix, iy) =
-                surface.heights(ix, iy) - neighbours.surroundings({ix, iy}, false).median;
-      },
-      grid.points());
+  const Field deviations = deviations_from_neighbours(surface, neighbours);
   const double scale = scale_of(deviations);
   std::vector<Spike> spikes;
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> known =

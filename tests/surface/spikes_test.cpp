@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <random>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -126,6 +128,69 @@ TEST_CASE("Spikes beside holes and on a flat surface are found", "[spikes]") {
   CHECK(find_spikes(edge).empty());
   edge.periodic = false;
   CHECK(places(find_spikes(edge)) == std::set<std::pair<Index, Index>>{{grid.nx - 1, 3}});
+}
+
+TEST_CASE("Single spikes are those of the definition, on grids of any shape and with holes",
+          "[spikes]") {
+  const Index nx = GENERATE(3, 8, 13), ny = GENERATE(3, 6, 8, 21);
+  const bool periodic = GENERATE(false, true);
+  INFO(nx << " by " << ny << ", periodic " << periodic);
+  constexpr double threshold = 3;
+  std::mt19937 engine(static_cast<unsigned>(nx * ny));
+  std::cauchy_distribution<double> far_off;
+  std::bernoulli_distribution hole(0.03);
+  Surface surface =
+      sampled({nx, ny, 1, 1}, periodic, [&](double, double) { return far_off(engine); });
+  for (double& height : surface.heights.reshaped())
+    if (hole(engine)) height = undefined;
+
+  const auto neighbours = [&](Index ix, Index iy) {
+    std::vector<double> heights;
+    for (Index x = ix - 1; x <= ix + 1; ++x)
+      for (Index y = iy - 1; y <= iy + 1; ++y) {
+        const Index jx = periodic ? (x + nx) % nx : x, jy = periodic ? (y + ny) % ny : y;
+        if ((x != ix || y != iy) && jx >= 0 && jx < nx && jy >= 0 && jy < ny &&
+            !std::isnan(surface.heights(jx, jy)))
+          heights.push_back(surface.heights(jx, jy));
+      }
+    return heights;
+  };
+  const auto median = [](std::vector<double> values) {
+    std::ranges::sort(values);
+    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+  };
+  std::vector<double> sizes;
+  for (Index ix = 0; ix < nx; ++ix)
+    for (Index iy = 0; iy < ny; ++iy)
+      if (const auto around = neighbours(ix, iy);
+          around.size() >= 3 && !std::isnan(surface.heights(ix, iy)))
+        sizes.push_back(std::abs(surface.heights(ix, iy) - median(around)));
+  std::ranges::sort(sizes);
+  const double least = 1.4826 * sizes[(sizes.size() - 1) / 2];
+
+  std::map<std::pair<Index, Index>, double> found;
+  for (const Spike& spike : find_spikes(surface, threshold))
+    found[{spike.ix, spike.iy}] = spike.height;
+  double singles = 0, matching = 0;
+  for (Index ix = 0; ix < nx; ++ix)
+    for (Index iy = 0; iy < ny; ++iy) {
+      const auto around = neighbours(ix, iy);
+      const double height = surface.heights(ix, iy);
+      if (around.size() < 3 || std::isnan(height)) continue;
+      const double middle = median(around), half = (height + middle) / 2;
+      if (std::ranges::any_of(around, [&](double h) { return (h > half) == (height > half); }))
+        continue;  // not alone
+      std::vector<double> deviations;
+      for (const double h : around) deviations.push_back(std::abs(h - middle));
+      const double size = std::abs(height - middle);
+      const bool far = size > threshold * std::max(least, 1.4826 * median(deviations));
+      INFO("at " << ix << ", " << iy << ": " << height << " above " << middle);
+      CHECK(found.contains({ix, iy}) == far);
+      singles += far;
+      // One beside it that is found before it may have taken it for a point of its own.
+      if (far) matching += found[{ix, iy}] == height - middle;
+    }
+  CHECK(matching >= 0.9 * singles);
 }
 
 TEST_CASE("Spikes do not depend on the number of threads, and bad thresholds are refused",
