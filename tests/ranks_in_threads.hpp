@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <cstring>
 #include <exception>
 #include <functional>
 #include <memory>
-#include <mutex>
+#include <numeric>
 #include <random>
 #include <salebra/base/communicator.hpp>
 #include <salebra/base/error.hpp>
@@ -16,12 +15,13 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 // Processes as threads of the test: the transport that holds the distributed code to its promises
 // without MPI. Ranks that call different collectives, or the same one with sizes that do not fit,
 // fail with a message instead of waiting for ever, and so do those that wait for a rank which has
-// ended. Copies are made in a random order after random delays.
+// ended. Copies are made in a random order.
 namespace salebra::testing {
 
 class ThreadTransport;
@@ -30,7 +30,8 @@ class ThreadTransport;
 // call.
 class Meeting {
  public:
-  explicit Meeting(int ranks) : calls_(static_cast<std::size_t>(ranks)) {}
+  explicit Meeting(int ranks)
+      : calls_(static_cast<std::size_t>(ranks)), copies_(calls_.size()), failures_(calls_.size()) {}
 
   struct Call {
     std::string name;  // with whatever must agree
@@ -40,44 +41,58 @@ class Meeting {
     std::uint64_t bytes_sent = 0;
   };
 
-  // Waits for all ranks, then has `copy` run in each with the calls of all, and waits again before
-  // they leave.
-  void meet(int rank, const Call& call, const std::function<void(const std::vector<Call>&)>& copy) {
-    calls_[static_cast<std::size_t>(rank)] = call;
-    wait();
-    for (const Call& other : calls_)
-      if (other.name != call.name)
-        throw std::logic_error("ranks call different collectives: " + call.name + " in rank " +
-                               std::to_string(rank) + ", " + other.name + " in another");
-    copy(calls_);
-    wait();
+  using Copy = std::function<void(const std::vector<Call>&)>;
+
+  // Waits for all ranks. The last to come runs what each has to copy, in any order, with the calls
+  // of all: of threads that are more than the processors, waiting for a second time would cost more
+  // than all else.
+  void meet(int rank, const Call& call, const Copy& copy) {
+    const auto me = static_cast<std::size_t>(rank);
+    calls_[me] = call;
+    copies_[me] = &copy;
+    const int turn = turn_ & ~one_has_left;
+    if (++waiting_ == static_cast<int>(calls_.size())) {
+      waiting_ = 0;
+      copy_for_all();
+      ++turn_;
+      turn_.notify_all();
+    }
+    for (int now = turn_; (now & ~one_has_left) == turn; now = turn_) {
+      if (now & one_has_left) throw std::logic_error("a rank waits for one that has ended");
+      turn_.wait(now);
+    }
+    if (failures_[me]) std::rethrow_exception(std::exchange(failures_[me], nullptr));
   }
   // A rank has left: nobody may wait for it.
   void leave() {
-    const std::scoped_lock lock(guard_);
-    ++left_;
-    everyone_.notify_all();
+    turn_ |= one_has_left;
+    turn_.notify_all();
   }
 
  private:
-  void wait() {
-    std::unique_lock lock(guard_);
-    const long turn = turn_;
-    if (++waiting_ == static_cast<int>(calls_.size())) {
-      waiting_ = 0;
-      ++turn_;
-      everyone_.notify_all();
-      return;
-    }
-    everyone_.wait(lock, [&] { return turn_ != turn || left_ > 0; });
-    if (turn_ == turn) throw std::logic_error("a rank waits for one that has ended");
+  static constexpr int one_has_left = 1 << 30;
+
+  void copy_for_all() {
+    std::vector<std::size_t> order(calls_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), chance_);
+    for (const std::size_t rank : order) try {
+        for (const Call& other : calls_)
+          if (other.name != calls_[rank].name)
+            throw std::logic_error("ranks call different collectives: " + calls_[rank].name +
+                                   " in rank " + std::to_string(rank) + ", " + other.name +
+                                   " in another");
+        (*copies_[rank])(calls_);
+      } catch (...) {
+        failures_[rank] = std::current_exception();
+      }
   }
 
   std::vector<Call> calls_;
-  std::mutex guard_;
-  std::condition_variable everyone_;
-  int waiting_ = 0, left_ = 0;
-  long turn_ = 0;
+  std::vector<const Copy*> copies_;
+  std::vector<std::exception_ptr> failures_;
+  std::minstd_rand chance_;
+  std::atomic<int> waiting_ = 0, turn_ = 0;
 };
 
 class ThreadTransport : public detail::Transport {
@@ -168,7 +183,6 @@ class ThreadTransport : public detail::Transport {
     std::vector<std::size_t> order(static_cast<std::size_t>(ranks_));
     for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
     std::shuffle(order.begin(), order.end(), chance_);
-    if (chance_() % 8 == 0) std::this_thread::sleep_for(std::chrono::microseconds(chance_() % 50));
     return order;
   }
 
