@@ -27,6 +27,11 @@ async function open(name, options) {
   return page;
 }
 
+/** For who changes the page: drawing it whole takes a second. */
+async function picture(page, name) {
+  if (process.env.SALEBRA_SCREENSHOTS) await page.screenshot({path: join(folder, name), fullPage: true});
+}
+
 /** Each figure has something to see, a name, a text in its place, and a table of finite numbers. */
 async function checkFigures(page, name, expected) {
   const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((figure) => {
@@ -165,7 +170,7 @@ const blank = await full.evaluate(() => { const of = (id) => document.getElement
 check(blank < 0.01, `full.html: ${100 * blank} % of the points are blank, or drawn, in the maps of pressure and gap alike`);
 const prefixed = await checkBars(full, "full.html");
 check(prefixed > 0, "full.html: no error bar stands on an axis with a prefix, for which the bars are checked");
-await full.screenshot({path: join(folder, "full-1280.png"), fullPage: true});
+await picture(full, "full-1280.png");
 
 // The switches change the axes and only them.
 for (const box of await full.locator("figure .switch input").all()) {
@@ -284,19 +289,20 @@ function linesOfSheets(file) {
 }
 
 // On paper: light, and no wider than the sheet.
-const sheet = await open("full.html", {viewport: {width: 794, height: 900}, colorScheme: "dark"});
-await checkContrast(sheet, "full.html, dark");
-await sheet.screenshot({path: join(folder, "full-794-dark.png"), fullPage: true});
-await sheet.pdf({path: join(folder, "full.pdf"), format: "A4"});
+await full.setViewportSize({width: 794, height: 900});
+await full.emulateMedia({colorScheme: "dark"});
+await checkContrast(full, "full.html, dark");
+await picture(full, "full-794-dark.png");
+await full.pdf({path: join(folder, "full.pdf"), format: "A4"});
 check(statSync(join(folder, "full.pdf")).size > 50000, "full.html: prints next to nothing");
 // Seventeen figures and six tables take eight sheets, and took thirteen when each figure had the whole width.
 const sheets = linesOfSheets(join(folder, "full.pdf"));
 check(sheets.length > 4 && sheets.length <= 9, `full.html: prints on ${sheets.length} sheets`);
 for (const [i, lines] of sheets.slice(0, -1).entries()) check(Math.max(...lines) > 0.55, `full.html: of sheet ${i + 1} only ${Math.max(...lines)} is printed`);
-await sheet.emulateMedia({media: "print"});
-check((await sheet.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "full.html: prints on dark paper");
-await sheet.screenshot({path: join(folder, "full-print.png"), fullPage: true});
-check(!(await sheet.locator("nav").isVisible()), "full.html: prints its links within the page");
+await full.emulateMedia({media: "print"});
+check((await full.evaluate(() => getComputedStyle(document.body).backgroundColor)) === "rgb(255, 255, 255)", "full.html: prints on dark paper");
+await picture(full, "full-print.png");
+check(!(await full.locator("nav").isVisible()), "full.html: prints its links within the page");
 
 // A phone: nothing wider than it.
 for (const [name, ids] of [["full.html", everyFigure], ["study.html", everyFigure]]) {
@@ -304,7 +310,12 @@ for (const [name, ids] of [["full.html", everyFigure], ["study.html", everyFigur
   await checkFigures(phone, `${name}, 390`, ids);
   const width = await phone.evaluate(() => document.documentElement.scrollWidth);
   check(width <= 390, `${name}: is ${width} pixels wide on a phone of 390`);
-  await phone.screenshot({path: join(folder, `${name.replace(".html", "")}-390.png`), fullPage: true});
+  await picture(phone, `${name.replace(".html", "")}-390.png`);
+  // Of several surfaces, by their mean curve: the shares that the study has in its file.
+  if (name === "study.html") {
+    const shares = await phone.evaluate(() => { const point = data.points[0]; return point.answer.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
+    check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
+  }
   await phone.context().close();
 }
 
@@ -362,7 +373,7 @@ for (const [name, sets] of Object.entries(motions)) {
   }
   if (name === "slow") {
     await checkFigures(page, "slow.html", everyFigure.filter((id) => !["convergence"].includes(id)));
-    await page.screenshot({path: join(folder, "slow-1280.png"), fullPage: true});
+    await picture(page, "slow-1280.png");
     // No number where the program has none, and the reason in its place.
     for (const [change, reason] of [[{excursion: ""}, /excursion decides/], [{excursion: 0.001, drag_velocity: 0.01}, /no slow motion/], [{excursion: 2, normal_amplitude: 1e5}, /leaves the curve’s range/], [{normal_amplitude: -1}, /must be > 0/]]) {
       const {shown, why} = await explored(page, 7, change);
@@ -374,12 +385,6 @@ for (const [name, sets] of Object.entries(motions)) {
   await page.context().close();
 }
 check(seen.settings >= 20 && seen.regimes.size === 3 && seen.validities.size >= 2, `explorer: ${seen.settings} settings, ${[...seen.regimes]}, ${[...seen.validities]}`);
-// Of several surfaces, by their mean curve: the shares that the study has in its file.
-const ensemble = await open("study.html", {viewport: {width: 1280, height: 900}});
-const shares = await ensemble.evaluate(() => { const point = data.points[0]; return point.answer.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
-check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
-await ensemble.context().close();
-
 // Contacts within the oscillation judge the curve: of one that they do not confirm there is no number.
 const judged = await full.evaluate(() => { const point = data.points[0], {mean, error} = point.answer.damping_constant, of = (p, k) => explore(p, k, studiedMotion(p));
   const other = structuredClone(point);
@@ -406,7 +411,7 @@ const first = await grid.evaluate(() => document.querySelectorAll("#conclusion .
 await grid.selectOption("#point", "1");
 await checkFigures(grid, "grid.html, second point", ["overview", ...everyFigure]);
 check(first !== (await grid.evaluate(() => document.querySelectorAll("#conclusion .value + .detail")[1].textContent)), "grid.html: the second point shows the first");
-await grid.screenshot({path: join(folder, "grid-1280.png"), fullPage: true});
+await picture(grid, "grid-1280.png");
 
 // Names that would like to be markup, in a file that holds next to nothing; the tests in C++ leave it.
 try {
@@ -420,11 +425,11 @@ try {
   await hostile.locator("#area-load .plot").hover();
   check((await hostile.title()) !== "taken", "hostile.html: a name in the file was run");
   check((await hostile.evaluate(() => document.querySelectorAll("[onmouseover], [onerror], main img").length)) === 0, "hostile.html: a name in the file became markup");
-  await hostile.screenshot({path: join(folder, "hostile-1280.png"), fullPage: true});
+  await picture(hostile, "hostile-1280.png");
 } catch (error) {
   if (error.code !== "ENOENT") throw error;
 }
 
 await browser.close();
-console.log(faults.length ? `${faults.length} faults` : `every figure is drawn; screenshots in ${folder}`);
+console.log(faults.length ? `${faults.length} faults` : "every figure is drawn");
 process.exitCode = faults.length ? 1 : 0;
