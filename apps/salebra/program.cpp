@@ -248,7 +248,6 @@ void run(int argc, char** argv, const Launch& launch) {
 #define SALEBRA_COMMAND(name) add_##name##_command(program);
 #include "command_list.inc"
 #undef SALEBRA_COMMAND
-  for (Command& command : program.commands()) declare(app, command);
 
   const auto show = [&](const std::string& text) {
     if (launch.ranks.is_root()) print_answer(wrapped(text, text_width()));
@@ -279,6 +278,9 @@ void run(int argc, char** argv, const Launch& launch) {
     name_options(*chosen);
     complete_options(*chosen, words);
   }
+  // To declare the options of all commands took a third of the start.
+  for (Command& command : program.commands())
+    if (std::ranges::find(words, command.name()) != words.end()) declare(app, command);
   try {
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(words);
