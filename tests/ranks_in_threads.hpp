@@ -26,6 +26,13 @@ namespace salebra::testing {
 
 class ThreadTransport;
 
+inline std::vector<std::size_t> shuffled(std::size_t ranks, std::minstd_rand& chance) {
+  std::vector<std::size_t> order(ranks);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), chance);
+  return order;
+}
+
 // What the ranks share: where they wait for each other, and what each has brought to the present
 // call.
 class Meeting {
@@ -73,10 +80,8 @@ class Meeting {
   static constexpr int one_has_left = 1 << 30;
 
   void copy_for_all() {
-    std::vector<std::size_t> order(calls_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::shuffle(order.begin(), order.end(), chance_);
-    for (const std::size_t rank : order) try {
+    for (const std::size_t rank : shuffled(calls_.size(), chance_)) {
+      try {
         for (const Call& other : calls_)
           if (other.name != calls_[rank].name)
             throw std::logic_error("ranks call different collectives: " + calls_[rank].name +
@@ -86,6 +91,7 @@ class Meeting {
       } catch (...) {
         failures_[rank] = std::current_exception();
       }
+    }
   }
 
   std::vector<Call> calls_;
@@ -180,10 +186,7 @@ class ThreadTransport : public detail::Transport {
 
  private:
   std::vector<std::size_t> shuffled() {
-    std::vector<std::size_t> order(static_cast<std::size_t>(ranks_));
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-    std::shuffle(order.begin(), order.end(), chance_);
-    return order;
+    return testing::shuffled(static_cast<std::size_t>(ranks_), chance_);
   }
 
   std::shared_ptr<Meeting> meeting_;

@@ -11,6 +11,7 @@
 #include <salebra/surface/spikes.hpp>
 #include <span>
 
+#include "neighbour_rows.hpp"
 #include "shape.hpp"
 
 namespace salebra {
@@ -119,31 +120,26 @@ class Neighbourhoods {
 
 /// h − median(h_n); NaN where either is undefined.
 Field deviations_from_neighbours(const Surface& surface, const Neighbourhoods& neighbours) {
+  constexpr Index pass = Points::SizeAtCompileTime;
   const Grid2D& grid = surface.grid;
+  const detail::NeighbourRows rows(surface);
   Field deviations(grid.nx, grid.ny);
-  const auto alone = [&](Index ix, Index iy) {
-    return surface.heights(ix, iy) - neighbours.surroundings({ix, iy}, false).median;
-  };
-  const auto row = [&](Index ix, Index iy) { return &surface.heights(ix, iy); };
   parallel::for_slabs(
       grid.nx,
       [&](Index begin, Index end) {
         for (Index ix = begin; ix < end; ++ix) {
-          const bool inside = ix > 0 && ix + 1 < grid.nx;
-          for (Index iy = 0; iy < grid.ny;) {
-            if (!inside || iy == 0 || iy + Points::SizeAtCompileTime >= grid.ny) {
-              deviations(ix, iy) = alone(ix, iy);
-              ++iy;
-              continue;
-            }
-            const Points medians =
-                medians_of_neighbours({row(ix - 1, iy), row(ix, iy), row(ix + 1, iy)});
-            for (const double median : medians) {
-              deviations(ix, iy) =
-                  std::isnan(median) ? alone(ix, iy) : surface.heights(ix, iy) - median;
-              ++iy;
-            }
-          }
+          const double *before = rows[ix - 1], *here = rows[ix], *behind = rows[ix + 1];
+          double* const row = &deviations(ix, 0);
+          std::fill_n(row, grid.ny, undefined);
+          if (before && behind)
+            for (Index iy = 1; iy + pass < grid.ny; iy += pass)
+              Eigen::Map<Points>(row + iy) =
+                  Eigen::Map<const Points>(here + iy) -
+                  medians_of_neighbours({before + iy, here + iy, behind + iy});
+          // Along the edges, and beside undefined points.
+          for (Index iy = 0; iy < grid.ny; ++iy)
+            if (std::isnan(row[iy]) && !std::isnan(here[iy]))
+              row[iy] = here[iy] - neighbours.surroundings({ix, iy}, false).median;
         }
       },
       grid.points());

@@ -305,15 +305,19 @@ await picture(full, "full-print.png");
 check(!(await full.locator("nav").isVisible()), "full.html: prints its links within the page");
 
 // A phone: nothing wider than it.
-const phone = await open("study.html", {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true, deviceScaleFactor: 1});
-await checkFigures(phone, "study.html, 390", everyFigure);
-const width = await phone.evaluate(() => document.documentElement.scrollWidth);
-check(width <= 390, `study.html: is ${width} pixels wide on a phone of 390`);
-await picture(phone, "study-390.png");
-// Of several surfaces, by their mean curve: the shares that the study has in its file.
-const shares = await phone.evaluate(() => { const point = data.points[0]; return point.answer.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
-check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
-await phone.context().close();
+for (const name of ["full.html", "study.html"]) {
+  const phone = await open(name, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true, deviceScaleFactor: 1});
+  await checkFigures(phone, `${name}, 390`, everyFigure);
+  const width = await phone.evaluate(() => document.documentElement.scrollWidth);
+  check(width <= 390, `${name}: is ${width} pixels wide on a phone of 390`);
+  await picture(phone, `${name.replace(".html", "")}-390.png`);
+  // Of several surfaces, by their mean curve: the shares that the study has in its file.
+  if (name === "study.html") {
+    const shares = await phone.evaluate(() => { const point = data.points[0]; return point.answer.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
+    check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
+  }
+  await phone.context().close();
+}
 
 /** Sets the numbers of the explorer as a reader would. Returns what it shows, and the answer behind it. */
 async function explored(page, load, numbers) {
