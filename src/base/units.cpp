@@ -11,6 +11,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <utility>
 
 namespace salebra {
 namespace {
@@ -19,11 +20,10 @@ struct Prefix {
   std::string_view symbol;
   int exponent;
 };
-// Two code points look like a mu: the micro sign and the Greek letter.
-constexpr std::array prefixes{Prefix{"f", -15}, Prefix{"p", -12},     Prefix{"n", -9},
-                              Prefix{"u", -6},  Prefix{"\u00b5", -6}, Prefix{"\u03bc", -6},
-                              Prefix{"m", -3},  Prefix{"c", -2},      Prefix{"k", 3},
-                              Prefix{"M", 6},   Prefix{"G", 9},       Prefix{"T", 12}};
+// The micro sign and other letters are told in ASCII before.
+constexpr std::array prefixes{Prefix{"f", -15}, Prefix{"p", -12}, Prefix{"n", -9}, Prefix{"u", -6},
+                              Prefix{"m", -3},  Prefix{"c", -2},  Prefix{"k", 3},  Prefix{"M", 6},
+                              Prefix{"G", 9},   Prefix{"T", 12}};
 
 /// One way to write a unit: prefix + stem + tail, where the prefix counts `power` times.
 struct Spelling {
@@ -37,70 +37,153 @@ struct Spelling {
 
 constexpr double degree = std::numbers::pi / 180;
 using enum Dimension;
+/// As plain() has them: powers are digits.
 constexpr std::array spellings{
     Spelling{dimensionless, "", "1", "", 1, 0},
     Spelling{dimensionless, "", "%", "", 0.01, 0},
     Spelling{length, "", "m", ""},
-    Spelling{length, "", "\u00c5", "", 1e-10, 0},
-    Spelling{length, "", "angstrom", "", 1e-10, 0},
-    Spelling{length_squared, "", "m", "\u00b2", 1, 2},
-    Spelling{length_squared, "", "m", "^2", 1, 2},
     Spelling{length_squared, "", "m", "2", 1, 2},
+    Spelling{length_cubed, "", "m", "3", 1, 3},
+    Spelling{length_to_the_fourth, "", "m", "4", 1, 4},
     Spelling{inverse_length, "1/", "m", "", 1, -1},
-    Spelling{inverse_length_squared, "1/", "m", "\u00b2", 1, -2},
-    Spelling{inverse_length_squared, "1/", "m", "^2", 1, -2},
+    Spelling{inverse_length, "", "m", "-1", 1, -1},
     Spelling{inverse_length_squared, "1/", "m", "2", 1, -2},
     Spelling{inverse_length_squared, "/", "m", "2", 1, -2},
-    Spelling{inverse_length_squared, "/", "m", "^2", 1, -2},
-    Spelling{inverse_length_squared, "/", "m", "\u00b2", 1, -2},
-    Spelling{inverse_length_squared, "", "m", "^-2", 1, -2},
     Spelling{inverse_length_squared, "", "m", "-2", 1, -2},
+    Spelling{wavenumber, "rad/", "m", "", 1, -1},
     Spelling{pressure, "", "Pa", ""},
+    Spelling{pressure, "", "hPa", "", 1e2, 0},
     Spelling{pressure, "", "bar", "", 1e5},
+    Spelling{pressure, "", "psi", "", 6894.757293168361, 0},
+    Spelling{pressure, "", "ksi", "", 6894757.293168361, 0},
     Spelling{pressure, "N/", "m", "2", 1, -2},
-    Spelling{pressure, "N/", "m", "^2", 1, -2},
-    Spelling{pressure, "N/", "m", "\u00b2", 1, -2},
+    Spelling{pressure, "", "N", "/m2"},
+    Spelling{pressure, "", "N", "/cm2", 1e4},
+    Spelling{pressure, "", "N", "/mm2", 1e6},
+    Spelling{inverse_pressure, "1/", "Pa", "", 1, -1},
+    Spelling{inverse_pressure, "", "Pa", "-1", 1, -1},
     Spelling{force, "", "N", ""},
+    Spelling{force, "", "kgf", "", 9.80665, 0},
+    Spelling{force, "", "gf", "", 9.80665e-3, 0},
+    Spelling{force, "", "lbf", "", 4.4482216152605, 0},
     Spelling{stiffness, "", "N", "/m"},
+    Spelling{stiffness, "", "N", "/mm", 1e3},
+    Spelling{stiffness, "", "N", "/um", 1e6},
     Spelling{stiffness_per_area, "", "Pa", "/m"},
     Spelling{stiffness_per_area, "", "Pa", "/um", 1e6},
-    Spelling{stiffness_per_area, "", "Pa", "/\u00b5m", 1e6},
-    Spelling{force_curvature, "", "N", "/m^2"},
+    Spelling{stiffness_per_area, "", "Pa", "/nm", 1e9},
+    Spelling{force_curvature, "", "N", "/m2"},
     Spelling{damping, "", "N", " s/m"},
     Spelling{damping, "", "N", "s/m"},
     Spelling{mass, "", "g", "", 1e-3},
-    Spelling{mass_density, "", "g", "/m^3", 1e-3},
     Spelling{mass_density, "", "g", "/m3", 1e-3},
-    Spelling{mass_density, "", "g", "/m\u00b3", 1e-3},
-    Spelling{mass_density, "", "g", "/cm^3", 1e3},
     Spelling{mass_density, "", "g", "/cm3", 1e3},
-    Spelling{mass_density, "", "g", "/cm\u00b3", 1e3},
     Spelling{angle, "", "rad", ""},
     Spelling{angle, "", "deg", "", degree, 0},
-    Spelling{angle, "", "\u00b0", "", degree, 0},
     Spelling{frequency, "", "Hz", ""},
     Spelling{frequency, "", "1/s", "", 1, 0},
+    Spelling{frequency, "", "rpm", "", 1. / 60, 0},
     Spelling{angular_frequency, "", "rad/s", ""},
     Spelling{angular_frequency, "", "1/s", "", 1, 0},
     Spelling{velocity, "", "m", "/s"},
+    Spelling{velocity, "", "m", "/min", 1. / 60},
     Spelling{Dimension::time, "", "s", ""},
+    Spelling{Dimension::time, "", "sec", ""},
     Spelling{Dimension::time, "", "min", "", 60, 0},
     Spelling{Dimension::time, "", "h", "", 3600, 0},
     Spelling{energy, "", "J", ""},
-    Spelling{energy_per_area, "", "J", "/m^2"},
     Spelling{energy_per_area, "", "J", "/m2"},
-    Spelling{energy_per_area, "", "J", "/m\u00b2"},
     Spelling{energy_per_area, "", "N", "/m"},
     Spelling{power, "", "W", ""},
     Spelling{resistivity, "", "ohm", " m"},
     Spelling{resistivity, "", "ohm", "m"},
     Spelling{resistivity, "", "ohm", " cm", 1e-2},
-    Spelling{resistivity, "", "\u03a9", " m"},
-    Spelling{resistivity, "", "\u03a9", "m"},
     Spelling{thermal_conductivity, "", "W", "/(m K)"},
     Spelling{thermal_conductivity, "", "W", "/mK"},
     Spelling{thermal_conductivity, "", "W", "/m/K"},
+    Spelling{conductance_per_area, "", "S", "/m2"},
+    Spelling{Dimension::thermal_conductance, "", "W", "/(m2 K)"},
 };
+
+/// A unit by its name, in lower case.
+struct Named {
+  Dimension dimension;
+  std::string_view name;
+  double factor = 1;
+  int exponent = 0;
+  bool takes_prefix = false;  ///< such as micro
+};
+constexpr std::array names{
+    Named{length, "meter", 1, 0, true},
+    Named{length, "metre", 1, 0, true},
+    Named{length, "metro", 1, 0, true},
+    Named{length, "micron", 1, -6},
+    Named{length, "mikron", 1, -6},
+    Named{length, "angstrom", 1, -10},
+    Named{length, "angstroem", 1, -10},
+    Named{length, "inch", 254, -4, true},
+    Named{length, "in", 254, -4},
+    Named{length, "mil", 254, -7},
+    Named{length, "thou", 254, -7},
+    Named{length, "uin", 254, -10},
+    Named{pressure, "pascal", 1, 0, true},
+    Named{pressure, "bar", 1e5, 0, true},
+    Named{force, "newton", 1, 0, true},
+    Named{mass, "gram", 1, -3, true},
+    Named{mass, "gramm", 1, -3, true},
+    Named{angle, "radian", 1, 0, true},
+    Named{angle, "degree", degree},
+    Named{frequency, "hertz", 1, 0, true},
+    Named{Dimension::time, "second", 1, 0, true},
+    Named{Dimension::time, "sekunde", 1, 0, true},
+    Named{Dimension::time, "minute", 60},
+    Named{Dimension::time, "hour", 3600},
+    Named{energy, "joule", 1, 0, true},
+    Named{power, "watt", 1, 0, true},
+    Named{dimensionless, "percent", 1, -2},
+};
+constexpr std::array prefix_names{Prefix{"femto", -15}, Prefix{"pico", -12}, Prefix{"piko", -12},
+                                  Prefix{"nano", -9},   Prefix{"micro", -6}, Prefix{"mikro", -6},
+                                  Prefix{"milli", -3},  Prefix{"mili", -3},  Prefix{"centi", -2},
+                                  Prefix{"zenti", -2},  Prefix{"kilo", 3},   Prefix{"mega", 6},
+                                  Prefix{"giga", 9},    Prefix{"tera", 12}};
+
+/// Units in another case than theirs that can mean one thing only: MM is no mega-metre, while mpa
+/// may be a megapascal or a millipascal.
+struct OtherCase {
+  Dimension dimension;
+  std::string_view written;
+  std::string_view unit;
+};
+constexpr std::array other_cases{OtherCase{length, "MM", "mm"},
+                                 OtherCase{length, "UM", "um"},
+                                 OtherCase{length, "Um", "um"},
+                                 OtherCase{length, "uM", "um"},
+                                 OtherCase{length, "NM", "nm"},
+                                 OtherCase{length, "CM", "cm"},
+                                 OtherCase{pressure, "PA", "Pa"},
+                                 OtherCase{pressure, "pa", "Pa"},
+                                 OtherCase{pressure, "MPA", "MPa"},
+                                 OtherCase{pressure, "GPA", "GPa"},
+                                 OtherCase{pressure, "gpa", "GPa"},
+                                 OtherCase{pressure, "KPA", "kPa"},
+                                 OtherCase{pressure, "kpa", "kPa"},
+                                 OtherCase{pressure, "KPa", "kPa"},
+                                 OtherCase{pressure, "PSI", "psi"},
+                                 OtherCase{pressure, "KSI", "ksi"},
+                                 OtherCase{force, "KN", "kN"},
+                                 OtherCase{frequency, "HZ", "Hz"},
+                                 OtherCase{frequency, "hz", "Hz"},
+                                 OtherCase{frequency, "KHZ", "kHz"},
+                                 OtherCase{frequency, "KHz", "kHz"},
+                                 OtherCase{frequency, "khz", "kHz"},
+                                 OtherCase{frequency, "MHZ", "MHz"},
+                                 OtherCase{frequency, "GHZ", "GHz"},
+                                 OtherCase{frequency, "ghz", "GHz"},
+                                 OtherCase{frequency, "RPM", "rpm"},
+                                 OtherCase{angle, "DEG", "deg"},
+                                 OtherCase{angle, "RAD", "rad"},
+                                 OtherCase{Dimension::time, "SEC", "sec"}};
 
 struct About {
   Dimension dimension;
@@ -177,12 +260,76 @@ std::optional<Scale> scale_of(std::string_view unit, const Spelling& spelling) {
   return {};
 }
 
-std::optional<Scale> scale_of(std::string_view unit, Dimension dimension) {
-  for (const Spelling& spelling : spellings) {
-    if (spelling.dimension != dimension) continue;
-    if (const auto scale = scale_of(unit, spelling)) return scale;
+/// Who writes Mm means millimetres: nothing here is a megametre long.
+bool has_prefix(Dimension dimension, int exponent) { return dimension != length || exponent <= 3; }
+
+/// A unit with powers as digits and letters in ASCII: several code points look like a mu, an
+/// angstrom or an ohm.
+std::string plain(std::string_view unit) {
+  using Sign = std::pair<std::string_view, std::string_view>;
+  constexpr Sign alone[]{{"\u00c5", "angstrom"},
+                         {"\u212b", "angstrom"},
+                         {"A\u030a", "angstrom"},
+                         {"\u00b5", "micron"},
+                         {"\u03bc", "micron"}};
+  for (const auto& [sign, name] : alone)
+    if (sign == unit) return std::string(name);
+  constexpr Sign signs[]{{"\u00b5", "u"},   {"\u03bc", "u"},  {"\u00c5", "A"}, {"A\u030a", "A"},
+                         {"\u00e5", "a"},   {"\u00f6", "o"},  {"\u00f3", "o"}, {"\u00e8", "e"},
+                         {"\u00b9", "1"},   {"\u00b2", "2"},  {"\u00b3", "3"}, {"\u2074", "4"},
+                         {"\u207b", "-"},   {"\u2212", "-"},  {"**", ""},      {"^", ""},
+                         {"*", " "},        {"\u00b7", " "},  {"\u22c5", " "}, {"\u03a9", "ohm"},
+                         {"\u2126", "ohm"}, {"\u00b0", "deg"}};
+  std::string text;
+  while (!unit.empty()) {
+    const auto sign = std::ranges::find_if(
+        signs, [&](const Sign& known) { return unit.starts_with(known.first); });
+    const bool known = sign != std::end(signs);
+    text += known ? sign->second : unit.substr(0, 1);
+    unit.remove_prefix(known ? sign->first.size() : 1);
+  }
+  return text;
+}
+
+/// Of a name in lower case, in singular or plural.
+std::optional<Scale> scale_of_name(std::string_view name, Dimension dimension) {
+  for (const Named& unit : names) {
+    if (unit.dimension != dimension) continue;
+    std::string_view rest = name;
+    int exponent = unit.exponent;
+    if (unit.takes_prefix)
+      for (const Prefix& prefix : prefix_names)
+        if (rest.starts_with(prefix.symbol)) {
+          rest.remove_prefix(prefix.symbol.size());
+          exponent += prefix.exponent;
+          break;
+        }
+    if (!rest.starts_with(unit.name)) continue;
+    rest.remove_prefix(unit.name.size());
+    const std::string_view plural = unit.name.ends_with("ch") ? "es"
+                                    : unit.name == "sekunde"  ? "n"
+                                                              : "s";
+    if (rest.empty() || (rest == plural && unit.name.size() > 2))
+      return Scale{unit.factor, exponent};
   }
   return {};
+}
+
+std::optional<Scale> scale_of(std::string_view written, Dimension dimension) {
+  const std::string unit = plain(written);
+  for (const Spelling& spelling : spellings) {
+    if (spelling.dimension != dimension) continue;
+    if (const auto scale = scale_of(unit, spelling);
+        scale && has_prefix(dimension, scale->exponent))
+      return scale;
+  }
+  for (const OtherCase& other : other_cases)
+    if (other.dimension == dimension && other.written == unit)
+      return scale_of(other.unit, dimension);
+  std::string name = unit;
+  for (char& symbol : name)
+    if (symbol >= 'A' && symbol <= 'Z') symbol = static_cast<char>(symbol - 'A' + 'a');
+  return scale_of_name(name, dimension);
 }
 
 struct Written {
@@ -300,7 +447,7 @@ std::string format_quantity(double value, Dimension dimension, int digits) {
   const int exponent = static_cast<int>(std::floor(std::log10(rounded) + 1e-12));
   const Prefix* best = &engineering.front();
   for (const Prefix& prefix : engineering) {
-    if (prefix.exponent <= exponent) best = &prefix;
+    if (prefix.exponent <= exponent && has_prefix(dimension, prefix.exponent)) best = &prefix;
   }
   if (exponent < best->exponent || exponent > best->exponent + 5) {
     return fmt::format("{:.{}g} {}", value, digits, unit);

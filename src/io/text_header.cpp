@@ -34,7 +34,8 @@ bool is_letter(char symbol) {
 }
 
 bool is_length(std::string_view unit) {
-  return !unit.empty() && is_letter(unit.front()) && metres_in(std::string(unit));
+  // "Z in nm" has no inches.
+  return !unit.empty() && is_letter(unit.front()) && unit != "in" && metres_in(std::string(unit));
 }
 
 /// The length that a header states, where it has a unit: a bare "width = 256" may well count

@@ -50,6 +50,98 @@ TEST_CASE("Quantities are read with and without units", "[units]") {
   CHECK(parse_quantity(text, dimension, "--x") == Approx(value).epsilon(4e-16).margin(0));
 }
 
+TEST_CASE("Units are read by their names, plurals and in the letters that programs write",
+          "[units]") {
+  struct Case {
+    Dimension dimension;
+    double value;
+    std::vector<const char*> units;
+  };
+  const std::vector<Case> cases{
+      {Dimension::length,
+       1e-6,
+       {"\u00b5m", "\u03bcm", "um", "UM", "\u00b5M", "\u00b5", "micron", "Microns", "MICRONS",
+        "micrometer", "micrometers", "micrometre", "Micrometres", "Mikrometer", "microm\u00e8tres",
+        "micr\u00f3metros"}},
+      {Dimension::length,
+       1e-3,
+       {"mm", "MM", "millimeter", "millimeters", "Millimetre", "millimetres", "MILLIMETERS"}},
+      {Dimension::length, 1e-9, {"nm", "NM", "nanometer", "nanometers", "Nanometres"}},
+      {Dimension::length, 1, {"m", "meter", "meters", "metre", "Metres"}},
+      {Dimension::length, 1e-2, {"cm", "CM", "centimeter", "Zentimeter"}},
+      {Dimension::length,
+       1e-10,
+       {"\u00c5", "\u212b", "A\u030a", "Angstrom", "angstroms", "Angstroem", "\u00c5ngstr\u00f6m",
+        "\u00e5ngstr\u00f6m", "ANGSTROMS"}},
+      {Dimension::length, 0.0254, {"in", "IN", "inch", "Inches"}},
+      {Dimension::length, 25.4e-6, {"mil", "mils", "thou"}},
+      {Dimension::length, 25.4e-9, {"uin", "\u00b5in", "microinch", "microinches"}},
+      {Dimension::pressure,
+       1e6,
+       {"MPa", "MPA", "megapascal", "Megapascals", "N/mm2", "N/mm^2", "N/mm\u00b2", "MN/m2",
+        "N/mm**2"}},
+      {Dimension::pressure, 1e9, {"GPa", "GPA", "gpa", "Gigapascal", "kN/mm2"}},
+      {Dimension::pressure, 1e2, {"hPa", "mbar", "millibar"}},
+      {Dimension::pressure, 6894.757293168361, {"psi", "PSI"}},
+      {Dimension::force, 1e-3, {"mN", "millinewton", "millinewtons"}},
+      {Dimension::force, 9.80665, {"kgf"}},
+      {Dimension::time, 1e-3, {"ms", "msec", "millisecond", "milliseconds", "Millisekunden"}},
+      {Dimension::time, 1, {"s", "sec", "second", "Seconds", "Sekunden"}},
+      {Dimension::time, 3600, {"h", "hour", "hours"}},
+      {Dimension::frequency, 1e3, {"kHz", "KHz", "khz", "KHZ", "kilohertz", "Kilohertz"}},
+      {Dimension::frequency, 1. / 60, {"rpm", "RPM"}},
+      {Dimension::angle, std::numbers::pi / 180, {"deg", "\u00b0", "degree", "degrees"}},
+      {Dimension::angle, 1e-3, {"mrad", "milliradian"}},
+      {Dimension::velocity, 1e-3 / 60, {"mm/min"}},
+      {Dimension::damping, 1, {"N s/m", "Ns/m", "N\u00b7s/m", "N*s/m"}},
+      {Dimension::inverse_length, 1e6, {"1/um", "um-1", "\u00b5m\u207b\u00b9", "um^-1"}},
+      {Dimension::wavenumber, 1e6, {"rad/um", "rad/\u00b5m"}},
+      {Dimension::length_to_the_fourth, 1e-24, {"um4", "um^4", "\u00b5m\u2074"}},
+      {Dimension::dimensionless, 0.01, {"%", "percent"}},
+  };
+  for (const auto& [dimension, value, units] : cases)
+    for (const std::string unit : units) {
+      INFO(unit);
+      // A factor, a power of ten and their product: three roundings.
+      CHECK(parse_quantity("1 " + unit, dimension, "--x") ==
+            Approx(value).epsilon(7e-16).margin(0));
+    }
+}
+
+TEST_CASE("A unit that may mean two things, or something else, is refused by name", "[units]") {
+  for (const auto& [dimension, unit] :
+       std::initializer_list<std::pair<Dimension, std::string>>{{Dimension::length, "Mm"},
+                                                                {Dimension::length, "Gm"},
+                                                                {Dimension::length, "Nm"},
+                                                                {Dimension::length, "A"},
+                                                                {Dimension::length, "M"},
+                                                                {Dimension::length, "V"},
+                                                                {Dimension::length, "u"},
+                                                                {Dimension::length, "px"},
+                                                                {Dimension::length, "micros"},
+                                                                {Dimension::length, "milli"},
+                                                                {Dimension::length, "meterss"},
+                                                                {Dimension::pressure, "mpa"},
+                                                                {Dimension::pressure, "mm"},
+                                                                {Dimension::frequency, "mhz"},
+                                                                {Dimension::time, "S"},
+                                                                {Dimension::wavenumber, "1/m"}}) {
+    INFO(unit);
+    CHECK_THROWS_WITH(
+        parse_quantity("2 " + unit, dimension, "--x"),
+        Catch::StartsWith("--x: '2 " + unit + "' has a unit that is not understood") &&
+            Catch::Contains("'" + unit + "'"));
+  }
+}
+
+TEST_CASE("The unit of every dimension in files is read as one", "[units]") {
+  for (int i = 0; i <= int(Dimension::thermal_conductance); ++i) {
+    const Dimension dimension{i};
+    INFO(si_unit(dimension));
+    CHECK(parse_quantity("1 " + std::string(si_unit(dimension)), dimension, "--x") == 1);
+  }
+}
+
 TEST_CASE("Round numbers with prefixes are the doubles of their decimals", "[units]") {
   CHECK(parse_quantity("10um", Dimension::length, "--x") == 1e-5);
   CHECK(parse_quantity("312.5nm", Dimension::length, "--x") == 312.5e-9);
