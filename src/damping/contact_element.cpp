@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/quadrature.hpp"
+#include "sweep_breaks.hpp"
 
 namespace salebra {
 namespace {
@@ -48,6 +49,71 @@ std::vector<double> depths(double first, double last, int count) {
   return result;
 }
 
+// Of K_t at a node: how far the mean of nodes where it falls may lie from it.
+constexpr double most_scatter = 0.25;
+
+// A rising function at the ends of an interval, and its slope there.
+struct Ends {
+  double low, high, low_slope, high_slope;
+};
+
+// The function at the part t of the interval. A cubic with these ends is convex where what the slope
+// rises by lies in the middle third of the interval. Where it lies outside, as in wide levels and
+// at first touch, a power of the distance from one end is convex and joins the cubics smoothly.
+LawLevels::Normal between(const Ends& ends, double width, double t) {
+  const double mean = (ends.high - ends.low) / width - ends.low_slope;
+  const double rise = ends.high_slope - ends.low_slope;
+  if (3 * mean < rise && mean > 0) {
+    const double power = rise / mean - 1, part = std::pow(t, power);
+    return {ends.low + width * t * (ends.low_slope + mean * part), ends.low_slope + rise * part,
+            rise * power * std::pow(t, power - 1) / width};
+  }
+  if (3 * mean > 2 * rise && mean < rise) {
+    const double power = rise / (rise - mean) - 1, part = std::pow(1 - t, power);
+    return {ends.high - width * (1 - t) * (ends.high_slope - (rise - mean) * part),
+            ends.high_slope - rise * part, rise * power * std::pow(1 - t, power - 1) / width};
+  }
+  const double b = 3 * mean - rise, c = rise - 2 * mean;
+  return {ends.low + width * t * (ends.low_slope + t * (b + c * t)),
+          ends.low_slope + t * (2 * b + 3 * c * t), (2 * b + 6 * c * t) / width};
+}
+
+LawLevels::Normal tangent(double force, double slope, double distance) {
+  const double there = force + slope * distance;
+  return there > 0 ? LawLevels::Normal{there, slope, 0} : LawLevels::Normal{};
+}
+
+// A function given at nodes by values and slopes, and along its tangents beyond them.
+LawLevels::Normal through(const std::vector<double>& node, const std::vector<double>& value,
+                          const std::vector<double>& slope, double at) {
+  if (at <= node.front()) return tangent(value.front(), slope.front(), at - node.front());
+  if (at >= node.back()) return tangent(value.back(), slope.back(), at - node.back());
+  const std::size_t above =
+      static_cast<std::size_t>(std::ranges::upper_bound(node, at) - node.begin());
+  const std::size_t i = above - 1;
+  const double width = node[above] - node[i];
+  return between({value[i], value[above], slope[i], slope[above]}, width, (at - node[i]) / width);
+}
+
+// The rising sequence nearest to one that scatters: values that fall share their mean.
+std::vector<double> rising(const std::vector<double>& values) {
+  struct Block {
+    double sum = 0;
+    std::size_t count = 0;
+    double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Block> blocks;
+  for (const double value : values) {
+    Block last{value, 1};
+    for (; !blocks.empty() && blocks.back().mean() > last.mean(); blocks.pop_back())
+      last = {last.sum + blocks.back().sum, last.count + blocks.back().count};
+    blocks.push_back(last);
+  }
+  std::vector<double> result;
+  for (const Block& block : blocks) result.insert(result.end(), block.count, block.mean());
+  return result;
+}
+
 }  // namespace
 
 LawLevels::LawLevels(const ContactLaw& law, double lowest, double highest,
@@ -74,44 +140,67 @@ LawLevels::LawLevels(const ContactLaw& law, double lowest, double highest,
   // Nodes closer than this are one.
   const double apart = 1e-9 * (highest - bottom) + 1e-15 * std::abs(highest);
   for (const double node : nodes)
-    if (node_.empty() || node > node_.back() + apart) append(law, node);
+    if (node_.empty() || node > node_.back() + apart) node_.push_back(node);
+  set_normal(law);
+  set_tangential(law);
 }
 
-// Adds the level below the node.
-void LawLevels::append(const ContactLaw& law, double node) {
-  const bool first = node_.empty();
-  const double force = law.force(node), slope = law.normal_stiffness(node);
-  const double held = law.tangential_stiffness(node);
-  const double tangential = held - (first ? 0 : sum_.back());
-  require(first || (slope >= slope_.back() && tangential >= -1e-12 * held), "law", node,
-          "m has a smaller stiffness than lower indentations, which levels cannot have; take a "
-          "range of the law in which K and K_t grow");
-  share_.push_back(first ? slope : slope - slope_.back());
-  share_zero_.push_back(first
-                            ? force - slope * node
-                            : force - force_.back() - slope * node + slope_.back() * node_.back());
-  stiffness_.push_back(force > 0 ? std::max(0.0, tangential) : 0);
-  sum_.push_back((first ? 0 : sum_.back()) + stiffness_.back());
-  node_.push_back(node), force_.push_back(force), slope_.push_back(slope);
+// F and K at the nodes. Where the law scatters so much that F between two nodes would not rise, K
+// is lowered.
+void LawLevels::set_normal(const ContactLaw& law) {
+  for (const double node : node_) {
+    force_.push_back(law.force(node));
+    slope_.push_back(law.normal_stiffness(node));
+  }
+  for (std::size_t i = 1; i < node_.size(); ++i) {
+    const double mean = (force_[i] - force_[i - 1]) / (node_[i] - node_[i - 1]);
+    if (mean >= slope_[i - 1] && mean <= slope_[i]) continue;
+    slope_[i - 1] = std::min(slope_[i - 1], 3 * mean);
+    slope_[i] = std::min(slope_[i], 3 * mean);
+  }
+  // The tangent at the lowest node has to reach 0.
+  if (force_.front() > 0 && !(slope_.front() > 0) && node_.size() > 1)
+    slope_.front() = (force_[1] - force_[0]) / (node_[1] - node_[0]);
+}
+
+// K_t of the levels, and G at the nodes.
+void LawLevels::set_tangential(const ContactLaw& law) {
+  std::vector<double> stiffness;
+  bool proportional = true;  // K_t to K, so that ∫K_t is known
+  for (std::size_t i = 0; i < node_.size(); ++i) {
+    stiffness.push_back(law.tangential_stiffness(node_[i]));
+    proportional = proportional && law.stiffness_ratio(node_[i]) == law.modulus_ratio();
+  }
+  sum_ = rising(stiffness);
+  for (std::size_t i = 0; i < node_.size(); ++i)
+    require(std::abs(sum_[i] - stiffness[i]) <= most_scatter * sum_[i], "law", node_[i],
+            "m has a tangential stiffness by more than a quarter off the mean of those about it, "
+            "which fall; smooth the curve, or leave out the sample there");
+  const double floor = slope_[0] > 0 ? node_[0] - force_[0] / slope_[0] : node_[0];
+  stiffness_ = {sum_[0]}, depth_ = {floor}, held_ = {sum_[0] * (node_[0] - floor)};
+  for (std::size_t i = 1; i < node_.size(); ++i) {
+    const double width = node_[i] - node_[i - 1], rise = sum_[i] - sum_[i - 1];
+    const double gain =
+        proportional ? law.modulus_ratio() * (force_[i] - force_[i - 1])
+                     : detail::integrate([&](double at) { return law.tangential_stiffness(at); },
+                                         detail::sweep_breaks(law, node_[i - 1], node_[i]), 1e-10)
+                           .value;
+    // Springs of a level lie in it.
+    constexpr double edge = 1e-3;
+    const double mean = gain / width - sum_[i - 1];
+    const double within = std::clamp(mean, edge * rise, (1 - edge) * rise);
+    stiffness_.push_back(rise);
+    depth_.push_back(rise > 0 ? node_[i] - width * (within / rise) : node_[i]);
+    held_.push_back(held_.back() + width * (sum_[i - 1] + within));
+  }
 }
 
 LawLevels::Normal LawLevels::normal(double indentation) const {
-  const auto tangent = [&](std::size_t i) {
-    const double force = force_[i] + slope_[i] * (indentation - node_[i]);
-    return force > 0 ? Normal{force, slope_[i], 0} : Normal{};
-  };
-  if (indentation <= node_.front()) return tangent(0);
-  if (indentation >= node_.back()) return tangent(node_.size() - 1);
-  const std::size_t above =
-      static_cast<std::size_t>(std::ranges::upper_bound(node_, indentation) - node_.begin());
-  const std::size_t i = above - 1;
-  const double width = node_[above] - node_[i], t = (indentation - node_[i]) / width;
-  // F_i + K_i w t + w(b t² + c t³), of which the value and the slope at t = 1 are known.
-  const double mean = (force_[above] - force_[i]) / width - slope_[i];
-  const double rise = slope_[above] - slope_[i];
-  const double b = 3 * mean - rise, c = rise - 2 * mean;
-  return {force_[i] + width * t * (slope_[i] + t * (b + c * t)),
-          slope_[i] + t * (2 * b + 3 * c * t), (2 * b + 6 * c * t) / width};
+  return through(node_, force_, slope_, indentation);
+}
+
+LawLevels::Normal LawLevels::held(double indentation) const {
+  return through(node_, held_, sum_, indentation);
 }
 
 ContactElement::ContactElement(std::shared_ptr<const LawLevels> levels)
@@ -119,9 +208,7 @@ ContactElement::ContactElement(std::shared_ptr<const LawLevels> levels)
   require(levels_ != nullptr, "levels", "none", "must be given");
   state_.assign(3 + 2 * levels_->size(), 0.0);
   held_.assign(levels_->size(), {});
-  // Where F along the lowest tangent is 0, or below.
-  state_[0] = levels_->node_.front();
-  if (levels_->slope_.front() > 0) state_[0] -= levels_->force_.front() / levels_->slope_.front();
+  state_[0] = levels_->depth_.front();  // where F along the lowest tangent is 0
 }
 
 void ContactElement::start(double indentation, double x, double y) {
@@ -156,8 +243,8 @@ void ContactElement::restore(std::span<const double> state) {
 
 // A step from the state of an element, level by level.
 struct ContactElement::Step {
-  // A level that holds the body with f if it sticks, ∂f/∂x = hold·1 and ∂f/∂δ = push, and bears a
-  // part of the normal force.
+  // A level that holds the body with f if it sticks, ∂f/∂x = hold·1 and ∂f/∂δ = push, and with
+  // μ(F/G)·bears at most.
   struct Level {
     double k, f_x, f_y, hold, push_x, push_y, bears, bears_slope;
   };
@@ -173,21 +260,23 @@ struct ContactElement::Step {
         before(from.state_[0]),
         travel_x(x - from.state_[1]),
         travel_y(y - from.state_[2]),
-        now(of.normal(indentation)),
-        then(of.normal(before)),
-        friction(of.friction_coefficient_) {
+        normal(of.normal(indentation)),
+        now(of.held(indentation)),
+        then(of.held(before)) {
     for (const double one : {indentation, x, y})
       require(std::isfinite(one), "displacement", one, "must be finite");
     touching = static_cast<std::size_t>(std::ranges::lower_bound(of.node_, indentation) -
                                         of.node_.begin());
     touching = indentation > floor(0) ? std::min(touching + 1, of.size()) : 0;
+    if (full_stick() || !(now.force > 0)) return;
+    share = of.friction_coefficient_ * normal.force / now.force;
+    share_slope = (of.friction_coefficient_ * normal.stiffness - share * now.stiffness) / now.force;
   }
 
+  bool full_stick() const { return std::isinf(of.friction_coefficient_); }
+
   // The lowest level touches and parts as one, where its force is 0.
-  double floor(std::size_t i) const {
-    if (i > 0) return of.node_[i - 1];
-    return of.share_[0] > 0 ? -of.share_zero_[0] / of.share_[0] : of.node_[0];
-  }
+  double floor(std::size_t i) const { return i > 0 ? of.node_[i - 1] : of.depth_[0]; }
 
   bool held_throughout(std::size_t i) const {
     const double from = i > 0 ? of.node_[i] : std::nextafter(floor(0), indentation);
@@ -196,24 +285,16 @@ struct ContactElement::Step {
 
   Level whole(std::size_t i) const {
     const double k = of.stiffness_[i];
-    return {k,
-            k * (x - anchor_x[i]),
-            k * (y - anchor_y[i]),
-            k,
-            0,
-            0,
-            of.share_[i] * indentation + of.share_zero_[i],
-            of.share_[i]};
+    return {
+        k, k * (x - anchor_x[i]), k * (y - anchor_y[i]), k, 0, 0, k * (indentation - of.depth_[i]),
+        k};
   }
 
-  // A level touches by the part of K_t that K has reached between its ends.
-  std::pair<double, double> touched(std::size_t i, double at,
-                                    const LawLevels::Normal& normal) const {
+  // The stiffness of a level that touches at an indentation, and its derivative.
+  std::pair<double, double> touched(std::size_t i, double at, const LawLevels::Normal& held) const {
     if (at <= floor(i)) return {0, 0};
-    if (i == 0 || at >= of.node_[i] || !(of.share_[i] > 0)) return {of.stiffness_[i], 0};
-    const double part = (normal.stiffness - of.slope_[i - 1]) / of.share_[i];
-    if (!(part > 0 && part < 1)) return {std::clamp(part, 0.0, 1.0) * of.stiffness_[i], 0};
-    return {of.stiffness_[i] * part, of.stiffness_[i] * normal.curvature / of.share_[i]};
+    if (i == 0 || at >= of.node_[i]) return {of.stiffness_[i], 0};
+    return {held.stiffness - of.sum_[i - 1], held.curvature};
   }
 
   // A level in which the step begins or ends, or which it passes.
@@ -223,8 +304,8 @@ struct ContactElement::Step {
     Level level = whole(i);
     const bool inside = i > 0 && indentation < of.node_[i];
     if (inside) {
-      level.bears_slope = now.stiffness - of.slope_[i - 1];
-      level.bears = now.force - of.force_[i - 1] - of.slope_[i - 1] * (indentation - floor(i));
+      level.bears_slope = k;
+      level.bears = now.force - of.held_[i - 1] - of.sum_[i - 1] * (indentation - floor(i));
     }
     const double stretch_x = x - anchor_x[i], stretch_y = y - anchor_y[i];
     level.k = k;
@@ -246,21 +327,35 @@ struct ContactElement::Step {
     return level;
   }
 
+  double limit_of(const Level& level) const { return share * std::max(0.0, level.bears); }
+
   bool sticks(const Level& level) const {
-    if (std::isinf(friction)) return true;
-    const double limit = friction * level.bears;
+    if (full_stick()) return true;
+    const double limit = limit_of(level);
     return level.f_x * level.f_x + level.f_y * level.f_y <= limit * limit;
   }
 
-  // Goes down from the last level that touches to one that the step neither passes nor lets slip;
-  // anchor(i, x, y) is told of each on the way. Returns how many levels it left alone.
+  // How many levels, from the lowest on, the step holds throughout and leaves sticking.
+  std::size_t sticking() const {
+    std::size_t whole = 0;
+    while (whole < touching && held_throughout(whole)) ++whole;
+    if (full_stick()) return whole;
+    for (std::size_t i = 0; i < whole; ++i) {
+      const double s_x = x - anchor_x[i], s_y = y - anchor_y[i];
+      const double limit = share * (indentation - of.depth_[i]);
+      if (s_x * s_x + s_y * s_y > limit * limit) return i;
+    }
+    return whole;
+  }
+
+  // Goes down from the last level that touches to those that only stick; anchor(i, x, y) is told of
+  // each on the way. Returns how many levels it left alone.
   template <typename Anchor>
   std::size_t follow(const Anchor& anchor) {
+    const std::size_t lowest = sticking();
     std::size_t i = touching;
-    for (; i > 0; --i) {
-      const bool held_on = held_throughout(i - 1);
-      const Level level = held_on ? whole(i - 1) : passed(i - 1);
-      if (held_on && sticks(level)) break;
+    for (; i > lowest; --i) {
+      const Level level = held_throughout(i - 1) ? whole(i - 1) : passed(i - 1);
       const double part = add(level);
       if (level.k > 0)
         anchor(i - 1, x - part * level.f_x / level.k, y - part * level.f_y / level.k);
@@ -280,10 +375,11 @@ struct ContactElement::Step {
       return 1;
     }
     // Of what pulls across the stretch the part remains; along it the limit decides.
-    const double size = std::sqrt(level.f_x * level.f_x + level.f_y * level.f_y),
-                 limit = friction * level.bears;
+    const double size = std::sqrt(level.f_x * level.f_x + level.f_y * level.f_y);
+    const double limit = limit_of(level);
     const double n_x = level.f_x / size, n_y = level.f_y / size;
-    const double part = limit / size, limit_slope = friction * level.bears_slope;
+    const double part = limit / size;
+    const double limit_slope = share * level.bears_slope + share_slope * level.bears;
     const double push = level.push_x * n_x + level.push_y * n_y;
     force_x += limit * n_x, force_y += limit * n_y;
     along_x += part * (level.push_x - push * n_x) + limit_slope * n_x;
@@ -294,9 +390,9 @@ struct ContactElement::Step {
   }
 
   ElementForces result() const {
-    return {now.force,
+    return {normal.force,
             {force_x, force_y},
-            {{{now.stiffness, 0, 0}, {along_x, xx, xy}, {along_y, xy, yy}}}};
+            {{{normal.stiffness, 0, 0}, {along_x, xx, xy}, {along_y, xy, yy}}}};
   }
 
   const LawLevels& of;
@@ -304,8 +400,8 @@ struct ContactElement::Step {
   const std::vector<std::array<double, 2>>& held;
   std::size_t touching;  // levels that touch at the end
   double indentation, x, y, before, travel_x, travel_y;
-  LawLevels::Normal now, then;
-  double friction;
+  LawLevels::Normal normal, now, then;  // F, and G at the end and before
+  double share = 0, share_slope = 0;    // μF/G, and its derivative
   double force_x = 0, force_y = 0, along_x = 0, along_y = 0, xx = 0, xy = 0, yy = 0;
 };
 

@@ -32,17 +32,19 @@ typedef struct {
   double normal_force, tangential_force[2], stiffness[3][3];
 } @NAME@_forces;
 
-/* F, K and K' of the law: a cubic between nodes, the tangent beyond them, 0 where that is below 0. */
-static inline void @NAME@_normal(double at, double normal[3]) {
-  const double *node = @NAME@_node, *force = @NAME@_force, *slope = @NAME@_slope;
+/* A function that the tables give by values and slopes at the nodes, with its first two derivatives:
+   between nodes a cubic, or a power of the distance from one of them where no cubic is convex; the
+   tangent beyond them, and 0 where that is below 0. */
+static inline void @NAME@_between(const double *value, const double *slope, double at, double result[3]) {
+  const double *node = @NAME@_node;
   const int last = @NAME@_levels - 1;
   int low = 0, high = last;
+  result[2] = 0;
   if (at <= node[0] || at >= node[last]) {
     const int i = at <= node[0] ? 0 : last;
-    normal[0] = force[i] + slope[i] * (at - node[i]);
-    normal[1] = normal[0] > 0 ? slope[i] : 0;
-    normal[2] = 0;
-    if (!(normal[0] > 0)) normal[0] = 0;
+    result[0] = value[i] + slope[i] * (at - node[i]);
+    result[1] = result[0] > 0 ? slope[i] : 0;
+    if (!(result[0] > 0)) result[0] = 0;
     return;
   }
   while (high - low > 1) {
@@ -51,34 +53,38 @@ static inline void @NAME@_normal(double at, double normal[3]) {
   }
   {
     const double width = node[high] - node[low], t = (at - node[low]) / width;
-    const double mean = (force[high] - force[low]) / width - slope[low];
-    const double rise = slope[high] - slope[low], b = 3 * mean - rise, c = rise - 2 * mean;
-    normal[0] = force[low] + width * t * (slope[low] + t * (b + c * t));
-    normal[1] = slope[low] + t * (2 * b + 3 * c * t);
-    normal[2] = (2 * b + 6 * c * t) / width;
+    const double mean = (value[high] - value[low]) / width - slope[low];
+    const double rise = slope[high] - slope[low];
+    if (3 * mean < rise && mean > 0) {
+      const double power = rise / mean - 1, part = pow(t, power);
+      result[0] = value[low] + width * t * (slope[low] + mean * part);
+      result[1] = slope[low] + rise * part;
+      result[2] = rise * power * pow(t, power - 1) / width;
+    } else if (3 * mean > 2 * rise && mean < rise) {
+      const double power = rise / (rise - mean) - 1, part = pow(1 - t, power);
+      result[0] = value[high] - width * (1 - t) * (slope[high] - (rise - mean) * part);
+      result[1] = slope[high] - rise * part;
+      result[2] = rise * power * pow(1 - t, power - 1) / width;
+    } else {
+      const double b = 3 * mean - rise, c = rise - 2 * mean;
+      result[0] = value[low] + width * t * (slope[low] + t * (b + c * t));
+      result[1] = slope[low] + t * (2 * b + 3 * c * t);
+      result[2] = (2 * b + 6 * c * t) / width;
+    }
   }
 }
 
 /* Where level i begins; the lowest touches and parts as one, where its force is 0. */
-static inline double @NAME@_floor(int i) {
-  if (i > 0) return @NAME@_node[i - 1];
-  return @NAME@_slope[0] > 0 ? @NAME@_node[0] - @NAME@_force[0] / @NAME@_slope[0] : @NAME@_node[0];
-}
+static inline double @NAME@_floor(int i) { return i > 0 ? @NAME@_node[i - 1] : @NAME@_depth[0]; }
 
-/* The stiffness of level i that touches at an indentation, and its derivative. */
-static inline double @NAME@_touched(int i, double at, const double normal[3], double *derivative) {
-  const double k = @NAME@_stiffness[i];
-  double rise, part;
+/* The stiffness of level i that touches at an indentation, where all levels have that of held, and
+   its derivative. */
+static inline double @NAME@_touched(int i, double at, const double held[3], double *derivative) {
   *derivative = 0;
   if (at <= @NAME@_floor(i)) return 0;
-  if (i == 0 || at >= @NAME@_node[i]) return k;
-  rise = @NAME@_slope[i] - @NAME@_slope[i - 1];
-  if (!(rise > 0)) return k;
-  part = (normal[1] - @NAME@_slope[i - 1]) / rise;
-  if (!(part > 0)) return 0;
-  if (!(part < 1)) return k;
-  *derivative = k * normal[2] / rise;
-  return k * part;
+  if (i == 0 || at >= @NAME@_node[i]) return @NAME@_stiffness[i];
+  *derivative = held[2];
+  return held[1] - @NAME@_sum[i - 1];
 }
 
 /* Puts the body down with all springs free of stress. */
@@ -95,30 +101,30 @@ static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *
   @NAME@_forces result = {0, {0, 0}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
   const double before = from->indentation, climb = indentation - before;
   const double travel_x = x - from->x, travel_y = y - from->y;
-  double now[3], then[3], (*stiffness)[3] = result.stiffness;
-  int i, sticks = isinf(@NAME@_friction) != 0;
+  double normal[3], now[3], then[3], share = 0, share_slope = 0, (*stiffness)[3] = result.stiffness;
+  const int full_stick = isinf(@NAME@_friction) != 0;
+  int i;
   if (to && to != from) *to = *from;
-  @NAME@_normal(indentation, now);
-  @NAME@_normal(before, then);
-  result.normal_force = now[0];
-  stiffness[0][0] = now[1];
+  @NAME@_between(@NAME@_force, @NAME@_slope, indentation, normal);
+  @NAME@_between(@NAME@_held, @NAME@_sum, indentation, now);
+  @NAME@_between(@NAME@_held, @NAME@_sum, before, then);
+  result.normal_force = normal[0];
+  stiffness[0][0] = normal[1];
+  if (!full_stick && now[0] > 0) { /* the levels together carry mu F at most */
+    share = @NAME@_friction * normal[0] / now[0];
+    share_slope = (@NAME@_friction * normal[1] - share * now[1]) / now[0];
+  }
   for (i = @NAME@_levels - 1; i >= 0; --i) {
     const double floor = @NAME@_floor(i), top = @NAME@_node[i];
     const double stretch_x = x - from->anchor_x[i], stretch_y = y - from->anchor_y[i];
     const int inside = i > 0 && indentation < top;
-    double k, k_before, slope, unused, hold, push_x, push_y, f_x, f_y, bears, bears_slope, size;
+    double k, k_before, slope, unused, hold, push_x, push_y, f_x, f_y, bears, bears_slope, size, limit;
     if (indentation <= floor) continue;
     k = @NAME@_touched(i, indentation, now, &slope);
     k_before = @NAME@_touched(i, before, then, &unused);
-    bears = now[0], bears_slope = now[1];
-    if (!inside) {
-      bears = @NAME@_force[i] + @NAME@_slope[i] * (indentation - top);
-      bears_slope = @NAME@_slope[i];
-    }
-    if (i > 0) {
-      bears -= @NAME@_force[i - 1] + @NAME@_slope[i - 1] * (indentation - floor);
-      bears_slope -= @NAME@_slope[i - 1];
-    }
+    bears_slope = k;
+    bears = inside ? now[0] - @NAME@_held[i - 1] - @NAME@_sum[i - 1] * (indentation - floor)
+                   : k * (indentation - @NAME@_depth[i]);
     if (k <= k_before) {
       f_x = k * stretch_x, f_y = k * stretch_y, hold = k;
       push_x = slope * stretch_x, push_y = slope * stretch_y;
@@ -133,17 +139,17 @@ static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *
       hold = k_before + kept, push_x = push * travel_x, push_y = push * travel_y;
     }
     size = sqrt(f_x * f_x + f_y * f_y);
-    if (sticks || size <= @NAME@_friction * bears) {
-      /* Springs slip from the last level that touches downwards: below one that sticks all do. */
-      sticks = sticks || (k == k_before && (i == 0 || (indentation >= top && before >= top)));
+    limit = bears > 0 ? share * bears : 0;
+    if (full_stick || size <= limit) {
       stiffness[1][0] += push_x, stiffness[2][0] += push_y;
       stiffness[1][1] += hold, stiffness[2][2] += hold;
     } else {
-      const double n_x = f_x / size, n_y = f_y / size, limit = @NAME@_friction * bears;
-      const double part = limit / size, along = push_x * n_x + push_y * n_y;
+      const double n_x = f_x / size, n_y = f_y / size, part = limit / size;
+      const double along = push_x * n_x + push_y * n_y;
+      const double limit_slope = share * bears_slope + share_slope * bears;
       f_x = limit * n_x, f_y = limit * n_y;
-      stiffness[1][0] += part * (push_x - along * n_x) + @NAME@_friction * bears_slope * n_x;
-      stiffness[2][0] += part * (push_y - along * n_y) + @NAME@_friction * bears_slope * n_y;
+      stiffness[1][0] += part * (push_x - along * n_x) + limit_slope * n_x;
+      stiffness[2][0] += part * (push_y - along * n_y) + limit_slope * n_y;
       stiffness[1][1] += part * hold * n_y * n_y, stiffness[2][2] += part * hold * n_x * n_x;
       stiffness[1][2] -= part * hold * n_x * n_y;
     }
@@ -197,13 +203,26 @@ std::string c_header(const LawLevels& levels, const CHeaderOptions& options) {
   text += std::isinf(levels.friction_coefficient())
               ? "#define @NAME@_friction HUGE_VAL\n"
               : fmt::format("#define @NAME@_friction {:.17g}\n", levels.friction_coefficient());
+  std::vector<double> held, sum;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double before = i > 0 ? sum[i - 1] : 0, k = levels.level_stiffnesses()[i];
+    const double width = i > 0 ? levels.nodes()[i] - levels.nodes()[i - 1] : 0;
+    held.push_back((i > 0 ? held[i - 1] : 0) + before * width +
+                   k * (levels.nodes()[i] - levels.level_depths()[i]));
+    sum.push_back(before + k);
+  }
   text +=
-      "/* Where each level ends, F and dF/d(indentation) there, and the tangential stiffness of "
-      "each. */\n";
+      "/* Where each level ends, F and dF/d(indentation) there; the tangential stiffness of each\n"
+      "   level and the indentation at which it acts; of all levels up to it the stiffness and "
+      "its\n"
+      "   integral over the indentation. */\n";
   text += table("node", levels.nodes(), options.length_unit);
   text += table("force", levels.forces(), options.force_unit);
   text += table("slope", levels.stiffnesses(), stiffness);
   text += table("stiffness", levels.level_stiffnesses(), stiffness);
+  text += table("depth", levels.level_depths(), options.length_unit);
+  text += table("sum", sum, stiffness);
+  text += table("held", held, options.force_unit);
   text += body.substr(includes);
   text += "#endif\n";
   replace_all(text, "@NAME@", name);

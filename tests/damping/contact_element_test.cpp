@@ -7,6 +7,8 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/contact_element.hpp>
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <vector>
 
@@ -66,7 +68,142 @@ double error_of_levels(const ContactLaw& law, double low, double high, double fr
   return worst;
 }
 
+// A curve of loads spread evenly in ln F: of a body whose K_t/K falls from 0.95 to 0.8 with load, or
+// with stiffnesses that scatter by as much as is given.
+enum class Body { exponential, sphere, summits };
+struct MeasuredCurve {
+  Body body;
+  int loads;
+  double scatter;
+  bool with_normal_stiffness = true;
+};
+
+ForceCurve curve_of(const MeasuredCurve& table) {
+  std::mt19937_64 bits(7);
+  const auto noise = [&] {
+    return 1 + table.scatter * (2 * (static_cast<double>(bits() >> 11) * 0x1p-53) - 1);
+  };
+  ForceCurve curve{.model = "measured", .nominal_area = 1e-6, .samples = {}};
+  for (int i = 0; i < table.loads; ++i) {
+    const double part = i / (table.loads - 1.0), force = 10 * std::pow(1e-4, 1 - part);
+    double indentation = 0, stiffness = 0;
+    if (table.body == Body::exponential) {
+      indentation = 1e-7 * std::log(force), stiffness = force / 1e-7;
+    } else if (table.body == Body::sphere) {
+      indentation = 1e-6 * std::pow(force / 10, 2.0 / 3), stiffness = 1.5 * force / indentation;
+    } else {  // a Gaussian height distribution: ln F falls faster than linearly with the separation
+      const double separation = std::sqrt(2.25 - 2 * std::log(force / 10)) - 1.5;
+      indentation = -3e-7 * separation, stiffness = force * (separation + 1.5) / 3e-7;
+    }
+    curve.samples.push_back({.indentation = indentation,
+                             .force = force,
+                             .normal_stiffness = table.with_normal_stiffness ? stiffness * noise()
+                                                                             : ForceSample::unknown,
+                             .tangential_stiffness = stiffness * (0.95 - 0.15 * part) * noise()});
+  }
+  return curve;
+}
+
+// Twenty curves: three bodies, as few and as many loads as people take, with scatter of K and K_t.
+std::vector<MeasuredCurve> measured_curves() {
+  std::vector<MeasuredCurve> all;
+  for (const Body body : {Body::exponential, Body::sphere, Body::summits}) {
+    for (const int loads : {8, 12, 24, 60, 240}) all.push_back({body, loads, 0.02});
+    all.push_back({body, 60, 0});
+  }
+  all.push_back({Body::exponential, 30, 0.1});
+  all.push_back({Body::summits, 240, 0.05, false});
+  return all;
+}
+
 }  // namespace
+
+TEST_CASE("No path takes the tangential force of a tabulated law beyond μF") {
+  const double friction = 0.3;
+  double worst = 0, sliding = 0;
+  for (const MeasuredCurve& table : measured_curves()) {
+    CAPTURE(int(table.body), table.loads, table.scatter);
+    const TabulatedLaw law(curve_of(table), ratio);
+    const double middle = law.indentation_of(0.5), highest = law.highest_indentation();
+    const double low = law.indentation_of(0.05), reach = 0.5 * (highest - middle);
+    ContactElement element(levels_of(law, low, highest, friction, 64));
+    element.start(middle, 0, 0);
+    // The lowest tangent ends where the contact parts: a part of the path lies there. Every other
+    // motion is short, and one along x: most of these slip only a little.
+    int number = 0;
+    for (auto [indentation, x, y] : walk(2 * low - middle, highest, reach, 5000)) {
+      if (++number % 2 == 0) x = element.state()[1] + 0.02 * x, y = element.state()[2];
+      const ElementForces forces = element.move_to(indentation, x, y);
+      REQUIRE(forces.normal_force >= 0);
+      // Round-off of sums of 64 levels.
+      worst = std::max(worst, size_of(forces) - friction * forces.normal_force * (1 + 1e-12));
+      REQUIRE(worst <= 0);
+    }
+    const ElementForces here = element.move_to(middle, 0, 0);
+    CHECK(here.normal_force == Approx(law.force(middle)).epsilon(1e-3));
+    const ElementForces slid = element.move_to(middle, 1e-4, 0);
+    sliding = size_of(slid) / (friction * slid.normal_force);
+    // Stretches of 1e-7 m from before turn the springs by 1e-3 from the way of 1e-4 m.
+    CHECK(sliding == Approx(1).epsilon(1e-6));
+    CHECK(element.move_to(law.lowest_indentation() - 1e-5, 0, 0).normal_force == 0);
+    CHECK(size_of(element.move_to(law.lowest_indentation() - 1e-5, 1e-8, 0)) == 0);
+  }
+}
+
+TEST_CASE("A loop of an element over a tabulated law loses what a joint and a damper of it lose") {
+  const double friction = 0.3;
+  for (const MeasuredCurve& table : measured_curves()) {
+    CAPTURE(int(table.body), table.loads, table.scatter);
+    const TabulatedLaw law(curve_of(table), ratio);
+    const double middle = law.indentation_of(1);
+    const auto loop = [&](const EqualFrequency& motion, double coefficient, double& peak) {
+      ContactElement element(levels_of(law, middle - motion.normal_amplitude,
+                                       middle + motion.normal_amplitude, coefficient, 512));
+      const auto at = [&](double phase) {
+        return std::array{middle + motion.normal_amplitude * std::cos(phase),
+                          motion.tangential_amplitude * std::cos(phase + motion.phase)};
+      };
+      element.start(at(0)[0], 0, 0);
+      double work = 0, x = 0, force = 0;
+      constexpr int steps = 4000;
+      for (int i = 0; i <= 2 * steps; ++i) {
+        const auto [indentation, next] = at(2 * pi * i / steps);
+        const double now = element.move_to(indentation, next, 0).tangential_force[0];
+        if (i > steps) work += 0.5 * (force + now) * (next - x), peak = std::max(peak, now);
+        x = next, force = now;
+      }
+      return work;
+    };
+    // Both have the K_t of the law, and a loss proportional to the stretch at which a spring slips:
+    // the joint takes K_t/K at its indentation for it, and the element that of the whole contact. The
+    // depth of slip counts once more where K_t bends.
+    const LawLevels levels(law, middle, middle, {.levels = 512});
+    double reach = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      if (levels.level_depths()[i] < middle)
+        reach += levels.level_stiffnesses()[i] * (middle - levels.level_depths()[i]);
+    const double ratios =
+        0.01 + 2 * std::abs(law.stiffness_ratio(middle) * law.force(middle) / reach - 1);
+    CHECK(ratios < 0.2);
+    const double decay = law.force(middle) / law.normal_stiffness(middle);
+    for (const double part : {0.3, 0.8}) {
+      const double x = part * friction / law.stiffness_ratio(middle) * decay;
+      const JointLoss joint =
+          joint_loss(law, AtIndentation{middle}, TangentialAmplitude{x}, friction);
+      double peak = 0;
+      const double work = loop({.tangential_amplitude = x}, friction, peak);
+      CHECK(peak == Approx(joint.tangential_force).epsilon(ratios));
+      CHECK(work == Approx(joint.work_per_cycle).epsilon(ratios));
+    }
+    // In full stick nothing but the law is left, and K_t falls nowhere but by scatter.
+    const EqualFrequency motion{
+        .normal_amplitude = 0.5 * decay, .tangential_amplitude = 0.01 * decay, .phase = pi / 2};
+    const DampingResult damping = relaxation_damping(law, AtIndentation{middle}, motion);
+    double peak = 0;
+    CHECK(loop(motion, INFINITY, peak) ==
+          Approx(damping.work_per_cycle).epsilon(0.005 + table.scatter));
+  }
+}
 
 TEST_CASE("The force of an element tends to that of a contact without levels") {
   // Levels as wide as h leave an error of h in where slip ends and in what a level remembers, hence
@@ -274,6 +411,6 @@ TEST_CASE("Levels say what they cannot do") {
   for (const double at : {1e-8, 2e-8, 3e-8, 4e-8, 5e-8, 6e-8})
     falling.samples.push_back({.indentation = at, .force = std::sqrt(at)});
   CHECK_THROWS_WITH(LawLevels(TabulatedLaw(falling, ratio), 2e-8, 5e-8),
-                    Catch::Contains("smaller stiffness"));
+                    Catch::Contains("off the mean of those about it"));
   CHECK_THROWS_WITH(ContactElement(nullptr), Catch::Contains("levels"));
 }

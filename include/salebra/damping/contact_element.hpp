@@ -19,8 +19,13 @@ struct LawLevelsOptions {
 
 /// A contact law as a stack of indentation levels, each a spring with a limit of friction, made for
 /// contacts by the thousand: immutable, and shared between elements and threads. Between its nodes
-/// the force is a cubic with the law's F and K at both ends. All that lies below the lowest node is
-/// one level; there F falls to 0 along its tangent, which is where the surfaces part.
+/// the force has the law's F and K at both ends: it is a cubic where that is convex, and a power of
+/// the distance from one end where no cubic is. A level of K_t acts at one depth c, the middle of its
+/// springs. Its stretch is limited to μ(F/G)(δ − c), with G(δ) = ∫K_t dζ up to δ, so that all levels
+/// together carry μF, whatever K_t/K is. All that lies below the lowest node is one level; there F
+/// falls to 0 along its tangent, which is where the surfaces part.
+/// Springs cannot have a negative stiffness. Where K_t scatters and falls from one node to the next,
+/// these nodes share their mean.
 class LawLevels {
  public:
   /// lowest, highest   δ between which the contact will move with the accuracy asked for, m. Levels
@@ -28,7 +33,8 @@ class LawLevels {
   ///                   Other indentations are allowed in a step: below, levels are coarser; above,
   ///                   the force goes on along its tangent
   /// throws            InvalidInput for options out of range, indentations that the law does not
-  ///                   cover, and a stiffness K or K_t that falls with indentation
+  ///                   cover, and a K_t that falls by more than scatter does: the mean of the nodes
+  ///                   differs from one of them by more than a quarter
   LawLevels(const ContactLaw& law, double lowest, double highest,
             const LawLevelsOptions& options = {});
 
@@ -39,6 +45,7 @@ class LawLevels {
   const std::vector<double>& stiffnesses() const { return slope_; }  ///< K at the nodes, N/m
   /// K_t of each level, N/m: the first that below the lowest node, then those between nodes.
   const std::vector<double>& level_stiffnesses() const { return stiffness_; }
+  const std::vector<double>& level_depths() const { return depth_; }  ///< c of each level, m
 
   struct Normal {
     double force = 0, stiffness = 0, curvature = 0;  ///< F, K, K'
@@ -47,13 +54,14 @@ class LawLevels {
 
  private:
   friend class ContactElement;
-  void append(const ContactLaw& law, double node);
+  void set_normal(const ContactLaw& law);
+  void set_tangential(const ContactLaw& law);
+  Normal held(double indentation) const;  // G, K_t, K_t'
 
   double friction_coefficient_;
   std::vector<double> node_, force_, slope_;
-  std::vector<double> stiffness_;           // of levels
-  std::vector<double> sum_;                 // of the stiffnesses up to each
-  std::vector<double> share_, share_zero_;  // a level above which δ lies bears share·δ + share_zero
+  std::vector<double> stiffness_, depth_;  // of levels
+  std::vector<double> held_, sum_;         // G and K_t at the nodes
 };
 
 /// What a contact answers to a step, and how that depends on its end: what Newton's method needs.
@@ -69,11 +77,10 @@ struct ElementForces {
 ///     F_t = Σ_i k_i(δ)(x − a_i),   |k_i(x − a_i)| <= μN_i(δ),   ΣN_i = F,
 /// over the levels i of LawLevels. A spring is anchored where it touches, lets go where it
 /// parts, and slips by the return along its own stretch, as bodies of Coulomb and plasticity do
-/// [Simo and Hughes (1998)]; all of them slip at |F_t| = μF. TangentialContact is the limit of many
-/// levels for one direction, without an error of the step.
+/// [Simo and Hughes (1998)]; all of them slip at |F_t| = μF, and no path leads beyond that.
+/// TangentialContact is the limit of many levels for one direction, without an error of the step.
 /// A copy of an element is a state to come back to; copies share their levels.
-/// Springs slip from the last level that touches downwards: a step ends at the first that sticks.
-/// cost  of a step some nanoseconds for each level that slips, touches or parts, and some tens for
+/// cost  of a step some nanoseconds for each level that slips, touches or parts, and one for each of
 ///       the rest; 32 bytes a level of memory
 class ContactElement {
  public:
