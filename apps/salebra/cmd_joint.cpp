@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `salebra joint`: partial slip under a tangential oscillation.
+#include <algorithm>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/questions/damping.hpp>
 
+#include "damping/joint_loop.hpp"
 #include "figures.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
@@ -25,8 +27,34 @@ struct JointArguments {
   PremiseOptions premises;
 };
 
-Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& path,
-                    const TrajectoryDamping& loop) {
+double half_range_of(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  return (high - low) / 2;
+}
+
+// The loop of the largest motion by the springs of the law. A surface has a loss of its own, hence
+// the loop is scaled to its force and displacement.
+detail::JointLoop loop_of(const JointArguments& arguments, const JointAnswer& found,
+                          Session& session) {
+  const JointLoss& largest =
+      *std::ranges::max_element(found.losses, {}, &JointLoss::tangential_amplitude);
+  JointMotion motion{.tangential = TangentialAmplitude{largest.tangential_amplitude},
+                     .normal_amplitude = found.largest.normal_amplitude,
+                     .phase = found.largest.phase};
+  if (!arguments.tangential_forces.empty() && motion.normal_amplitude > 0)
+    motion.tangential = TangentialForce{largest.tangential_force};
+  // An even number of steps has both ends of a harmonic motion.
+  detail::JointLoop loop = detail::joint_loop(
+      *found.contact.law, found.state.indentation, motion, *arguments.premises.friction_coefficient,
+      arguments.steps + arguments.steps % 2, session.context().on_progress);
+  const double along = largest.tangential_amplitude / half_range_of(loop.displacement);
+  const double up = largest.tangential_force / half_range_of(loop.tangential_force);
+  for (double& x : loop.displacement) x *= along;
+  for (double& force : loop.tangential_force) force *= up;
+  return loop;
+}
+
+Figure joint_figure(const std::vector<JointLoss>& losses, const detail::JointLoop& loop) {
   std::vector<double> force, amplitude, work;
   for (const JointLoss& one : losses) {
     force.push_back(one.tangential_force);
@@ -44,7 +72,7 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const SampledMotion& p
                            .y = {.label = "T", .unit = "N"},
                            .legend = PlotLegend::top_left});
   figure.panels.back().curves = {
-      {.name = "loop", .x = path.displacement, .y = loop.tangential_force},
+      {.name = "loop", .x = loop.displacement, .y = loop.tangential_force},
       {.name = "backbone", .x = amplitude, .y = force, .style = PlotStyle::dashed}};
   return figure;
 }
@@ -94,12 +122,8 @@ void run(const JointArguments& arguments, Session& session) {
   if (direct)
     for (const ResultColumn& column : tables.back().columns)
       answer["direct"][column.name] = column.values;
-  if (session.has_plot()) {
-    const DampingCycle cycle =
-        cycle_of(*found.contact.law, found.largest, found.state.indentation, arguments.steps,
-                 *arguments.premises.friction_coefficient, session.context());
-    session.plot(joint_figure(found.losses, cycle.path, cycle.loss));
-  }
+  if (session.has_plot())
+    session.plot(joint_figure(found.losses, loop_of(arguments, found, session)));
   add_first_loading(answer, found.contact.first_loading);
   PremiseReport{{found.premises}}.answer(session, answer);
 }

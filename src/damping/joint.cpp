@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contact/quadrature.hpp"
+#include "joint_loop.hpp"
 #include "surface/refine.hpp"
 #include "sweep_breaks.hpp"
 
@@ -112,6 +113,7 @@ void set_ratios(JointLoss& loss) {
 struct Followed {
   double force = 0, displacement = 0;  // half their ranges
   double work = 0, slip_work = 0, storage_stiffness = 0;
+  detail::JointLoop loop = {};
 };
 
 // A period from the least indentation on, whose last sample is the first again.
@@ -154,8 +156,10 @@ double slope_of(const std::vector<double>& force, const std::vector<double>& x) 
   return product / square;
 }
 
+// first: the displacement at which all springs are free of stress, where it is given. What never
+// slips remembers it in the force, not in the loss.
 Followed follow(const ContactLaw& law, const JointPath& path, double friction_coefficient,
-                const Progress& on_progress) {
+                const Progress& on_progress, double first) {
   const auto& [lowest, highest, by_force, amplitude, level, target] = path;
   if (by_force)
     for (std::size_t i = 0; i < level.size(); ++i)
@@ -166,7 +170,7 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
   TangentialContact contact(
       law, lowest, highest,
       {.friction_coefficient = friction_coefficient, .tangential_range = range});
-  contact.start(level[0], by_force ? 0 : target[0]);
+  contact.start(level[0], first);
   std::vector<double> x(level.size()), force(level.size());
   Followed result;
   constexpr int most_periods = 200;
@@ -196,6 +200,7 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       result.force = by_force ? amplitude : half_range_of(force);
       result.displacement = by_force ? half_range_of(x) : amplitude;
       result.storage_stiffness = slope_of(force, x);
+      result.loop = {std::move(x), std::move(force)};
       return result;
     }
   }
@@ -237,7 +242,7 @@ SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, cons
 
 // A quantity over the steps of a simulated cycle, of which the last is the first of the next.
 struct Swing {
-  Swing(const CycleResult& cycle, double CycleSample::*quantity)
+  Swing(const CycleResult& cycle, double CycleSample::* quantity)
       : values(static_cast<Index>(cycle.samples.size()) - 1) {
     for (Index i = 0; i < values.size(); ++i)
       values[i] = cycle.samples[static_cast<std::size_t>(i) + 1].*quantity;
@@ -354,7 +359,9 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position, const Join
   const auto at = [&](double factor) {
     JointMotion scaled = motion;
     std::visit([&](auto& one) { one.amplitude *= factor; }, scaled.tangential);
-    return follow(law, path_of(mean, scaled, steps), friction_coefficient, on_progress);
+    const JointPath path = path_of(mean, scaled, steps);
+    return follow(law, path, friction_coefficient, on_progress,
+                  path.by_force ? 0 : path.target.front());
   };
   const Followed one = at(1), less = at(0.99);
   JointLoss loss;
@@ -369,6 +376,13 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position, const Join
   loss.converged = true;
   set_ratios(loss);
   return loss;
+}
+
+detail::JointLoop detail::joint_loop(const ContactLaw& law, double indentation,
+                                     const JointMotion& motion, double friction_coefficient,
+                                     int steps, const Progress& on_progress) {
+  return follow(law, path_of(indentation, motion, steps), friction_coefficient, on_progress, 0)
+      .loop;
 }
 
 JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,

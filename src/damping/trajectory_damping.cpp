@@ -100,10 +100,14 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
 
   // From the lowest point, where every level that ever opens is open: no history is missing.
   TrajectoryDamping result;
-  if (slides)
+  if (slides) {
     contact.slide(path.indentation[first], path.displacement[first], drift > 0 ? 1 : -1);
-  else
-    contact.start(path.indentation[first], path.displacement[first]);
+  } else {
+    // Springs that never part or slip are free of stress in the middle of a periodic motion.
+    const double rest = drifts ? path.displacement[first] : 0.5 * (low_x + high_x);
+    contact.start(path.indentation[first], rest);
+    contact.move_to(path.indentation[first], path.displacement[first]);
+  }
   const double origin = path.displacement[first];
   std::vector<double> force(count), lost(count);
   for (int period = 0; period < periods; ++period) {

@@ -333,6 +333,43 @@ TEST_CASE("A picture of a cycle counts the energy lost over one period", "[dampi
   CHECK(prefix == Approx(std::round(prefix)).margin(1e-6));
 }
 
+TEST_CASE("The tips of a loop of a joint are the numbers of its table", "[joint][plot]") {
+  const ProgramTest test;
+  const std::string law =
+      "joint --law paraboloid --radius 10mm --normal-force 10 --contact-modulus 115GPa --poisson "
+      "0.3 "
+      "--friction-coefficient 0.3 --json --steps 400 ";
+  struct Motion {
+    std::string options;
+    bool symmetric;
+  };
+  // Beside a normal oscillation T of a given x has its largest values where F is not the same, and so
+  // has x of a given T: then the table holds half the range.
+  for (const auto& [options, symmetric] :
+       {Motion{"--tangential-forces 20mN,200mN,2.9N", true},
+        Motion{"--tangential-forces 200mN", true},
+        Motion{"--tangential-amplitudes 1nm,5nm,20nm", true},
+        Motion{"--tangential-forces 0.1,0.5 --normal-amplitude 20nm --phase 50deg", false},
+        Motion{"--tangential-amplitudes 1nm,20nm --normal-amplitude 20nm --phase 50deg", false}}) {
+    CAPTURE(options);
+    const Drawing drawing(test, law + options);
+    for (const bool force : {false, true}) {
+      CAPTURE(force);
+      const Values drawn = drawing.column(2, 0, force ? 1 : 0);
+      const auto [low, high] = std::ranges::minmax(drawn);
+      const Values all =
+          numbers(drawing.answer()[force ? "tangential_force" : "tangential_amplitude"]);
+      const double expected = std::ranges::max(all);
+      // The axis has a prefix: a power of 1000.
+      const double prefix = std::log10((high - low) / 2 / expected) / 3;
+      CHECK(prefix == Approx(std::round(prefix)).margin(1e-6));
+      // Springs are followed in steps, and 400 of them meet both ends of the motion.
+      if (symmetric) CHECK(high == Approx(-low).epsilon(1e-6));
+      CHECK(drawn.back() == Approx(drawn.front()).margin(1e-6 * high));
+    }
+  }
+}
+
 TEST_CASE("A flat surface is drawn without a spectrum, by every command alike",
           "[statistics][plot]") {
   const ProgramTest test;

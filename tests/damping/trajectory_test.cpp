@@ -6,6 +6,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/joint.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 
 using namespace salebra;
@@ -243,4 +244,26 @@ TEST_CASE("Trajectories that are not one period are refused with the reason", "[
   refuse([](SampledMotion& t) { t = {{0, 1}, {0, 0}, {0, 0}}; }, "too few");
   CHECK_THROWS_AS(sample(equal_frequency(3e-7, 1.0), 1e-6, 2), InvalidInput);
   CHECK_THROWS_AS(trajectory_damping(law, good, {.friction_coefficient = -1}), InvalidInput);
+}
+
+TEST_CASE("The force of a periodic motion does not depend on where its samples begin") {
+  // Under a constant load T runs between ∓T of the joint: the springs that never slip are free of
+  // stress in the middle of the motion, wherever its record begins.
+  const ExponentialLaw law(10, 1e-7, 0.8);
+  const double friction = 0.3, amplitude = 1e-8;
+  const double expected =
+      joint_loss(law, AtIndentation{0}, TangentialAmplitude{amplitude}, friction).tangential_force;
+  for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
+    SampledMotion path;
+    for (int i = 0; i <= 400; ++i) {
+      path.time.push_back(i);
+      path.indentation.push_back(0);
+      path.displacement.push_back(3e-8 + amplitude * std::cos(2 * pi * (i % 400 / 400.0 + phase)));
+    }
+    const auto force =
+        trajectory_damping(law, path, {.friction_coefficient = friction}).tangential_force;
+    // 400 steps have both ends; the rest is round-off of the table of K_t.
+    CHECK(std::ranges::max(force) == Approx(expected).epsilon(1e-9));
+    CHECK(std::ranges::min(force) == Approx(-expected).epsilon(1e-9));
+  }
 }
