@@ -16,6 +16,7 @@
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
+#include "questions/part.hpp"
 #include "results/answer_json.hpp"
 
 namespace salebra::cli {
@@ -76,16 +77,18 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
   require(at.size() < 2, "--normal-force", "several positions", "are given; give one");
   std::vector<DeckContact> contacts;
   for (ForceCurve& curve : read_force_curves(file)) {
-    if (curve.nominal_area == 0) {
-      require_that(arguments.nominal_area || complete_forces(curve), "--nominal-area",
-                   "not given, but " + file + " has pressures and no forces");
-      curve.nominal_area = arguments.nominal_area.value_or(0);
-    }
+    require_that(curve.nominal_area > 0 || arguments.nominal_area || complete_forces(curve),
+                 "--nominal-area", "not given, but " + file + " has pressures and no forces");
+    const double sample_area = curve.nominal_area;
+    if (arguments.nominal_area)
+      curve = curve_of_part(std::move(curve), *arguments.nominal_area, file);
     contacts.push_back(deck_contact(CurveContact{.curve = std::move(curve),
                                                  .modulus_ratio = facts.modulus_ratio,
                                                  .at = at.empty() ? Standings{} : at.front(),
                                                  .source = file},
                                     session.context()));
+    if (sample_area > 0 && sample_area != contacts.back().nominal_area)
+      contacts.back().sample_area = sample_area;
   }
   return contacts;
 }
@@ -163,8 +166,10 @@ void add_export_command(Program& program) {
                      "LENGTH,MASS,TIME of the other program, such as mm,t,s; default m,kg,s");
   add_quantity(command, "--friction-coefficient", arguments->friction_coefficient,
                Dimension::dimensionless, "mu, for decks with friction and sliders");
-  add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
-               "of a law, whose pressure is its force over it");
+  add_quantity(
+      command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
+      "of the part: forces of a file and of --surface times its ratio to theirs; of --law, "
+      "whose pressure is its force over it");
   add_values(command, "--pressure-window", arguments->window, Dimension::pressure,
              "LOWER,UPPER nominal pressure of a table; default: the whole curve");
   command

@@ -105,6 +105,7 @@ void run(const JointArguments& arguments, Session& session) {
       .facts = arguments.premises.facts(arguments.material),
       .steps = arguments.steps,
       .direct_steps = arguments.direct_steps};
+  if (arguments.nominal_area) question.nominal_area = *arguments.nominal_area;
   for (const double force : arguments.tangential_forces)
     question.motions.emplace_back(TangentialForce{force});
   for (const double amplitude : arguments.tangential_amplitudes)
@@ -144,7 +145,8 @@ void add_joint_command(Program& program) {
   arguments->law.add_to(command);
   arguments->material.add_to(command);
   add_quantity(command, "--nominal-area", arguments->nominal_area, Dimension::length_squared,
-               "for results per area too; default: that of --curve");
+               "of the part: forces of --curve and --surface times its ratio to theirs; of --law, "
+               "for results per area");
   command.under("Motion");
   add_values(command, "--tangential-forces", arguments->tangential_forces, Dimension::force,
              "T of an oscillation between -T and T: one, a list or a range");

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "formats.hpp"
+#include "questions/part.hpp"
 
 namespace salebra {
 namespace {
@@ -36,7 +37,7 @@ void set_range(DeckContact& contact) {
   }
 }
 
-bool complete(const ForceCurve& curve, double ForceSample::*quantity) {
+bool complete(const ForceCurve& curve, double ForceSample::* quantity) {
   return std::ranges::all_of(curve.samples, [&](const ForceSample& sample) {
     return !sample.converged || std::isfinite(sample.*quantity);
   });
@@ -71,8 +72,18 @@ std::vector<std::size_t> by_force(const std::vector<DeckContact>& contacts, doub
   return order;
 }
 
-double area_of(const DeckQuestion& question, const DeckContact& contact) {
-  return std::isnan(question.nominal_area) ? contact.nominal_area : question.nominal_area;
+/// The question about the part.
+DeckQuestion of_part(DeckQuestion question) {
+  const double area = question.nominal_area;
+  if (std::isnan(area)) return question;
+  require_positive(area, "nominal_area");
+  for (DeckContact& contact : question.contacts) {
+    const double sample = std::exchange(contact.nominal_area, area);
+    if (std::isnan(sample) || sample == area) continue;
+    contact.law = law_of_part(std::move(contact.law), area / sample);
+    contact.sample_area = sample;
+  }
+  return question;
 }
 
 Range common_range(const DeckQuestion& question) {
@@ -82,7 +93,7 @@ Range common_range(const DeckQuestion& question) {
     require_that(!std::isnan(lowest), "indentation",
                  "not given, but a law without a table is taken from forces about that there");
     if (question.pressure_window) {
-      const double area = area_of(question, contact);
+      const double area = contact.nominal_area;
       lowest = contact.law->indentation_of(question.pressure_window->first * area);
       highest = contact.law->indentation_of(question.pressure_window->second * area);
     }
@@ -139,7 +150,7 @@ DeckLaw law_of_contacts(const DeckQuestion& question, const std::vector<double>&
   for (std::size_t row = 0; row < clearance.size(); ++row)
     for (const std::size_t i : which) {
       const DeckContact& contact = question.contacts[i];
-      const double weight = share / area_of(question, contact);
+      const double weight = share / contact.nominal_area;
       // The ends of the range may miss the table by rounding.
       const double indentation =
           std::clamp(contact.clearance_origin - clearance[row], contact.lowest, contact.highest);
@@ -152,7 +163,7 @@ DeckLaw law_of_contacts(const DeckQuestion& question, const std::vector<double>&
     double slope = 0, pressure = 0;
     for (const std::size_t i : which) {
       const DeckContact& contact = question.contacts[i];
-      const double weight = share / area_of(question, contact);
+      const double weight = share / contact.nominal_area;
       slope += weight * contact.law->tangential_stiffness(contact.indentation);
       pressure += weight * contact.law->force(contact.indentation);
     }
@@ -218,7 +229,7 @@ void check(const DeckQuestion& question, detail::DeckContent content) {
   require_that(content != detail::DeckContent::sliders || friction, "friction_coefficient",
                "not given, but sliders need it");
   for (const DeckContact& contact : question.contacts) {
-    const double area = area_of(question, contact);
+    const double area = contact.nominal_area;
     if (table || question.pressure_window || (levels && question.contacts.size() > 1))
       require_that(area > 0 && std::isfinite(area), "nominal_area",
                    "not given, but a pressure is a force per nominal area");
@@ -276,6 +287,16 @@ std::vector<std::string> opening(const DeckQuestion& question) {
       "Premises: quasi-static, nested contact sets, the same law on loading and unloading; no "
       "adhesion, no wear.");
   if (!question.remark.empty()) lines.push_back(question.remark);
+  const DeckContact& first = question.contacts.front();
+  const double square = 1 / (units.in_si(Dimension::length) * units.in_si(Dimension::length));
+  if (!std::isnan(first.sample_area))
+    lines.push_back(fmt::format(
+        "Nominal area: {:.10g}, of the part. The law was found on a sample of {:.10g}; forces and "
+        "stiffnesses are those of the sample times {:.10g}.",
+        first.nominal_area * square, first.sample_area * square,
+        first.nominal_area / first.sample_area));
+  else if (!std::isnan(first.nominal_area))
+    lines.push_back(fmt::format("Nominal area: {:.10g}.", first.nominal_area * square));
   return lines;
 }
 
@@ -297,7 +318,7 @@ void add_table(Deck& deck, int most_rows, DeckAnswer& answer) {
   const DeckContact& first = question.contacts.front();
   if (question.contacts.size() == 1 && !std::isnan(first.decay_length)) {
     deck.exponential_length = first.decay_length;
-    deck.exponential_pressure = force_at(first, 0) / area_of(question, first);
+    deck.exponential_pressure = force_at(first, 0) / first.nominal_area;
   }
   const double metre = 1 / question.units.in_si(Dimension::length),
                pascal = 1 / question.units.in_si(Dimension::pressure);
@@ -366,7 +387,7 @@ std::shared_ptr<const ContactLaw> law_of_case(const DeckQuestion& question, cons
   for (int i = 0; i < question.rows; ++i)
     clearance.push_back(std::lerp(range.far, range.close, double(i) / (question.rows - 1)));
   const DeckLaw mean = law_of_contacts(question, clearance, which);
-  const double area = area_of(question, first);
+  const double area = first.nominal_area;
   ForceCurve curve{.model = "mean", .nominal_area = area, .samples = {}};
   for (std::size_t i = 0; i < clearance.size(); ++i)
     curve.samples.push_back({.indentation = first.clearance_origin - clearance[i],
@@ -445,7 +466,8 @@ DeckContact deck_contact(ContactQuestion question, const Context& context) {
   return contact;
 }
 
-DeckAnswer ask(const DeckQuestion& question) {
+DeckAnswer ask(const DeckQuestion& asked) {
+  const DeckQuestion question = of_part(asked);
   const detail::DeckWriter& writer = detail::writer_of(question.format);
   check(question, writer.content);
   DeckAnswer answer;

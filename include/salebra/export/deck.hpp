@@ -43,6 +43,7 @@ struct DeckContact {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::shared_ptr<const ContactLaw> law;
   double nominal_area = unknown;  ///< A, m²
+  double sample_area = unknown;   ///< of the sample that the law was scaled from, m²; NaN: of none
   /// δ of the stick slope and of Jenkins' sliders, m; NaN: none was named.
   double indentation = unknown;
   double lowest = unknown, highest = unknown;  ///< δ that decks hold, m; NaN: as far as is known
@@ -70,7 +71,9 @@ struct DeckQuestion {
   DeckFormat format = DeckFormat::csv;
   UnitSystem units = {};
   double friction_coefficient = DeckContact::unknown;  ///< μ > 0; NaN: decks without friction
-  double nominal_area = DeckContact::unknown;          ///< m², in place of the contacts'
+  /// Of the part, m²: laws of contacts whose area is known are scaled to it, and laws of others are
+  /// those of the part. NaN: the contacts are the parts.
+  double nominal_area = DeckContact::unknown;
   /// Nominal pressures that decks hold, Pa; none: as far as the contacts go.
   std::optional<std::pair<double, double>> pressure_window = {};
   int rows = 200;                ///< of a table, 4 to 100000; of CalculiX at most 198, of Ansys 19

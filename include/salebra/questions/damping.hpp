@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/damping/damper.hpp>
@@ -195,6 +196,9 @@ struct JointQuestion {
   double angular_frequency = 0;  ///< to judge inertia, rad/s; 0: not known
   ContactFacts facts = {};       ///< with the coefficient of friction
   int steps = 2000;              ///< in a cycle with a normal oscillation; >= 16
+  /// Of the part, m²: the law of a curve or a surface is scaled to it; of another law it is the area
+  /// of the part that has this law. NaN: what was given is the part.
+  double nominal_area = std::numeric_limits<double>::quiet_NaN();
   /// In a cycle of a surface that is simulated cell by cell too; empty: none is.
   std::optional<int> direct_steps = {};
 };
