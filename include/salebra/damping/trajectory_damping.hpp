@@ -32,11 +32,9 @@ struct TrajectoryDamping {
   ///< storage_stiffness
   /// Columns at the samples of the trajectory, in its order: the loop is (displacement,
   /// tangential_force).
-  std::vector<double>
-      tangential_force;  ///< F_x, N, of springs without stress in the middle of a periodic motion,
-      ///< which those remember that never part or slip; with drift without the permanent levels' share, which grows
-      ///< for
-      ///< ever in full stick
+  /// F_x, N. Springs that never part or slip are free of stress in the middle of a periodic motion;
+  /// with drift without their share, which grows for ever in full stick.
+  std::vector<double> tangential_force;
   std::vector<double> transverse_force;  ///< F_y, N, likewise; empty where nothing moves along y
   std::vector<double> dissipated;        ///< energy lost since the first sample, J
   std::size_t memory = 0;                ///< most pieces of history held at a time
