@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "region_report.hpp"
+#include "stop_check.hpp"
 #include "task_pool.hpp"
 
 namespace salebra::parallel {
@@ -52,7 +53,17 @@ Index block_count(Index rows) { return (rows + block_rows(rows) - 1) / block_row
 
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index work) {
   if (rows == 0) return;
-  if (work < least_parallel_work || threads() == 1) return body(0, rows);
+  detail::StopCheck* const check = detail::StopCheck::current();
+  if (work < least_parallel_work || (threads() == 1 && !check)) return body(0, rows);
+  if (threads() == 1) {
+    // Slabs, so that the thread looks now and then whether to stop.
+    const Index slabs = std::min(rows, Index{64});
+    for (Index slab = 0; slab < slabs; ++slab) {
+      detail::stop_if_asked();
+      body(rows * slab / slabs, rows * (slab + 1) / slabs);
+    }
+    return;
+  }
   if (omp_in_parallel()) {
     if (work < least_shared_work || !detail::share_slabs(rows, slabs_per_thread, body))
       body(0, rows);
@@ -68,6 +79,8 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
   for (Index slab = 0; slab < slabs; ++slab) {
     const double before = report ? detail::thread_seconds() : 0;
     try {
+      const detail::StopCheck::Shared shared(check);
+      detail::stop_if_asked();
       body(rows * slab / slabs, rows * (slab + 1) / slabs);
     } catch (...) {  // an exception must not leave an OpenMP region
       const std::scoped_lock lock(failure_guard);

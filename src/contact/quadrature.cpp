@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/quiet_gsl.hpp"
+#include "base/stop_check.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -31,6 +32,7 @@ struct Guarded {
     auto& guarded = *static_cast<Guarded*>(self);
     if (guarded.failure) return 0;
     try {
+      stop_if_asked();
       return guarded.f(x);
     } catch (...) {
       guarded.failure = std::current_exception();
@@ -79,6 +81,7 @@ double find_root(const std::function<double(double)>& f, double low, double high
     throw NotConverged("find_root: the function does not change sign over the interval");
   double fraction = 0.5;
   for (int step = 0; step < 400; ++step) {
+    stop_if_asked();
     const double trial = best + fraction * (bound - best);
     const double f_trial = f(trial);
     if (std::signbit(f_trial) == std::signbit(f_best)) {

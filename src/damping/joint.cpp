@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop_check.hpp"
 #include "contact/quadrature.hpp"
 #include "joint_loop.hpp"
 #include "surface/refine.hpp"
@@ -177,6 +178,7 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
   for (int period = 0; period < most_periods; ++period) {
     const double lost = contact.dissipated(), slipped = contact.dissipated_in_permanent_contact();
     for (std::size_t i = 0; i < level.size(); ++i) {
+      detail::stop_if_asked();
       constexpr std::size_t interval = 1 << 8;
       if (i % interval == interval - 1 && on_progress &&
           !on_progress(

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <variant>
 
+#include "base/stop_check.hpp"
 #include "mean_rise.hpp"
 #include "phase_quadrature.hpp"
 
@@ -104,6 +105,7 @@ double LevelLoss::followed(double level, double half, int periods) const {
   };
   double work = 0, stretch = 0;
   for (int period = 0; period < periods; ++period) {
+    detail::stop_if_asked();
     work = 0;
     double x = displacement(-half), limit = limit_at(-half);
     for (int i = 1; i <= steps; ++i) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/special_values.hpp"
+#include "base/stop_check.hpp"
 
 namespace salebra {
 namespace {
@@ -115,6 +116,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
     const double slip_before = contact.dissipated_in_permanent_contact();
     double x = origin;
     for (std::size_t step = 0; step < count; ++step) {
+      detail::stop_if_asked();
       constexpr std::size_t interval = 1 << 12;
       if (step % interval == interval - 1 && options.on_progress &&
           !options.on_progress(

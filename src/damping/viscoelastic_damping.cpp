@@ -10,6 +10,7 @@
 #include <salebra/damping/viscoelastic_damping.hpp>
 
 #include "base/loop_progress.hpp"
+#include "base/stop_check.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
 #include "surface/dense_systems.hpp"
 
@@ -60,6 +61,7 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
     stay = 0;
   };
   for (std::size_t step = 0; step < path.steps(); ++step) {
+    detail::stop_if_asked();
     state.advance(path, step, [&](bool closed, double share, double work) {
       if (closed != stays_closed) end_of_stay();
       stays_closed = closed;

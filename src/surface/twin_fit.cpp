@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "base/stop_check.hpp"
+
 namespace salebra::twin_detail {
 namespace {
 
@@ -87,6 +89,7 @@ TwinFit minimised(const TwinModel& model, Eigen::VectorXd start, const std::vect
     bool moved = false;
     double gained = 0;
     while (damping < 1e9) {
+      detail::stop_if_asked();
       Eigen::MatrixXd damped = curvature;
       damped.diagonal().array() += damping * (curvature.diagonal().array() + 1e-3);
       const Eigen::VectorXd step = Eigen::LDLT<Eigen::MatrixXd>(damped).solve(gradient(free));

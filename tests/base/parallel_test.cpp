@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -13,6 +14,7 @@
 
 #include "base/loop_progress.hpp"
 #include "base/region_report.hpp"
+#include "base/stop_check.hpp"
 
 using namespace salebra;
 
@@ -137,6 +139,31 @@ TEST_CASE("A parallel loop tells its progress from one thread and ends when that
     LoopProgress silent(none, "loop", 1);
     CHECK(silent.advance());
     silent.finish();
+  }
+  parallel::set_threads(0);
+}
+
+TEST_CASE("Loops end soon after their caller wants to stop, in every thread that takes part",
+          "[parallel]") {
+  for (const int threads : {1, 2}) {
+    parallel::set_threads(threads);
+    std::atomic<bool> stop = false;
+    std::atomic<int> slabs = 0;
+    const auto loop = [&] {
+      parallel::for_slabs(1000, [&](Index, Index) {
+        ++slabs;
+        stop = true;
+        // Longer than the 20 ms between two looks: the next slab of the calling thread is the last.
+        std::this_thread::sleep_for(std::chrono::milliseconds(30));
+      });
+    };
+    {
+      const salebra::detail::StopCheck check([&] { return stop.load(); });
+      CHECK_THROWS_AS(loop(), Interrupted);
+    }
+    // Each thread begins one slab or two before the calling one has looked.
+    CHECK(slabs <= 3 * threads);
+    CHECK_NOTHROW(salebra::detail::stop_if_asked());
   }
   parallel::set_threads(0);
 }

@@ -150,11 +150,25 @@ LONG = {
         tolerance=0.0, progress=tell)""",
     "curve_at_pressures": "salebra.curve_at_pressures(interacting(), [1e4 * 1.1**k for k in range(100)], progress=tell)",
     "at": "[model.at(0.0) for model in [interacting()] for k in range(1000000)]",
+    # What reports no progress, or none within an item.
+    "damping_curve": "salebra.damping_curve(law, [salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=1e5)] * 300000, force=1.0)",
+    "premises_of": "[salebra.damping_curve(law, [motion], force=1.0)[0].premises for k in range(1000000)]",
+    "regime_map": "salebra.regime_map(law, 0.0, 1e-9, 1e5, [k * 1e-6 for k in range(1, 4000)], [k * 1e-9 for k in range(1, 4000)], friction_coefficient=0.3)",
+    "monte_carlo_curve": "salebra.monte_carlo_curve(ensemble, material, 1e-6, [1e-8 * k for k in range(20)], realisations=100000)",
+    "curve_at_separations": "salebra.curve_at_separations(deterministic, [1e-12 * k - 1e-7 for k in range(60000)])",
+    "fit of a twin": "twin.fit(draws=1000000)",
+    "trajectory_damping": "salebra.trajectory_damping(law, salebra.sample(motion, 0.0, 2000000), friction_coefficient=0.3)",
+    "joint_loss": """salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=1e-8, force=1.0, normal_amplitude=1e-8,
+        steps=2000000)""",
+    "threshold_amplitude": """salebra.threshold_amplitude(law, slider, friction_coefficient=0.3, angular_frequency=1.2e5, largest_amplitude=2e-8,
+        force=0.02, steps=100000)""",
+    "viscoelastic_damping": "salebra.viscoelastic_damping(indenter, prony, salebra.sample(motion, 5e-7, 20000))",
+    "areal_parameters": "salebra.areal_parameters(salebra.Surface(numpy.random.default_rng(0).normal(size=(3072, 3072)) * 1e-9, 1e-3, 1e-3))",
 }
 
 
 @pytest.mark.parametrize("name", LONG)
-def test_ctrl_c_leaves_a_generator_and_interacting_summits(name: str) -> None:
+def test_ctrl_c_leaves_whatever_takes_long(name: str) -> None:
     program = (
         textwrap.dedent(
             """
@@ -169,6 +183,20 @@ def test_ctrl_c_leaves_a_generator_and_interacting_summits(name: str) -> None:
                 summits = salebra.draw_summits(ensemble, 50000, 1e-3, 1)
                 grid = salebra.Grid2D(4, 4, 1e-3, 1e-3)
                 return salebra.InteractingSummits(summits, salebra.Material(1e11, poisson=0.3), grid)
+
+            import numpy
+            law = salebra.ExponentialLaw(1.0, 1e-7, 0.8)
+            motion = salebra.EqualFrequency(normal_amplitude=1e-8, tangential_amplitude=1e-7, phase=1.0, angular_frequency=1e3)
+            material = salebra.Material(1e11, poisson=0.3)
+            ensemble = salebra.SummitEnsemble(summit_density=5e10, radius=1e-6, summit_rms=1e-7)
+            deterministic = salebra.DeterministicSummits(salebra.draw_summits(ensemble, 50000, 1e-3, 1), material, 1e-6)
+            slider = salebra.Slider(mass=0.01, spring_stiffness=1e3, velocity=5e-5, falling_slope=1.0)
+            indenter = salebra.IndenterLaw(salebra.sphere_profile(1e-2), salebra.Material(1e6, poisson=0.3))
+            prony = salebra.PronySeries(1e6, [(1e6, 1e-3), (1e6, 1e-2)])
+            scan = salebra.random_phase(
+                salebra.Grid2D(128, 128, 1e-4, 1e-4),
+                salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2e-5, short_cutoff=3e-6, rms_height=2e-7), 1)
+            twin = salebra.SurfaceTwin([salebra.scan_spectrum(scan, "ideal")])
 
             fractions = [0.0]
             def tell(report):
@@ -329,7 +357,9 @@ def test_pictures_have_labels_with_units(surface: salebra.Surface, material: sal
     matplotlib.use("agg")
     curve = salebra.sweep_pressures(surface, material, np.geomspace(1e5, 1e6, 4))
     axes = curve.plot()
-    assert axes.get_xlabel() == "mean gap ū (µm)"
+    axes.figure.canvas.draw()
+    assert axes.get_xlabel() == "mean gap ū"
+    assert {text.get_text()[-2:] for text in axes.get_xticklabels()} == {"µm"}
     assert axes.get_yscale() == "log"
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), material)
     motion = salebra.EqualFrequency(normal_amplitude=1e-7, tangential_amplitude=1e-7, phase=1.5)
@@ -337,6 +367,58 @@ def test_pictures_have_labels_with_units(surface: salebra.Surface, material: sal
     drawn = [surface, salebra.press(surface, 1e9, pressure=1e5), stresses, salebra.profile_psd(surface)]
     for result in drawn:
         assert result.plot().get_xlabel()
+
+
+def test_curves_on_one_pair_of_axes_have_one_scale() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    # A thousand times apart: each would get a prefix of its own.
+    small, large = (salebra.Surface(generated().heights * factor, 1e-3, 1e-3) for factor in (1e-3, 1.0))
+    axes = salebra.height_histogram(salebra.BearingCurve(small)).plot()
+    assert salebra.height_histogram(salebra.BearingCurve(large)).plot(ax=axes) is axes
+    for surface, line in zip((small, large), axes.get_lines()):
+        heights = np.asarray(line.get_xdata())
+        # The classes cover the heights.
+        assert np.ptp(heights) == pytest.approx(np.ptp(surface.heights), rel=0.1)
+    curve = salebra.ForceCurve(pressure=[1e5, 2e5, 4e5], mean_gap=[3e-6, 2e-6, 1e-6], nominal_area=1e-6)
+    drawn = curve.plot(fit=False).get_lines()[0]
+    assert np.array_equal(drawn.get_xdata(), curve.mean_gap) and np.array_equal(drawn.get_ydata(), curve.pressure)
+
+
+def test_tension_is_drawn() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    curve = salebra.ForceCurve(pressure=[-2e5, -1e5, 1e5], mean_gap=[3e-6, 2e-6, 1e-6], nominal_area=1e-6)
+    axes = curve.plot()
+    assert axes.get_yscale() == "linear"
+    assert axes.get_ylim()[0] < -2e5
+
+
+def test_the_array_of_a_dataset_remembers_that_the_surface_repeats_itself() -> None:
+    pytest.importorskip("xarray")
+    surface = generated()
+    heights = surface.to_xarray().heights
+    assert salebra.Surface(heights).periodic and not salebra.Surface(heights, periodic=False).periodic
+    assert not salebra.Surface(heights.isel(x=slice(0, 20))).periodic
+    assert not salebra.Surface(salebra.Surface(surface.heights, 1e-3, 1e-3).to_xarray().heights).periodic
+
+
+def test_help_shows_no_annotation_where_there_is_none() -> None:
+    assert "inspect" not in str(inspect.signature(salebra.ContactLaw.force))
+
+
+def test_equal_objects_have_equal_hashes() -> None:
+    def laws() -> list[object]:
+        curve = salebra.ForceCurve(pressure=[1e5, 2e5, 4e5, 8e5], mean_gap=[4e-6, 3e-6, 2e-6, 1e-6], nominal_area=1e-6)
+        return [
+            salebra.ExponentialLaw(1.0, 1e-7, 0.8), salebra.TabulatedLaw(curve, 0.8), salebra.paraboloid_profile(1e-2),
+            salebra.SelfAffineSpectrum(hurst=0.8, rolloff=2e-5, short_cutoff=3e-6, rms_height=2e-7),
+            salebra.TabulatedProfile(np.linspace(0, 1, 9), np.linspace(0, 1, 9) ** 2), salebra.Material(1e9, poisson=0.3),
+        ]  # fmt: skip
+
+    for one, other in zip(laws(), laws()):
+        assert one == other and hash(one) == hash(other), one
+    assert len({salebra.ExponentialLaw(1.0, length, 0.8) for length in (1e-7, 2e-7)}) == 2
 
 
 def test_a_signal_handler_of_the_user_runs_during_a_solve() -> None:

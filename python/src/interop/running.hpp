@@ -12,7 +12,11 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/progress.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
+
+#include "base/stop_check.hpp"
 
 /// How long calls run: other Python threads go on, Ctrl-C stops them within a second, and progress
 /// is told.
@@ -98,11 +102,19 @@ Progress signals();
 /// A UserWarning where the user called; throws what a filter of warnings makes of it.
 void warn_user(const std::string& text);
 
-/// work() without the interpreter's lock, for what takes seconds and cannot be stopped.
+/// work() without the interpreter's lock, for what reports no progress. Ctrl-C stops its loops, which
+/// ask stop_if_asked(), and is raised.
 template <class Work>
 auto unlocked(Work&& work) {
-  nb::gil_scoped_release release;
-  return std::forward<Work>(work)();
+  return interruptible({}, [&](const Progress& progress) {
+    const detail::StopCheck check([&] { return !progress({}); });
+    if constexpr (std::is_void_v<decltype(work())>) {
+      std::forward<Work>(work)();
+      return std::monostate();
+    } else {
+      return std::forward<Work>(work)();
+    }
+  });
 }
 
 }  // namespace salebra::python

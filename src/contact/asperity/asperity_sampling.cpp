@@ -11,6 +11,7 @@
 #include <salebra/contact/asperity/asperity_sampling.hpp>
 
 #include "base/random.hpp"
+#include "base/stop_check.hpp"
 #include "height_density.hpp"
 
 namespace salebra {
@@ -72,21 +73,24 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
       static_cast<std::size_t>(options.realisations));
   parallel::for_slabs(options.realisations, [&](Index begin, Index end) {
     for (Index realisation = begin; realisation < end; ++realisation) {
+      detail::stop_if_asked();
       const DeterministicSummits drawn(
           draw_summits(ensemble, result.summits, std::sqrt(nominal_area), options.seed,
                        static_cast<int>(realisation)),
           material, nominal_area);
       // DeterministicSummits counts from the mean of the drawn heights, the ensemble from z = 0.
-      for (const double separation : descending)
+      for (const double separation : descending) {
+        detail::stop_if_asked();
         contacts[static_cast<std::size_t>(realisation)].push_back(
             drawn.at(separation - drawn.common().mean_height));
+      }
     }
   });
 
   const double count = options.realisations;
   for (std::size_t i = 0; i < descending.size(); ++i) {
     AsperityContact mean, deviation;
-    for_each_member<AsperityContact>([&]<class Member>(Member AsperityContact::*sum) {
+    for_each_member<AsperityContact>([&]<class Member>(Member AsperityContact::* sum) {
       if constexpr (std::is_same_v<Member, double>) {
         for (const auto& contact : contacts) mean.*sum += contact[i].*sum / count;
         for (const auto& contact : contacts) {

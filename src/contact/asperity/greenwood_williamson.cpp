@@ -8,6 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 
+#include "base/stop_check.hpp"
 #include "contact/quadrature.hpp"
 #include "given_summits.hpp"
 #include "height_density.hpp"
@@ -131,6 +132,7 @@ std::vector<double> DeterministicSummits::break_separations() const {
 }
 
 AsperityContact DeterministicSummits::at(double separation) const {
+  detail::stop_if_asked();
   AsperityContact sum;
   const double modulus = common().material.contact_modulus;
   for (const Cap& cap : caps_) {
@@ -196,6 +198,7 @@ GreenwoodWilliamsonLaw::GreenwoodWilliamsonLaw(const SummitEnsemble& ensemble,
           std::make_shared<StatisticalSummits>(ensemble, material, nominal_area)) {}
 
 double GreenwoodWilliamsonLaw::separation(double indentation) const {
+  detail::stop_if_asked();
   return model_->common().first_touch - indentation;
 }
 

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "base/stop_check.hpp"
 #include "contact/hermite.hpp"
 
 namespace salebra {
@@ -43,14 +44,17 @@ PowerLaw::PowerLaw(double coefficient, double exponent, double modulus_ratio)
 }
 
 double PowerLaw::force(double indentation) const {
+  detail::stop_if_asked();
   return indentation > 0 ? coefficient_ * std::pow(indentation, exponent_) : 0;
 }
 
 double PowerLaw::normal_stiffness(double indentation) const {
+  detail::stop_if_asked();
   return indentation > 0 ? coefficient_ * exponent_ * std::pow(indentation, exponent_ - 1) : 0;
 }
 
 double PowerLaw::force_curvature(double indentation) const {
+  detail::stop_if_asked();
   return indentation > 0
              ? coefficient_ * exponent_ * (exponent_ - 1) * std::pow(indentation, exponent_ - 2)
              : 0;
@@ -68,6 +72,7 @@ ExponentialLaw::ExponentialLaw(double reference_force, double decay_length, doub
 }
 
 double ExponentialLaw::force(double indentation) const {
+  detail::stop_if_asked();
   return reference_force_ * std::exp(indentation / decay_length_);
 }
 
@@ -97,6 +102,7 @@ struct TabulatedLaw::Splines {
   std::unique_ptr<const detail::MonotoneHermite> log_tangential_stiffness;  // null: (G*/E*)K
 
   double clamp(double indentation) const {
+    detail::stop_if_asked();
     // Round-off in δ0 ± u_z must not turn a sweep over the whole table into an error.
     const double low = log_force.front(), high = log_force.back(), slack = 1e-12 * (high - low);
     if (!(indentation >= low - slack && indentation <= high + slack)) {
@@ -149,7 +155,7 @@ std::vector<Column> usable_samples(const ForceCurve& curve) {
   return columns;
 }
 
-bool known(const std::vector<Column>& columns, double Column::*quantity) {
+bool known(const std::vector<Column>& columns, double Column::* quantity) {
   return std::ranges::all_of(columns, [&](const Column& column) {
     return std::isfinite(column.*quantity) && column.*quantity > 0;
   });

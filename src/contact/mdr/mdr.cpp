@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/special_values.hpp"
+#include "base/stop_check.hpp"
 #include "contact/quadrature.hpp"
 
 namespace salebra {
@@ -94,6 +95,7 @@ IndenterLaw::IndenterLaw(std::shared_ptr<const IndenterProfile> profile, const M
 }
 
 double IndenterLaw::contact_radius(double indentation) const {
+  detail::stop_if_asked();
   return indentation > 0 ? profile_->contact_radius(indentation) : 0;
 }
 

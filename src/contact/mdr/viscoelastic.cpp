@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/stop_check.hpp"
 #include "surface/dense_systems.hpp"
 #include "viscoelastic_spring.hpp"
 
@@ -138,6 +139,7 @@ ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const P
     detail::NormalSpring state(spring, cell.level);
     state.start(indentation[0], detail::Branches::Zero(spring.terms()));
     for (std::size_t i = 0; i < samples; ++i) {
+      detail::stop_if_asked();
       if (i > 0) state.advance(path, i - 1, [](bool, double, double) {});
       result.force[i] += 2 * law.contact_modulus() * cell.width * state.force(indentation[i]);
       const double inner = inner_clearance[i], clearance = state.clearance(indentation[i]);
