@@ -27,17 +27,35 @@ DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>
   return {hold.value("hold"), amplitude.value("amplitude"), tolerance, {}};
 }
 
-/// The premises of an answer, of a law made of `curve` if there is one.
-Premises judged(const ContactLaw& law, const Motion& motion, double indentation,
-                const ContactFacts& facts, const ForceCurve* curve) {
-  return with_motion(motion, [&](const auto& one) {
-    return premises_of(law, indentation, one, at_state(facts, law, curve, indentation));
-  });
+/// An answer whose premises are still to be judged, of a law made of `curve` if there is one. Facts
+/// that cannot be are refused now. Called with the interpreter's lock.
+BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, const Motion& motion,
+                          const ContactFacts* facts, const ForceCurve* curve) {
+  const ContactFacts all = at_state(known(facts), law, curve, result.indentation);
+  // The object keeps the law.
+  return {result, {}, [&law, kept = nb::find(law), motion, indentation = result.indentation, all] {
+            return unlocked([&] {
+              return with_motion(
+                  motion, [&](const auto& one) { return premises_of(law, indentation, one, all); });
+            });
+          }};
 }
 
 void bind_damping_result(nb::module_& m) {
-  described_class<BoundDamping>(
+  nb::class_<BoundDamping> bound(
       m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.");
+  describe([&](auto member, const auto& line) { described_property(bound, member, line); },
+           std::type_identity<DampingResult>{});
+  bound.def_prop_ro(
+      "premises", [](const BoundDamping& self) { return self.judged().premises; },
+      "whether the contact may be taken for one without slip, yielding and inertia; None where "
+      "they "
+      "were not asked for.");
+  value_methods(
+      bound, [](const BoundDamping& self) { return self.judged(); },
+      [](BoundDamping* self, JudgedDamping&& value) {
+        new (self) BoundDamping{value, std::move(value.premises), {}};
+      });
 }
 
 void bind_theorem(nb::module_& m) {
@@ -49,12 +67,12 @@ void bind_theorem(nb::module_& m) {
         cite({"popov2015"});
         const Position position = position_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
-        return unlocked([&] {
-          const DampingResult result = with_motion(motion, [&](const auto& one) {
+        const DampingResult result = unlocked([&] {
+          return with_motion(motion, [&](const auto& one) {
             return relaxation_damping(law, position, one, options);
           });
-          return BoundDamping{result, judged(law, motion, result.indentation, known(facts), curve)};
         });
+        return to_be_judged(result, law, motion, facts, curve);
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
@@ -91,7 +109,7 @@ facts : ContactFacts, optional
 curve : ForceCurve, optional
     The curve that the law is made of; says pressures and size.
 
-The result's `premises` cost about 10 ms.
+The result's `premises` are judged when they are read first, which takes about 10 ms.
 
 Raises
 ------
@@ -121,18 +139,20 @@ InvalidInput
                            motions[motions.size() == 1 ? 0 : i]});
         }
         DampingOptions options = damping_options(hold, amplitude, tolerance);
-        return interruptible(progress, [&](Progress told) {
+        const std::vector<DampingResult> results = interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          std::vector<BoundDamping> answers;
-          for (const DampingResult& result : relaxation_damping(law, cases, options))
-            answers.push_back({result, {}});
-          if (premises)
-            for (std::size_t i = 0; i < count; ++i)
-              answers[i].premises =
-                  premises_of(law, answers[i].indentation, cases[i].motion,
-                              at_state(known(facts), law, curve, answers[i].indentation));
-          return answers;
+          const detail::StopCheck check([&] { return !options.on_progress({"damping"}); });
+          return relaxation_damping(law, cases, options);
         });
+        std::vector<BoundDamping> answers;
+        for (std::size_t i = 0; i < count; ++i)
+          answers.push_back(
+              premises ? to_be_judged(results[i], law,
+                                      std::visit([](const auto& one) -> Motion { return one; },
+                                                 cases[i].motion),
+                                      facts, curve)
+                       : BoundDamping{results[i], {}, {}});
+        return answers;
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
@@ -140,7 +160,7 @@ InvalidInput
       nb::arg("curve") = nb::none(), nb::arg("premises") = true, nb::arg("progress") = false,
       R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of positions, or both of one length.
 
-`premises=False` leaves the premises out, which take some 10 ms of each case.
+`premises=False` leaves the premises out. Otherwise each result judges its own when they are read first.
 
 Returns
 -------
@@ -155,18 +175,18 @@ list of DampingResult
         cite({"popov2015"});
         const DampingOptions options{.amplitude = amplitude.value("amplitude"),
                                      .tolerance = tolerance};
-        return unlocked([&] {
-          const DampingResult result = with_motion(motion, [&](const auto& one) {
+        const DampingResult result = unlocked([&] {
+          return with_motion(motion, [&](const auto& one) {
             return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
                                                        options);
           });
-          // The normal oscillation has the amplitude that the stiffness makes of the force's.
-          Motion moved = motion;
-          std::visit(
-              [&](auto& one) { one.normal_amplitude = force_amplitude / result.normal_stiffness; },
-              moved);
-          return BoundDamping{result, judged(law, moved, result.indentation, known(facts), curve)};
         });
+        // The normal oscillation has the amplitude that the stiffness makes of the force's.
+        Motion moved = motion;
+        std::visit(
+            [&](auto& one) { one.normal_amplitude = force_amplitude / result.normal_stiffness; },
+            moved);
+        return to_be_judged(result, law, moved, facts, curve);
       },
       nb::arg("law"), nb::arg("mean_force"), nb::arg("force_amplitude"), nb::arg("motion"),
       nb::kw_only(), nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,

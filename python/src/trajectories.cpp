@@ -140,6 +140,11 @@ levels : LawLevels
       .def(
           "copy", [](const ContactElement& self) { return ContactElement(self); },
           "A state to come back to.")
+      .def("__copy__", [](const ContactElement& self) { return ContactElement(self); })
+      .def(
+          "__deepcopy__",
+          [](const ContactElement& self, nb::handle) { return ContactElement(self); },
+          nb::arg("memo"))
       .def("start", &ContactElement::start, nb::arg("indentation"), nb::arg("x") = 0.0,
            nb::arg("y") = 0.0, "Puts the body down, all springs free of stress.")
       .def("forces", &ContactElement::forces, nb::arg("indentation"), nb::arg("x"),

@@ -737,6 +737,7 @@ const ForceSample& nearest_load(const ForceCurve& curve, double force) {
 
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
                       double indentation) {
+  check(facts);
   const double force = law.force(indentation);
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && force > 0) {
     const double radius = indenter->contact_radius(indentation);

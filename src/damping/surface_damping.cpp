@@ -532,6 +532,14 @@ Surface windowed(Surface surface) {
 
 void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
   require(!curve.samples.empty(), "curve", 0, "loads; compute at least one");
+  for (const auto& [column, name] : {std::pair{&ForceSample::force, "force"},
+                                     {&ForceSample::normal_stiffness, "normal_stiffness"}})
+    require_that(std::ranges::any_of(
+                     curve.samples, [&](double value) { return std::isfinite(value); }, column),
+                 "curve",
+                 std::string("has no ") + name +
+                     ", which says how far the oscillation reaches; sweep the surface with "
+                     "`stiffness`");
   require(allowed_levels(options.levels), "levels", options.levels, "must be 4, 8, 16 or 32");
   require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
           "must lie in 0 … 4");

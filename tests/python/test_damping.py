@@ -3,6 +3,10 @@
 
 from __future__ import annotations
 
+import time
+import pickle
+import gc
+import copy
 import math
 import re
 from collections.abc import Callable
@@ -445,3 +449,46 @@ def test_an_oscillation_stops_the_stick_slip_of_a_slider() -> None:
             law, salebra.Slider(mass=0, spring_stiffness=1, velocity=1), friction_coefficient=0.3, force=0.02)
     with pytest.raises(salebra.InvalidInput, match="start: 'walking' is none of rest, sliding"):
         salebra.slider_motion(law, slider, friction_coefficient=0.3, force=0.02, start="walking")  # type: ignore[arg-type]
+
+
+def test_premises_are_judged_when_they_are_read() -> None:
+    law = salebra.ExponentialLaw(1.0, 1e-7, 0.8)
+    motion = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=1e5)
+    facts = salebra.ContactFacts(friction_coefficient=0.3)
+
+    def seconds(count: int, read: bool) -> float:
+        start = time.process_time()
+        for _ in range(count):
+            result = salebra.relaxation_damping(law, motion, force=1.0, facts=facts)
+            if read:
+                assert result.premises is not None
+        return (time.process_time() - start) / count
+
+    # The constant takes microseconds, the premises milliseconds: a factor of 100, of which 5 is left to a busy machine.
+    assert seconds(100, read=False) < seconds(5, read=True) / 5
+    result = salebra.relaxation_damping(law, motion, force=1.0, facts=facts)
+    expected = salebra.premises_of(law, motion, force=1.0, facts=facts)
+    law = None  # type: ignore[assignment]  # the result keeps it
+    gc.collect()
+    assert result.premises == expected and pickle.loads(pickle.dumps(result)) == result
+    with pytest.raises(salebra.InvalidInput, match="hardness: -1 must be a finite number > 0"):
+        salebra.relaxation_damping(salebra.ExponentialLaw(1.0, 1e-7, 0.8), motion, force=1.0, facts=salebra.ContactFacts(hardness=-1.0))
+
+
+def test_a_curve_without_stiffness_is_refused(surface: salebra.Surface, material: salebra.Material) -> None:
+    motion = salebra.EqualFrequency(normal_amplitude=1e-9, tangential_amplitude=1e-9, phase=1.5)
+    for curve, missing in (
+        (salebra.sweep_pressures(surface, material, [1e5, 2e5], stiffness=False), "normal_stiffness"),
+        (salebra.ForceCurve(pressure=[1e5, 2e5], mean_gap=[2e-6, 1e-6], nominal_area=1e-6), "force|normal_stiffness"),
+    ):
+        with pytest.raises(salebra.InvalidInput, match=f"curve: has no ({missing})"):
+            salebra.surface_damping(surface, material, motion, curve)
+
+
+def test_an_element_can_be_copied() -> None:
+    element = salebra.ContactElement(salebra.LawLevels(salebra.ExponentialLaw(1.0, 1e-7, 0.8), -1e-7, 1e-7, friction_coefficient=0.3))
+    element.start(0.0)
+    element.move_to(0.0, 1e-9)
+    for copied in (copy.copy(element), copy.deepcopy(element)):
+        copied.move_to(0.0, 5e-9)
+        assert not np.array_equal(copied.state, element.state)

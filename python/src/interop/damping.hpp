@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
@@ -9,16 +10,30 @@
 namespace salebra::python {
 
 /// A damping constant with the premises behind it.
-struct BoundDamping : DampingResult {
+struct JudgedDamping : DampingResult {
   std::optional<Premises> premises;
 };
 
-constexpr void describe(auto&& visit, std::type_identity<BoundDamping>) {
+constexpr void describe(auto&& visit, std::type_identity<JudgedDamping>) {
   describe(visit, std::type_identity<DampingResult>{});
-  visit(&BoundDamping::premises, Kept{"premises",
-                                      "whether the contact may be taken for one without slip, "
-                                      "yielding and inertia; None where they were not asked for"});
+  visit(&JudgedDamping::premises, Kept{"premises",
+                                       "whether the contact may be taken for one without slip, "
+                                       "yielding and inertia; None where they were not asked for"});
 }
+
+/// The same as Python knows it. The premises take far longer than the constant and are therefore
+/// judged when they are read for the first time.
+struct BoundDamping : DampingResult {
+  mutable std::optional<Premises> premises;
+  mutable std::function<Premises()>
+      judge;  ///< empty: the premises are known, or were not asked for
+
+  JudgedDamping judged() const {
+    if (judge) premises = judge();
+    judge = nullptr;
+    return {*this, premises};
+  }
+};
 
 inline ContactFacts known(const ContactFacts* facts) { return facts ? *facts : ContactFacts{}; }
 
