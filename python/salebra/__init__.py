@@ -12,7 +12,7 @@ scripts need.
 """
 
 import difflib as _difflib
-from typing import TYPE_CHECKING as _TYPE_CHECKING
+import typing as _typing
 
 from . import _waiting as _waiting  # isort: skip  (before anything that loads the extension)
 from . import _calls as _calls
@@ -57,7 +57,7 @@ def __dir__() -> list[str]:
     return sorted([*modules, *_COMMON, "__version__", "__doc__", "__name__", "__file__", "__path__"])
 
 
-if not _TYPE_CHECKING:  # where a type checker would take it for every name
+if not _typing.TYPE_CHECKING:  # type checkers, which know this name and no alias, would take it for every name
 
     def __getattr__(name: str) -> object:
         names = [] if name.startswith("_") else [key for key in globals() if not key.startswith("_")]

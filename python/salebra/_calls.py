@@ -53,6 +53,18 @@ _LIKE = {
     "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
     "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
     "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius", "resolution": "size_x", "noise": "rms_height",
+    "resistivity_1": "resistivity", "resistivity_2": "resistivity", "conductivity_1": "conductivity", "conductivity_2": "conductivity",
+    "work": "work_of_adhesion", "power": "moment0", "densities": "psd",
+    "reference_force": "force", "smallest_force": "force", "first_load": "force",
+    "nominal_pressure": "pressure", "largest_pressure": "pressure", "mean_contact_pressure": "pressure", "pressure_window": "pressure",
+    "loaded_size": "size_x", "size": "size_x", "edge_radius": "contact_radius", "flat_radius": "contact_radius", "radii": "contact_radius",
+    "radius_x": "contact_radius", "radius_y": "contact_radius", "semi_x": "contact_radius", "semi_y": "contact_radius",
+    "semi_z": "contact_radius", "r": "contact_radius", "center": "size_x", "shift": "size_x", "x0": "size_x", "x1": "size_x", "y0": "size_x", "y1": "size_x",
+    "depth": "height", "mean_plane": "height", "min_prominence": "height", "start": "height", "stop": "height", "target": "rms_height",
+    "range": "gap", "tangential_range": "displacement", "largest_amplitude": "normal_amplitude", "velocities": "velocity",
+    "q": "wavenumber", "qx": "wavenumber", "qy": "wavenumber", "direction": "phase", "checkpoint_every": "time",
+    "normal_angular_frequency": "angular_frequency", "tangential_angular_frequency": "angular_frequency",
+    "largest_angular_frequency": "angular_frequency", "angular_frequencies": "angular_frequency",
     "frequency": "threshold_frequency", "pixel_size": "size_x", "crop": "size_x", "duration": "time", "correlation_length": "rolloff", "force_amplitude": "force", "transverse": "displacement",
 }  # fmt: skip
 # Arrays over the grid; every other array has one dimension.
@@ -87,8 +99,12 @@ def _signature(text: str, _documentation: str | None, *defaults: Any) -> inspect
     code = compile(re.sub(r"def \w+\(", "def _(", source), "<signature>", "exec", flags=__future__.annotations.compiler_flag)
     exec(code, names)  # of the extension's own text
     bare = inspect.signature(names["_"])
-    parameters = [value.replace(annotation=_Annotation(value.annotation)) for value in bare.parameters.values()]
-    return bare.replace(parameters=parameters, return_annotation=_Annotation(bare.return_annotation))
+    parameters = [value.replace(annotation=_annotation(value.annotation)) for value in bare.parameters.values()]
+    return bare.replace(parameters=parameters, return_annotation=_annotation(bare.return_annotation))
+
+
+def _annotation(text: Any) -> Any:
+    return text if text is inspect.Parameter.empty else _Annotation(text)
 
 
 def _without_self(signature: inspect.Signature) -> inspect.Signature:
@@ -194,20 +210,42 @@ def _fits(part: str, value: Any) -> bool:
     return not isinstance(kind, type) or isinstance(value, kind)
 
 
-def _number(text: str, argument: str) -> float:
+def _like(argument: str) -> str:
+    """The quantity whose units an argument has."""
     like = _LIKE.get(argument, "contact_modulus" if argument == "material" else argument)
     if like.endswith("s") and _core.quantity(like)[1] == like:  # a list of what the quantity is
         like = like[:-1]
+    return like
+
+
+def _number(text: str, argument: str) -> float:
     try:
-        return float(_core.parse_quantity(text, like))
+        return float(_core.parse_quantity(text, _like(argument)))
     except _core.InvalidInput as error:
         demand = f"{error.constraint}; {error.remedy}" if error.remedy else error.constraint
         raise refusal(argument, error.value, demand) from None
 
 
+def _has_unit(value: Any) -> bool:
+    """Whether a value is a quantity of pint or of astropy."""
+    return hasattr(value, "to") and (hasattr(value, "units") or hasattr(value, "unit"))
+
+
+def _in_si(quantity: Any, argument: str) -> Any:
+    """The number, or the array, of a quantity of pint or of astropy."""
+    unit = _core.quantity(_like(argument))[0]
+    try:
+        converted = quantity.to("" if unit == "1" else unit.replace(" ", "*"))
+    except Exception as error:  # of the other library
+        raise refusal(argument, str(quantity), f"is not in {unit}: {error}") from None
+    return converted.magnitude if hasattr(converted, "magnitude") else converted.value
+
+
 def _from_text(value: Any, argument: str, annotation: str) -> Any:
-    """The numbers of a text with a unit, or of a list of them, where numbers are wanted; else the value itself."""
+    """The numbers of a text or an object with a unit, or of a list of them, where numbers are wanted; else the value itself."""
     parts = _parts(annotation)
+    if _has_unit(value) and ("float" in parts or "numpy.typing.ArrayLike" in parts):
+        return _in_si(value, argument)
     if any(part == "str" or part.startswith("typing.Literal[") for part in parts):
         return value
     wants_array = "numpy.typing.ArrayLike" in parts or any(part.startswith(("tuple", "collections.abc.Sequence")) for part in parts)
@@ -216,8 +254,10 @@ def _from_text(value: Any, argument: str, annotation: str) -> Any:
             return _number(value, argument)
         if any(part.endswith("Material") for part in parts):
             return _core.Material(_number(value, argument))
-    if wants_array and isinstance(value, (list, tuple)) and any(isinstance(item, str) for item in value):
-        return type(value)(_number(item, argument) if isinstance(item, str) else item for item in value)
+    if wants_array and isinstance(value, (list, tuple)) and any(isinstance(item, str) or _has_unit(item) for item in value):
+        return type(value)(
+            _number(item, argument) if isinstance(item, str) else _in_si(item, argument) if _has_unit(item) else item for item in value
+        )
     return value
 
 
@@ -409,6 +449,10 @@ def _of_labelled(arguments: tuple[Any, ...], keywords: dict[str, Any]) -> tuple[
         if not np.allclose(steps, steps.mean(), rtol=1e-3, atol=0):
             raise refusal(f"heights.{axis}", "", "is not evenly spaced; interpolate the heights to a grid")
         named[f"size_{axis}"] = (steps.size + 1) * float(steps.mean()) * _metres(points, f"size_{axis}")
+    # As to_xarray() says of the whole surface: a part of it has another size and does not repeat itself.
+    whole = all(np.isclose(array.attrs.get(f"size_{axis}", math.nan), named.get(f"size_{axis}", math.nan)) for axis in "xy")
+    if whole and "periodic" in array.attrs:
+        named.setdefault("periodic", bool(array.attrs["periodic"]))
     named["heights"] = array.transpose("x", "y").values
     if "units" in array.attrs:
         factor = _metres(array, "heights")
@@ -495,6 +539,20 @@ def _hash(self: Any) -> int:
     return hash(self.__getstate__())
 
 
+def _hash_of_call(self: Any) -> int:
+    """The same for what _equal() calls equal. Arrays, lists and objects that have no hash count by their size alone."""
+    if "_call" not in self.__dict__:
+        return object.__hash__(self)
+
+    def digest(value: Any) -> int:
+        if isinstance(value, (np.ndarray, list, tuple, dict)) or type(value).__hash__ is None:
+            return int(np.size(value)) if not isinstance(value, dict) else len(value)
+        return hash(value)
+
+    name, arguments, keywords = self.__dict__["_call"]
+    return hash((name, *map(digest, arguments), *((key, digest(keywords[key])) for key in sorted(keywords))))
+
+
 _REMADE: tuple[type, ...] = (
     _core.ContactLaw, _core.AsperityModel, _core.Spectrum, _core.ProfileSpectrum, _core.HeightDistribution, _core.IndenterProfile,
     _core.PerssonTheory, _core.BearingCurve, _core.ContactLevels, _core.ResultReader,
@@ -524,7 +582,7 @@ def _answer_class(kind: Any) -> None:
     if issubclass(kind, _REMADE):
         kind.__reduce__ = _reduce
         kind.__eq__ = _equal
-        kind.__hash__ = object.__hash__
+        kind.__hash__ = _hash_of_call
     elif "__eq__" in own and "__hash__" not in own:
         kind.__hash__ = None if name in ("Surface", "NonGaussianSurface") else _hash
     if "__repr__" not in own and not (issubclass(kind, BaseException)):

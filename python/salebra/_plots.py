@@ -10,13 +10,14 @@ import numpy as np
 
 from . import _core
 from ._results import points
-from ._show import prefix_of
+from ._show import PREFIXED, shown, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
+    from matplotlib.ticker import Formatter
 
 # What stands along an axis, with its text and unit: values, or the attribute of a result or the function of it that has them.
 _Along = tuple[Any, str, str]
@@ -32,16 +33,15 @@ def _axes(ax: Axes | None) -> Axes:
     return plt.subplots(layout="constrained")[1]
 
 
-def _scale(values: npt.ArrayLike, unit: str) -> tuple[float, str]:
-    """Factor and unit with the SI prefix that suits the values."""
-    finite = np.abs(np.asarray(values, dtype=float))
-    finite = finite[np.isfinite(finite)]
-    exponent, prefix = prefix_of(float(finite.max()) if finite.size else 0.0, unit)
-    return 10.0**-exponent, prefix + unit
-
-
 def _label(text: str, unit: str) -> str:
-    return f"{text} ({unit})" if unit and unit != "1" else text
+    return text if unit in ("", "1") or unit in PREFIXED else f"{text} ({unit})"
+
+
+def _formatter(unit: str) -> Formatter | None:
+    """Data are drawn in SI units, so that curves share their axes; the numbers along the axis have prefix and unit, "2 µm"."""
+    from matplotlib.ticker import EngFormatter
+
+    return EngFormatter(unit) if unit in PREFIXED else None
 
 
 def _of(result: Any, along: _Along) -> _Along:
@@ -50,21 +50,23 @@ def _of(result: Any, along: _Along) -> _Along:
 
 
 def _name_axes(drawn: Axes, x: tuple[str, str], y: tuple[str, str], log: str) -> None:
-    drawn.set_xlabel(_label(*x))
-    drawn.set_ylabel(_label(*y))
     if "x" in log:
         drawn.set_xscale("log")
     if "y" in log:
         drawn.set_yscale("log")
+    for axis, (text, unit) in ((drawn.xaxis, x), (drawn.yaxis, y)):
+        axis.set_label_text(_label(text, unit))
+        formatter = _formatter(unit)
+        if formatter is not None:
+            axis.set_major_formatter(formatter)
 
 
 def _line(ax: Axes | None, x: _Along, y: _Along, log: str, keywords: dict[str, Any]) -> Axes:
     drawn = _axes(ax)
-    (x_values, x_text, x_unit), (y_values, y_text, y_unit) = x, y
-    x_factor, x_shown = _scale(x_values, x_unit)
-    y_factor, y_shown = _scale(y_values, y_unit)
-    drawn.plot(np.asarray(x_values) * x_factor, np.asarray(y_values) * y_factor, **keywords)
-    _name_axes(drawn, (x_text, x_shown), (y_text, y_shown), log)
+    # A logarithmic axis has no place for negative values, such as tension.
+    log = "".join(axis for axis, (values, _, _) in (("x", x), ("y", y)) if axis in log and not np.any(np.asarray(values) < 0))
+    drawn.plot(np.asarray(x[0]), np.asarray(y[0]), **keywords)
+    _name_axes(drawn, x[1:], y[1:], log)
     if "label" in keywords:
         drawn.legend()
     return drawn
@@ -73,19 +75,15 @@ def _line(ax: Axes | None, x: _Along, y: _Along, log: str, keywords: dict[str, A
 def _map(ax: Axes | None, x: _Along, y: _Along, z: _Along, log: str, keywords: dict[str, Any], equal: bool = False) -> Axes:
     """Colours over two axes; equal: a metre is as long along both."""
     drawn = _axes(ax)
-    (x_values, x_text, x_unit), (y_values, y_text, y_unit), (values, text, unit) = x, y, z
-    both = [*x_values, *y_values]
-    x_factor, x_shown = _scale(both if equal else x_values, x_unit)
-    y_factor, y_shown = _scale(both if equal else y_values, y_unit)
-    factor, shown = _scale(values, unit)
+    values, text, unit = z
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True} | keywords
-    mesh = drawn.pcolormesh(np.asarray(x_values) * x_factor, np.asarray(y_values) * y_factor, np.asarray(values).T * factor, **options)
+    mesh = drawn.pcolormesh(np.asarray(x[0]), np.asarray(y[0]), np.asarray(values).T, **options)
     if equal:
         drawn.set_aspect("equal")
-    _name_axes(drawn, (x_text, x_shown), (y_text, y_shown), log)
+    _name_axes(drawn, x[1:], y[1:], log)
     figure = drawn.get_figure()
     if figure is not None:
-        figure.colorbar(mesh, ax=drawn, label=_label(text, shown))
+        figure.colorbar(mesh, ax=drawn, label=_label(text, unit), format=_formatter(unit))
     return drawn
 
 
@@ -152,7 +150,7 @@ def _logarithm(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 def _shear_limits(result: _core.StressMap) -> dict[str, Any]:
     """Both singularities would take all the colour."""
     finite = np.abs(result.shear[np.isfinite(result.shear)])
-    limit = (float(np.quantile(finite, 0.99)) if finite.size else 1.0) * _scale(result.shear, "Pa")[0]
+    limit = float(np.quantile(finite, 0.99)) if finite.size else 1.0
     return {"cmap": "RdBu_r", "vmin": -limit, "vmax": limit}
 
 
@@ -221,11 +219,7 @@ def _(
             fit = False
     if isinstance(fit, _core.ExponentialFit):
         law = fit.reference_pressure * np.exp(-result.mean_gap / fit.decay_length)
-        factor, unit = _scale([fit.decay_length], "m")
-        drawn.plot(
-            result.mean_gap * _scale(result.mean_gap, "m")[0], law * _scale(result.pressure, "Pa")[0], "--",
-            label=f"exp(−ū/l), l = {fit.decay_length * factor:.4g} {unit}",
-        )  # fmt: skip
+        drawn.plot(result.mean_gap, law, "--", label=f"exp(−ū/l), l = {shown(fit.decay_length, 'm')}")
         drawn.legend()
     return drawn
 
@@ -243,11 +237,9 @@ def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axe
     """Pressure over mean gap of each model, means over the surfaces."""
     drawn = _axes(ax)
     every = [[mean.mean for mean in result.curve("mean_gap", model)] for model in result.models]
-    x_factor, x_shown = _scale(every, "m")
-    y_factor, y_shown = _scale(result.pressures, "Pa")
     for model, gap in zip(result.models, every):
-        drawn.plot(np.array(gap) * x_factor, result.pressures * y_factor, **({"marker": ".", "label": model} | keywords))
-    _name_axes(drawn, (_GAP[1], x_shown), (_PRESSURE[1], y_shown), "y")
+        drawn.plot(gap, result.pressures, **({"marker": ".", "label": model} | keywords))
+    _name_axes(drawn, _GAP[1:], _PRESSURE[1:], "y")
     drawn.legend()
     return drawn
 
@@ -256,17 +248,15 @@ def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axe
 def _(result: _core.StudyAnswer, ax: Axes | None = None, **keywords: Any) -> Axes:
     """Damping constant over pressure with its 95 % intervals, and that without slip."""
     drawn = _axes(ax)
-    x_factor, x_shown = _scale(result.pressures, "Pa")
     means = [[one.mean for one in row] for row in (result.damping_constant, result.damping_constant_without_slip)]
-    y_factor, y_shown = _scale(means, "N s/m")
     bars = np.array([[one.mean - one.low, one.high - one.mean] for one in result.damping_constant]).T
     drawn.errorbar(
-        result.pressures * x_factor, np.array(means[0]) * y_factor, bars * y_factor,
+        result.pressures, means[0], bars,
         **({"marker": ".", "label": "as described" if result.slip_followed else "without slip"} | keywords),
     )  # fmt: skip
     if result.slip_followed:
-        drawn.plot(result.pressures * x_factor, np.array(means[1]) * y_factor, "--", label="without slip")
-    _name_axes(drawn, (_PRESSURE[1], x_shown), ("damping constant γ", y_shown), "xy")
+        drawn.plot(result.pressures, means[1], "--", label="without slip")
+    _name_axes(drawn, _PRESSURE[1:], ("damping constant γ", "N s/m"), "xy")
     drawn.legend()
     return drawn
 
@@ -274,9 +264,8 @@ def _(result: _core.StudyAnswer, ax: Axes | None = None, **keywords: Any) -> Axe
 @plot.register(_core.SummitList)
 def _(result: _core.SummitList, ax: Axes | None = None, **keywords: Any) -> Axes:
     drawn = _axes(ax)
-    factor, shown = _scale(result.height, "m")
-    drawn.hist(result.height * factor, **({"bins": 40} | keywords))
-    _name_axes(drawn, ("height of the summit", shown), ("summits", "1"), "")
+    drawn.hist(result.height, **({"bins": 40} | keywords))
+    _name_axes(drawn, ("height of the summit", "m"), ("summits", "1"), "")
     return drawn
 
 
@@ -290,7 +279,7 @@ def _(result: _core.ContactSetAt, ax: Axes | None = None, **keywords: Any) -> Ax
 
 @plot.register(_core.ConvertedPsd)
 def _(result: _core.ConvertedPsd, ax: Axes | None = None, **keywords: Any) -> Axes:
-    x, y = (result.wavenumber, "wave number", result.wavenumber_unit), (result.psd, "power spectral density", result.psd_unit)
+    x, y = ((getattr(result, name), text, unit_of(result, name)) for name, text in (("wavenumber", "wave number"), ("psd", "power spectral density")))
     return _line(ax, x, y, "xy", keywords)
 
 

@@ -85,6 +85,8 @@ def to_xarray(result: Any) -> xarray.Dataset:
     """The result as a dataset."""
     if isinstance(result, _core.StudyResult):
         return _study_dataset(result)
+    if isinstance(result, _core.StudyAnswer):
+        return _answer_dataset(result)
     axes, variables, names = _DATASETS[type(result)]
     attributes = {name: getattr(result, name) for name in names}
     columns = {name: (dims, getattr(result, name)) for dims, of in variables.items() for name in of}
@@ -95,6 +97,8 @@ def to_xarray(result: Any) -> xarray.Dataset:
         {axis: points(result.grid, axis) if axis in ("x", "y") else getattr(result, axis) for axis in axes},
         {name: int(value) if isinstance(value, bool) else value for name, value in attributes.items()},
     )
+    if isinstance(result, _core.Surface):  # Surface(heights) of the array alone reads them
+        data.heights.attrs.update({name: data.attrs[name] for name in ("size_x", "size_y", "periodic", "origin")})
     return data.sortby("wavenumber_x") if "wavenumber_x" in axes else data
 
 
@@ -117,6 +121,28 @@ def _study_dataset(result: _core.StudyResult) -> xarray.Dataset:
     for column in columns:
         name, _, part = column.rpartition("_")
         data[column].attrs = {"units": described[name][0], "long_name": f"{described[name][1]}, {part}"}
+    return data
+
+
+def _answer_dataset(answer: _core.StudyAnswer) -> xarray.Dataset:
+    """Means with the ends of their 95 % intervals, and shares, over the pressure."""
+    columns: dict[str, Any] = {}
+    texts: dict[str, str] = {}
+    for name in ("damping_constant", "work_per_cycle", "damping_constant_without_slip", "thermal_conductance", "electrical_conductance"):
+        means = getattr(answer, name)
+        if not means:  # not asked for
+            continue
+        for part in ("mean", "low", "high"):
+            columns[f"{name}_{part}"] = ("pressure",), [getattr(mean, part) for mean in means]
+            texts[f"{name}_{part}"] = name
+    for name in ("relaxation_share", "slip_share"):
+        if len(getattr(answer, name)):
+            columns[name] = ("pressure",), getattr(answer, name)
+    attributes = {"slip_followed": int(answer.slip_followed), "needs": answer.needs, "validity": answer.validity}
+    data = _dataset(columns, {"pressure": answer.pressures}, attributes)
+    for column, name in texts.items():
+        units, long_name = _core.quantity(name)
+        data[column].attrs = {"units": units, "long_name": f"{long_name}, {column.rpartition('_')[2]}"}
     return data
 
 

@@ -18,8 +18,11 @@ if TYPE_CHECKING:
     import pandas
 
 # How a property's text names its unit, at its end: "mean gap, m." or "N/m".
-_UNIT = re.compile(r"(?:^|, |\s)(m(?:\^?[²³⁴234])?|1/m(?:²|\^2)?|Pa|1/Pa|N|N/m(?:²|\^2)?|N s/m|J|W|s|Hz|rad|rad/s|rad/m|kg|°)(?:$|[.;,])")
-_PREFIXED = {"m", "Pa", "N", "J", "W", "N/m", "N s/m", "s", "Hz", "rad/s"}
+_UNIT = re.compile(
+    r"(?:^|, |\s)(m(?:\^?[²³⁴234])?|1/m(?:²|\^2)?|Pa|1/Pa|N|N/m(?:²|\^2)?|N s/m|J|J/m(?:²|\^2)|W|s|m/s|Hz|rad|rad/s|rad/m|kg|°"
+    r"|W/\(m² K\)|S/m²)(?:$|[.;,])"
+)
+PREFIXED = {"m", "Pa", "N", "J", "W", "N/m", "N s/m", "s", "Hz", "rad/s"}
 _PREFIX = {-15: "f", -12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G", 12: "T"}
 
 
@@ -43,9 +46,14 @@ def meaning(kind: type, name: str) -> tuple[str, str]:
     return ("" if unit == "1" else unit), (said.rstrip(".") or (long_name if long_name != name else ""))
 
 
+def unit_of(result: Any, name: str) -> str:
+    """Unit of a column of a result, which may name it in a property of its own, as converted spectra do; "" for pure numbers."""
+    return getattr(result, f"{name}_unit", None) or meaning(type(result), name)[0]
+
+
 def prefix_of(value: float, unit: str) -> tuple[int, str]:
     """Power of ten and SI prefix that suit a value."""
-    if unit not in _PREFIXED or value == 0 or not np.isfinite(value):
+    if unit not in PREFIXED or value == 0 or not np.isfinite(value):
         return 0, ""
     exponent = int(np.clip(3 * np.floor(np.log10(abs(value)) / 3), -15, 12))
     return exponent, _PREFIX[exponent]
@@ -81,7 +89,7 @@ def _values(result: Any) -> list[tuple[str, Any, str, str]]:
             value = getattr(result, name)
         except (_core.Error, TypeError):  # unknown, or an object whose constructor failed
             continue
-        found.append((name, value, *meaning(type(result), name)))
+        found.append((name, value, unit_of(result, name), meaning(type(result), name)[1]))
     return found
 
 
@@ -140,7 +148,7 @@ def to_dataframe(result: Any) -> pandas.DataFrame:
         raise ImportError("to_dataframe needs pandas; install it") from error
     table = columns(result)
     frame = pandas.DataFrame({name: np.array(value) for name, value in table.items()})
-    frame.attrs["units"] = {name: meaning(type(result), name)[0] or "1" for name in table}
+    frame.attrs["units"] = {name: unit_of(result, name) or "1" for name in table}
     return frame
 
 
@@ -155,5 +163,5 @@ class ResultList(list[Any]):
             raise ImportError("to_dataframe needs pandas; install it") from error
         numbers = [name for name, value, _, _ in _values(self[0]) if isinstance(value, (bool, int, float, str))]
         frame = pandas.DataFrame({name: [getattr(one, name) for one in self] for name in numbers})
-        frame.attrs["units"] = {name: meaning(type(self[0]), name)[0] or "1" for name in numbers}
+        frame.attrs["units"] = {name: unit_of(self[0], name) or "1" for name in numbers}
         return frame

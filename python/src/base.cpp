@@ -27,6 +27,18 @@ namespace {
 
 bool forked = false;  // since this module was loaded
 
+/// A quantity of that name, of results or, where there is none, of arguments.
+Quantity quantity_named(std::string_view name) {
+  if (is_quantity(name)) return find_quantity(name);
+  for (const Quantity& one :
+       {Quantity{"resistivity", Dimension::resistivity, "electrical resistivity of a body"},
+        Quantity{"conductivity", Dimension::thermal_conductivity, "thermal conductivity of a body"},
+        Quantity{"work_of_adhesion", Dimension::energy_per_area, "work of adhesion"},
+        Quantity{"coupling_constant", Dimension::inverse_pressure, "β/(πE*)"}})
+    if (one.name == name) return one;
+  return find_quantity(name);
+}
+
 std::vector<std::string>& keys_cited() {
   static std::vector<std::string> keys;
   return keys;
@@ -114,7 +126,7 @@ void bind_base(nb::module_& m) {
   m.def(
       "parse_quantity",
       [](const std::string& text, const std::string& name) {
-        return parse_quantity(text, find_quantity(name).dimension, name);
+        return parse_quantity(text, quantity_named(name).dimension, name);
       },
       nb::arg("text"), nb::arg("name"),
       R"(A number in SI units from a text with a unit, as the program and study files take it.
@@ -134,7 +146,7 @@ Examples
   m.def(
       "format_quantity",
       [](double value, const std::string& name, int digits) {
-        return format_quantity(value, find_quantity(name).dimension, digits);
+        return format_quantity(value, quantity_named(name).dimension, digits);
       },
       nb::arg("value"), nb::arg("name"), nb::arg("digits") = 4,
       R"(The number with significant digits, an SI prefix and the unit of the quantity `name`.
@@ -147,7 +159,7 @@ Examples
   m.def(
       "quantity",
       [](const std::string& name) {
-        const Quantity found = find_quantity(name);
+        const Quantity found = quantity_named(name);
         return std::make_tuple(std::string(si_unit(found.dimension)), std::string(found.long_name));
       },
       nb::arg("name"),

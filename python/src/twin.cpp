@@ -162,7 +162,7 @@ measurements : list of ScanSpectrum, str or os.PathLike
           nb::arg("measurements"))
       .def(
           "fit",
-          [](const BoundTwin& self, std::uint64_t seed, Index draws,
+          [](nb::handle_t<BoundTwin> self, std::uint64_t seed, Index draws,
              const std::optional<Choice<SpectrumForm>>& form, bool drop_bad_scans,
              bool leave_one_out) {
             cite({"riedel1995"});
@@ -171,13 +171,19 @@ measurements : list of ScanSpectrum, str or os.PathLike
                                 .drop_bad_scans = drop_bad_scans,
                                 .leave_one_out = leave_one_out};
             if (form) options.form = form->value("form");
-            return BoundTwin{unlocked([&] { return fit_twin(self.measurements, options); }),
-                             self.measurements};
+            auto& twin = nb::cast<BoundTwin&>(nb::handle(self));
+            static_cast<SurfaceTwin&>(twin) =
+                unlocked([&] { return fit_twin(twin.measurements, options); });
+            return self;
           },
           nb::kw_only(), nb::arg("seed") = TwinOptions{}.seed,
           nb::arg("draws") = TwinOptions{}.draws, nb::arg("form") = nb::none(),
           nb::arg("drop_bad_scans") = true, nb::arg("leave_one_out") = true,
-          R"(The twin of these scans, with joint 95 % limits of its parameters.
+          nb::sig(
+              "def fit(self, *, seed: int = 1, draws: int = 1000, form: typing.Literal['corner', "
+              "'smooth', 'table'] | None = None, drop_bad_scans: bool = True, leave_one_out: bool "
+              "= True) -> SurfaceTwin"),
+          R"(Finds the twin of these scans, with joint 95 % limits of its parameters. Returns the object itself, whose numbers it now has.
 
 Parameters
 ----------

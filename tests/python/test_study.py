@@ -39,6 +39,10 @@ def test_the_answer_of_a_study_is_that_of_the_program(program: Callable[..., Any
     said = program("study", tmp_path / "slips.toml")
     result = salebra.run_study(salebra.parse_study_configuration(text))
     answer = result.answer()
+    data = answer.to_xarray()
+    assert np.array_equal(data.pressure, answer.pressures) and data.attrs["validity"] == answer.validity
+    assert np.array_equal(data.damping_constant_mean, [one.mean for one in answer.damping_constant])
+    assert data.damping_constant_low.attrs["units"] == "N s/m" and data.relaxation_share.dims == ("pressure",)
     assert answer.slip_followed and answer.validity == said["validity"] and said["validity"] in repr(answer)
     assert [one.mean for one in answer.damping_constant] == pytest.approx(said["damping"]["damping_constant"]["mean"], rel=1e-9, nan_ok=True)
     assert list(answer.slip_share) == pytest.approx(said["damping"]["slip_share"], rel=1e-9, nan_ok=True)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import re
 import subprocess
@@ -42,7 +43,10 @@ def test_a_twin_holds_the_law_of_its_scans(twin: salebra.SurfaceTwin) -> None:
     middle = len(twin.spectrum.wavenumber) // 2
     assert twin.spectrum.low[middle] < twin.spectrum.psd[middle] < twin.spectrum.high[middle]
     assert pickle.loads(pickle.dumps(twin)) == twin
-    assert twin.fit(seed=2) != twin
+    other = copy.copy(twin)
+    assert other == twin
+    # The object itself has the numbers, as it is returned.
+    assert other.fit(seed=2) is other and other != twin and other.hurst.value == pytest.approx(twin.hurst.value, rel=0.1)
 
 
 def test_a_draw_is_the_spectrum_of_a_surface(twin: salebra.SurfaceTwin) -> None:

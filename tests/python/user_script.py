@@ -16,6 +16,7 @@ from salebra import closed_form
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+    from salebra import no_such_name  # type: ignore[attr-defined]  # which a check with warn_unused_ignores must need
 
 STUDY = """
 [surface]

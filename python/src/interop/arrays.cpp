@@ -123,6 +123,8 @@ bool as_array(handle source, const char* type, bool contiguous, object& array) n
   // argument of ours.
   if (source.is_none() || PyUnicode_Check(source.ptr()) || PyBytes_Check(source.ptr()))
     return false;
+  // asarray would drop the unit of a quantity, which salebra._calls converts instead.
+  if (hasattr(source, "to") && (hasattr(source, "units") || hasattr(source, "unit"))) return false;
   const auto convert = [&]() -> PyObject* {  // the type of what is raised, none where all is well
     try {
       const module_ numpy = module_::import_("numpy");
