@@ -144,11 +144,9 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
 
 // An indenter without a motion.
 void answer_at_rest(const DampingArguments& arguments, Session& session) {
+  arguments.law.at.require_one("a contact at rest takes one, and damping needs a motion");
   const ContactAnswer contact = ask(contact_of(arguments, session), session.context());
   session.warn(contact.doubts);
-  require(contact.positions.size() == 1, "--normal-force",
-          fmt::format("{} positions", contact.positions.size()),
-          "are given; a contact at rest takes one, and damping needs a motion");
   const auto& law = static_cast<const IndenterLaw&>(*contact.law);
   const double indentation = indentation_of(law, contact.positions.front());
   const Json object = json_of(state_of(law, indentation));
@@ -295,6 +293,7 @@ DamperQuestion damper_question(const DampingArguments& arguments) {
     require_that(values->empty(), option, "given, but --mode drag has none; leave it out");
   require(motion.drag_velocity.size() < 2, "--drag-velocity", motion.drag_velocity.size(),
           "values are given; a damper takes one");
+  arguments.law.at.require_one("a damper takes one");
   DamperQuestion question{.normal_amplitude = motion.normal_amplitude,
                           .angular_frequency = motion.frequency.angular(),
                           .hold = *value_of<Hold>(arguments.hold),

@@ -88,6 +88,7 @@ void check(const JointArguments& arguments) {
                "given together with --tangential-forces; give one of them");
   require(!arguments.phase || arguments.normal_amplitude, "--phase", arguments.phase.value_or(0),
           "is that of a normal oscillation; give --normal-amplitude");
+  arguments.law.at.require_one("a joint takes one, and several tangential forces or amplitudes");
   if (arguments.frequency) require_positive(*arguments.frequency, "--frequency");
   if (arguments.nominal_area) require_positive(*arguments.nominal_area, "--nominal-area");
 }

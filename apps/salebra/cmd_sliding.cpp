@@ -66,6 +66,7 @@ void check(const SlidingArguments& arguments) {
   require_that(sliding.velocities.empty() || sliding.velocity_ratios.empty(), "--velocity-ratios",
                "given together with --velocities; give one of them");
   require_positive(*arguments.premises.friction_coefficient, "--friction-coefficient");
+  arguments.law.at.require_one("sliding takes one, and several --velocities");
   for (const auto& [option, values] : {std::pair{"--velocities", &sliding.velocities},
                                        {"--velocity-ratios", &sliding.velocity_ratios},
                                        {"--excursions", &sliding.excursions}})
@@ -87,9 +88,6 @@ ContactAnswer contact_of(const SlidingArguments& arguments, Session& session) {
     largest = std::max(largest, std::abs(amplitude));
   ContactAnswer contact =
       arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
-  require(contact.positions.size() == 1, "--normal-force",
-          fmt::format("{} positions", contact.positions.size()),
-          "are given; sliding takes one, and several --velocities");
   if (contact.surface && arguments.of_slider())
     session.note(
         "n/a: the error of the motion. It is that on a law through some loads of the surface, and "

@@ -350,6 +350,12 @@ std::vector<Standings> PositionsOptions::given() const {
   return kinds;
 }
 
+void PositionsOptions::require_one(std::string_view demand) const {
+  for (const auto& [quantity, values] : given())
+    require(values.size() == 1, "--" + option_word(quantity), values.size(),
+            "values given; " + std::string(demand));
+}
+
 void BodyOptions::add_to(Command& app, const std::string& largest) {
   add_quantity(app, "--mass", mass, Dimension::mass,
                "m of a body on the contact, which a spring holds or drags");

@@ -160,6 +160,9 @@ struct PositionsOptions {
   void add_to(Command& app, const std::string& heading);
   /// The kinds that were given.
   std::vector<Standings> given() const;
+  /// Throws InvalidInput where several positions are given, "--pressure: 3 values given; sliding
+  /// takes one", before any contact is computed.
+  void require_one(std::string_view demand) const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<PositionsOptions>) {
