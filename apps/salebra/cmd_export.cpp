@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `salebra export`: the law of a contact as input of another program.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <salebra/base/error.hpp>
+#include <salebra/damping/premises.hpp>
 #include <salebra/export/deck.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
@@ -48,8 +50,12 @@ StudyFacts facts_of(const std::filesystem::path& file) {
   if (const auto ratio = reader.number_attribute("damping", "modulus_ratio"))
     facts.modulus_ratio = *ratio;
   if (reader.has("answer"))
-    if (const auto validity = reader.text_attribute("answer", "validity"))
+    if (const auto validity = reader.text_attribute("answer", "validity")) {
+      require(value_of<Validity>(*validity).has_value(), file.string(), *validity,
+              fmt::format("is no verdict of a study, in answer/validity; one of {}",
+                          fmt::join(words_of<Validity>(), ", ")));
       facts.remark = "Study: validity of its damping constant: " + *validity + ".";
+    }
   return facts;
 }
 

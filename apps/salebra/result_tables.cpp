@@ -14,6 +14,7 @@
 #include <salebra/results/quantity.hpp>
 
 #include "answers.hpp"
+#include "base/printable.hpp"
 #include "io/text_file.hpp"
 #include "options.hpp"
 #include "study/cost.hpp"
@@ -95,8 +96,8 @@ void append_lines(std::string& text, const Json& object, const std::string& path
 
 std::string comment(const Session& session, const ResultTable& table) {
   std::string text = fmt::format("# {}, salebra {}\n# {}\n", table.name, version(),
-                                 session.provenance().command_line);
-  if (!table.note.empty()) text += "# " + table.note + "\n";
+                                 printable_line(session.provenance().command_line));
+  if (!table.note.empty()) text += "# " + printable_line(table.note) + "\n";
   for (const ResultColumn& column : table.columns)
     text += fmt::format("# {} in {}: {}\n", column.name, column.units(), column.long_name());
   return text;

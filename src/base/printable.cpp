@@ -26,12 +26,10 @@ std::size_t character_length(std::string_view text) {
   return control ? 0 : length;
 }
 
-}  // namespace
-
-std::string printable(std::string_view text) {
+std::string escaped(std::string_view text, std::string_view kept) {
   std::string result;
   while (!text.empty()) {
-    const bool layout = text.front() == '\n' || text.front() == '\t';
+    const bool layout = kept.find(text.front()) != std::string_view::npos;
     const std::size_t length = layout ? 1 : character_length(text);
     if (length > 0)
       result += text.substr(0, length);
@@ -41,6 +39,12 @@ std::string printable(std::string_view text) {
   }
   return result;
 }
+
+}  // namespace
+
+std::string printable(std::string_view text) { return escaped(text, "\n\t"); }
+
+std::string printable_line(std::string_view text) { return escaped(text, ""); }
 
 std::string shortened(std::string_view text, std::size_t most) {
   constexpr std::string_view gap = "\u2026";

@@ -12,6 +12,10 @@ namespace salebra {
 /// Everything that is printed for people passes through here.
 std::string printable(std::string_view text);
 
+/// The same with newline and tab escaped too, for a text that has to stay within its line: a comment
+/// of a file that another program obeys, or a field of a table.
+std::string printable_line(std::string_view text);
+
 /// The text, or its beginning and end around "…" where it has more bytes. UTF-8 stays whole.
 std::string shortened(std::string_view text, std::size_t most);
 

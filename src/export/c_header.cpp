@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "formats.hpp"
+
 namespace salebra {
 namespace {
 
@@ -189,12 +191,10 @@ std::string c_header(const LawLevels& levels, const CHeaderOptions& options) {
           "name", name, "must be a name of C: letters, digits and _");
   const double stiffness = options.force_unit / options.length_unit;
   std::string text;
-  for (std::string_view rest = options.comment; !rest.empty();) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    text += fmt::format("{} {}\n", text.empty() ? "/*" : "  ", rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  if (!text.empty()) text.insert(text.size() - 1, " */");
+  // An opening within a comment ends nothing; compilers warn of it.
+  for (const std::string& sentence : options.comment)
+    text += detail::comment(sentence, {"  ", {"*/", "/*"}});
+  if (!text.empty()) text = "/*" + text.substr(2, text.size() - 3) + " */\n";
   text += "#ifndef @NAME@_INCLUDED\n#define @NAME@_INCLUDED\n";
   std::string_view body = program;
   const std::size_t includes = body.find("\n\n") + 1;

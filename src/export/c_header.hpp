@@ -3,12 +3,13 @@
 
 #include <salebra/damping/contact_element.hpp>
 #include <string>
+#include <vector>
 
 namespace salebra {
 
 struct CHeaderOptions {
   std::string name = "contact";  ///< with which every name in the header begins
-  std::string comment = {};      ///< stands first, line by line: licence, source, units
+  std::vector<std::string> comment = {};  ///< sentences at the top: licence, source, units
   double length_unit = 1;        ///< of the header, m
   double force_unit = 1;         ///< of the header, N
 };

@@ -3,7 +3,6 @@
 #include "formats.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <numbers>
 #include <salebra/base/version.hpp>
 
+#include "base/printable.hpp"
 #include "c_header.hpp"
 #include "io/json.hpp"
 
@@ -20,29 +20,14 @@ namespace {
 /// CalculiX and Abaqus read at most 20 characters of a number.
 std::string number(double value) { return fmt::format("{:.10g}", value); }
 
-/// Lines of the header as comments, none longer than what each of the programs reads.
-std::string comments(const Deck& deck, std::string_view mark) {
+std::string comments(const Deck& deck, const CommentStyle& style) {
   std::string text;
-  for (const std::string& sentence : deck.header) {
-    std::string line;
-    std::size_t begin = 0;
-    while (begin < sentence.size()) {
-      const auto end = std::min(sentence.find(' ', begin), sentence.size());
-      const std::string word = sentence.substr(begin, end - begin);
-      if (!line.empty() && line.size() + 1 + word.size() > 76) {
-        text += fmt::format("{} {}\n", mark, line);
-        line = " ";
-      }
-      line += (line.empty() ? "" : " ") + word;
-      begin = end + 1;
-    }
-    text += fmt::format("{} {}\n", mark, line);
-  }
+  for (const std::string& sentence : deck.header) text += comment(sentence, style);
   return text;
 }
 
 std::string csv(const Deck& deck) {
-  std::string text = comments(deck, "#") + "clearance";
+  std::string text = comments(deck, {"#"}) + "clearance";
   std::vector<const std::vector<double>*> columns{&deck.clearance};
   const auto column = [&](const std::string& name, const std::vector<double>& values) {
     if (values.empty()) return;
@@ -114,7 +99,7 @@ std::string overclosures(const Deck& deck, const DeckLaw& law, double zero) {
 /// SURFACE follows both; SURFACE TO SURFACE has no force before the surfaces touch, and ends where a
 /// table has more than some twenty rows.
 std::string calculix(const Deck& deck) {
-  std::string text = comments(deck, "**") + "** For *CONTACT PAIR, TYPE=NODE TO SURFACE.\n";
+  std::string text = comments(deck, {"**"}) + "** For *CONTACT PAIR, TYPE=NODE TO SURFACE.\n";
   for (const DeckLaw& law : deck.laws) {
     text += fmt::format("** {}: {}\n", law.name, law.what);
     const std::string name = fmt::format("*SURFACE INTERACTION, NAME={}\n", upper_case(law.name));
@@ -147,7 +132,7 @@ std::string calculix(const Deck& deck) {
 /// EXPONENTIAL reaches zero at a clearance, and is another function than exp(−g/l). *FRICTION with
 /// ELASTIC SLIP, the stiffness method: stick stiffness μp over that slip.
 std::string abaqus(const Deck& deck) {
-  std::string text = comments(deck, "**");
+  std::string text = comments(deck, {"**"});
   for (const DeckLaw& law : deck.laws) {
     text += fmt::format(
         "** {}: {}\n*SURFACE INTERACTION, NAME={}\n*SURFACE BEHAVIOR, "
@@ -162,9 +147,10 @@ std::string abaqus(const Deck& deck) {
 
 /// Ansys Element Reference, COMBIN39: real constants D1, F1, … D20, F20 through the origin, the last
 /// slope goes on; KEYOPT(1) = 0 unloads along the curve, KEYOPT(2) = 1 has no force in compression.
-/// Nodes I above and J below make the approach of both an elongation.
+/// Nodes I above and J below make the approach of both an elongation. A `$` parts commands of one
+/// line.
 std::string ansys(const Deck& deck) {
-  std::string text = comments(deck, "!");
+  std::string text = comments(deck, {"!", {"$"}});
   text +=
       "! One spring for each pair of nodes of both surfaces, I of the upper, J of the lower\n"
       "! one, in the direction of KEYOPT(3) (3: z). Normal law only.\n"
@@ -189,7 +175,7 @@ std::string ansys(const Deck& deck) {
 /// function of DX, linear, from (0, 0) on, strictly increasing, the left excluded; contact begins
 /// where the length of the discrete element is DIST_1 + DIST_2. Names of concepts have eight letters.
 std::string code_aster(const Deck& deck) {
-  std::string text = comments(deck, "#");
+  std::string text = comments(deck, {"#"});
   text +=
       "# One discrete element DIS_T on a SEG2 for each pair of nodes of both surfaces, along\n"
       "# the normal, with RELATION='CHOC_ELAS_TRAC'. Normal law only.\n"
@@ -210,7 +196,7 @@ std::string code_aster(const Deck& deck) {
 }
 
 std::string jenkins(const Deck& deck) {
-  std::string text = comments(deck, "#") + "stiffness,slider_force\n";
+  std::string text = comments(deck, {"#"}) + "stiffness,slider_force\n";
   for (const Slider& slider : deck.sliders)
     text += fmt::format("{},{}\n", slider.stiffness, slider.slider_force);
   return text;
@@ -219,7 +205,7 @@ std::string jenkins(const Deck& deck) {
 std::string header_of_c(const Deck& deck) {
   const UnitSystem& units = deck.question.units;
   return c_header(*deck.levels, {.name = deck.question.name,
-                                 .comment = fmt::format("{}", fmt::join(deck.header, "\n")),
+                                 .comment = deck.header,
                                  .length_unit = units.in_si(Dimension::length),
                                  .force_unit = units.in_si(Dimension::force)});
 }
@@ -227,6 +213,35 @@ std::string header_of_c(const Deck& deck) {
 }  // namespace
 
 bool Deck::has_friction() const { return !std::isnan(question.friction_coefficient); }
+
+std::string comment(std::string_view sentence, const CommentStyle& style) {
+  constexpr std::size_t most = 76;
+  std::string rest = printable_line(sentence);
+  for (const std::string_view sign : style.forbidden)
+    for (std::size_t at = rest.find(sign); at != std::string::npos; at = rest.find(sign, at))
+      rest.replace(at, 1, fmt::format("\\x{:02x}", static_cast<unsigned char>(sign.front())));
+  std::string text, line;
+  const auto end_line = [&] {
+    text += fmt::format("{} {}\n", style.mark, line);
+    line = " ";
+  };
+  while (!rest.empty()) {
+    std::size_t end = std::min(rest.find(' '), rest.size());
+    if (!line.empty() && line.size() + 1 + end > most) end_line();
+    // Programs read a line that is too long as two, of which the second would be a command.
+    for (; end > most; end = std::min(rest.find(' '), rest.size())) {
+      std::size_t cut = most;
+      while ((rest[cut] & 0xc0) == 0x80) --cut;  // a character of UTF-8 stays whole
+      line += rest.substr(0, cut);
+      rest.erase(0, cut);
+      end_line();
+    }
+    line += (line.empty() ? "" : " ") + rest.substr(0, end);
+    rest.erase(0, std::min(end + 1, rest.size()));
+  }
+  end_line();
+  return text;
+}
 
 double first_clearance(const Deck& deck) {
   double tail = 0;

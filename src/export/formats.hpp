@@ -39,6 +39,17 @@ struct Deck {
   bool has_friction() const;
 };
 
+/// How a format marks a comment, and what would end one or be obeyed in it.
+struct CommentStyle {
+  std::string_view mark;                            ///< before each line
+  std::vector<std::string_view> forbidden = {};
+};
+
+/// A sentence as lines of a comment, none longer than what the programs read. It may hold what a file
+/// says and what a file is called, hence control characters and what the style forbids are escaped:
+/// whatever the sentence holds, the other program takes nothing of it for a command.
+std::string comment(std::string_view sentence, const CommentStyle& style);
+
 /// The clearance at which piecewise linear tables start without a pressure, the same for all laws of
 /// a deck: no closer than where the tangent at the farthest row meets zero, so that they stay convex.
 double first_clearance(const Deck& deck);

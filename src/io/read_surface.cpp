@@ -19,6 +19,7 @@
 #include <stdexcept>
 
 #include "base/memory.hpp"
+#include "base/printable.hpp"
 #include "input.hpp"
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
@@ -101,17 +102,6 @@ double size_along(const std::filesystem::path& file, const char* field,
 }  // namespace
 
 namespace detail {
-
-namespace {
-
-/// What is quoted from a file must neither break the line nor command the terminal.
-std::string printable_line(std::string line) {
-  std::ranges::replace_if(
-      line, [](char symbol) { return (symbol >= '\0' && symbol < ' ') || symbol == '\x7f'; }, '?');
-  return line;
-}
-
-}  // namespace
 
 void refuse(const std::filesystem::path& file, const std::string& what) {
   throw InvalidInput(file.string(), printable_line(what));

@@ -9,6 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 
+#include "base/printable.hpp"
 #include "io/loaded_surface.hpp"
 #include "io/text_numbers.hpp"
 
@@ -58,15 +59,14 @@ std::vector<std::string_view> titles_of(std::string_view line) {
   const bool marked = line.find_first_of(",;") != std::string_view::npos;
   const auto tabbed = line.find('\t') != std::string_view::npos;
   std::vector<std::string_view> titles;
-  std::size_t begin = 0;
+  std::size_t begin = 0, next = 0;  // the character behind blanks, looked for once
   int depth = 0;
   for (std::size_t i = 0; i <= line.size(); ++i) {
     const char symbol = i < line.size() ? line[i] : '\n';
     if (symbol == '[' || symbol == '(') ++depth;
     if (symbol == ']' || symbol == ')') --depth;
-    const auto next = line.find_first_not_of(' ', i);
-    const bool before_unit =
-        next != std::string_view::npos && (line[next] == '[' || line[next] == '(');
+    if (next < i) next = std::min(line.find_first_not_of(' ', i), line.size());
+    const bool before_unit = next < line.size() && (line[next] == '[' || line[next] == '(');
     const bool ends = symbol == '\n' || (depth == 0 && (marked   ? symbol == ',' || symbol == ';'
                                                         : tabbed ? symbol == '\t'
                                                                  : symbol == ' ' && !before_unit));
@@ -168,8 +168,9 @@ std::string text_of(const ForceCurve& curve, const std::vector<CurveColumn>& bes
                     const Provenance& provenance) {
   std::string text = fmt::format("# program: salebra {}\n# created: {}\n", version(),
                                  provenance.created.empty() ? utc_now() : provenance.created);
-  if (!provenance.command_line.empty()) text += "# command_line: " + provenance.command_line + "\n";
-  if (!curve.model.empty()) text += "# model: " + curve.model + "\n";
+  if (!provenance.command_line.empty())
+    text += "# command_line: " + printable_line(provenance.command_line) + "\n";
+  if (!curve.model.empty()) text += "# model: " + printable_line(curve.model) + "\n";
   if (curve.nominal_area > 0) text += fmt::format("# nominal_area: {} m^2\n", curve.nominal_area);
   if (!std::isnan(curve.rms_height)) text += fmt::format("# rms_height: {} m\n", curve.rms_height);
   if (curve.adhesive) text += "# adhesive: yes\n";

@@ -48,7 +48,7 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
       law, lowest, highest, LawLevelsOptions{.friction_coefficient = friction, .levels = 40});
   // Millimetres and kilonewtons: what is checked against SI are the units as well.
   const CHeaderOptions options{
-      .name = "bolt", .comment = "one\ntwo", .length_unit = 1e-3, .force_unit = 1e3};
+      .name = "bolt", .comment = {"one", "two"}, .length_unit = 1e-3, .force_unit = 1e3};
   const Scratch scratch;
   scratch.file("bolt.h", c_header(*levels, options));
   scratch.file("driver.c", driver);

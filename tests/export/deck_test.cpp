@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Decks read back, in every unit system, and what is refused.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <salebra/base/error.hpp>
@@ -118,6 +119,57 @@ TEST_CASE("Every deck of a table is read back as the law at its clearances, in e
     worst = std::max(worst, std::abs(line / there - 1));
   }
   CHECK(worst == Approx(answer.interpolation_error).epsilon(1e-2));
+}
+
+TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
+  const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
+                               DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster,
+                               DeckFormat::jenkins, DeckFormat::c_header);
+  DeckQuestion question;
+  question.contacts = {cubic()};
+  question.format = format;
+  question.friction_coefficient = 0.3;
+  // What the other program would run: the deck without its comments.
+  const auto commands = [&](const std::string& text) {
+    if (format == DeckFormat::json) return nlohmann::json::parse(text)["laws"].dump();
+    if (format == DeckFormat::c_header) {
+      std::string rest = text;
+      for (std::size_t begin; (begin = rest.find("/*")) != std::string::npos;)
+        rest.erase(begin, rest.find("*/", begin) + 2 - begin);
+      return rest;
+    }
+    const std::string mark = format == DeckFormat::ansys ? "!"
+                             : format == DeckFormat::calculix || format == DeckFormat::abaqus
+                                 ? "**"
+                                 : "#";
+    std::string rest;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+      if (!line.starts_with(mark)) rest += line + "\n";
+    return rest;
+  };
+  const std::string harmless = commands(ask(question).text);
+  for (const std::string& hostile :
+       {std::string("a\n*INCLUDE,INPUT=secret.inp\n**"), std::string("a\r\n/SYS,touch x\r\n!"),
+        std::string("a\n__import__('os').system('touch x')\n#"), std::string("\n\n1,2\n"),
+        std::string("a */ int stranger; /* b"), std::string("a **/ int stranger; /** b */"),
+        std::string("a $ /SYS,touch x"), "a\xe2\x80\xa8" + std::string("*b\v*c\f*d\x85*e\0*f", 14),
+        std::string(2000, 'a') + "*STEP", std::string(1290, '*') + std::string(60, '/')}) {
+    INFO(hostile);
+    question.source = question.remark = question.provenance.command_line = hostile;
+    const std::string text = ask(question).text;
+    CHECK(commands(text) == harmless);
+    if (format == DeckFormat::json) continue;
+    CHECK(std::ranges::none_of(text, [](char symbol) {
+      return symbol != '\n' && ((symbol >= 0 && symbol < ' ') || symbol == '\x7f');
+    }));
+    // CalculiX takes what is beyond 1320 characters for another line; of this header, code has more
+    // than 80 in a line and comments have not.
+    std::istringstream lines(text.substr(0, text.find("#define")));
+    for (std::string line; std::getline(lines, line);)
+      if (format != DeckFormat::csv) CHECK(line.size() <= 132);
+    if (format == DeckFormat::ansys) CHECK(text.find('$') == std::string::npos);
+  }
 }
 
 TEST_CASE("Friction of decks is the stick slope at the position and the slip that it allows",
