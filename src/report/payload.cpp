@@ -98,8 +98,8 @@ class Point {
         if (const auto text = file_.text_attribute(where_ + "answer", name)) json[name] = *text;
       json["answer"] = {
           {"damping_constant", estimate("answer/damping_constant", 0, pressures_.size())}};
-      json["answer"]["damping_constant"]["error"] = list(*column("answer/damping_constant_error"));
-      json["answer"]["slip_share"] = list(*column("answer/slip_share"));
+      json["answer"]["damping_constant"]["error"] = list(required("answer/damping_constant_error"));
+      json["answer"]["slip_share"] = list(required("answer/slip_share"));
     }
     add(json, "premises", premises());
     add(json, "spots", spots());
@@ -131,21 +131,36 @@ class Point {
     return file_.numbers(where_ + name);
   }
 
-  /// count values from `first` on; refuses a dataset that is too short for them.
-  std::vector<double> part(const std::string& name, std::size_t first, std::size_t count) const {
-    const std::vector<double> values = file_.numbers(where_ + name);
-    if (first + count > values.size())
-      throw InvalidInput(file_.file().string(),
-                         fmt::format("{} has {} values, {} are needed; the file is damaged",
-                                     where_ + name, values.size(), first + count));
-    return {values.begin() + std::ptrdiff_t(first), values.begin() + std::ptrdiff_t(first + count)};
+  [[noreturn]] void refuse_damaged(const std::string& name, const std::string& what) const {
+    throw InvalidInput(file_.file().string(),
+                       fmt::format("{} {}; the file is damaged", where_ + name, what));
+  }
+
+  /// A column that belongs to others that are there; refuses a file without it, or without a value
+  /// in it.
+  std::vector<double> required(const std::string& name) const {
+    std::optional<std::vector<double>> values = column(name);
+    if (!values || values->empty())
+      refuse_damaged(name, values ? "has no values" : "is missing");
+    return std::move(*values);
+  }
+
+  /// The values of one of equal blocks; refuses a dataset that is too short for them.
+  std::vector<double> part(const std::string& name, std::size_t block, std::size_t size) const {
+    const std::vector<double> values = required(name);
+    // Not a product of numbers of the file, which may be beyond any number of values.
+    if (size > 0 && block >= values.size() / size)
+      refuse_damaged(name, fmt::format("has {} values, {} blocks of {} are needed", values.size(),
+                                       block + 1, size));
+    const auto begin = values.begin() + std::ptrdiff_t(block * size);
+    return {begin, begin + std::ptrdiff_t(size)};
   }
 
   /// {mean, low, high} of NAME_mean and so on; null where the file has none.
-  Json estimate(const std::string& name, std::size_t first, std::size_t count) const {
+  Json estimate(const std::string& name, std::size_t block, std::size_t size) const {
     Json json;
     for (const char* member : {"mean", "low", "high"})
-      if (has(name + "_" + member)) json[member] = list(part(name + "_" + member, first, count));
+      if (has(name + "_" + member)) json[member] = list(part(name + "_" + member, block, size));
     return json;
   }
 
@@ -163,7 +178,7 @@ class Point {
       for (std::size_t m = 0; m < models_.size(); ++m)
         if (has(prefix + quantity + "_mean"))
           json[quantity][models_[m]] =
-              estimate(prefix + quantity, m * pressures_.size(), pressures_.size());
+              estimate(prefix + quantity, m, pressures_.size());
     return json;
   }
 
@@ -183,7 +198,7 @@ class Point {
     for (const char* name : {"warnings", "flags"})
       if (const auto text = file_.text_attribute(where_ + "surface", name)) json[name] = *text;
     if (!has("surface/realisation")) return json;
-    json["realisations"] = column("surface/realisation")->size();
+    json["realisations"] = required("surface/realisation").size();
     if (const auto seeds = column("surface/seed")) json["seed"] = *seeds;
     Json& statistics = json["statistics"];
     for (const char* name : {"rms_height", "rms_slope", "skewness", "kurtosis", "nayak", "moment0",
@@ -205,7 +220,7 @@ class Point {
   Json picture(Index map_side) const {
     Json json;
     if (!has("picture/heights")) return json;
-    const auto x = *column("picture/x"), y = *column("picture/y");
+    const std::vector<double> x = required("picture/x"), y = required("picture/y");
     const auto rows = Index(x.size()), columns = Index(y.size());
     const std::vector<double> heights = part("picture/heights", 0, x.size() * y.size());
     const std::vector<double> loads = part("picture/first_load", 0, x.size() * y.size());
@@ -218,7 +233,10 @@ class Point {
           map.push_back(of(values[std::size_t(i * columns + j)]));
       return base64(map);
     };
-    const auto whole = [](double value) { return std::int16_t(value); };
+    // A number beyond 16 bits, or none, is no more than the file's mistake.
+    const auto whole = [](double value) {
+      return std::int16_t(std::isnan(value) ? 0 : std::clamp(value, -32768., 32767.));
+    };
     json["nx"] = (rows + stride - 1) / stride;
     json["ny"] = (columns + stride - 1) / stride;
     json["step_x"] = number(rows > 1 ? double(stride) * (x[1] - x[0]) : 0);
@@ -255,9 +273,8 @@ class Point {
     Json json;
     if (bem() == models_.size() || !has("curve/mean_gap")) return json;
     const std::size_t count = realisations(), loads = pressures_.size();
-    const std::size_t first = bem() * count * loads;
-    const auto gaps = part("curve/mean_gap", first, count * loads);
-    const auto converged = part("curve/converged", first, count * loads);
+    const auto gaps = part("curve/mean_gap", bem(), count * loads);
+    const auto converged = part("curve/converged", bem(), count * loads);
     for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r) {
       Json row = Json::array();
       for (std::size_t k = r * loads; k < (r + 1) * loads; ++k)
@@ -269,7 +286,7 @@ class Point {
 
   /// A quantity of the boundary elements, one value a surface.
   std::vector<double> bem_column(const std::string& name) const {
-    return part("fit/" + name, bem() * realisations(), realisations());
+    return part("fit/" + name, bem(), realisations());
   }
 
   Json fit() const {
@@ -283,8 +300,8 @@ class Point {
         if (has(std::string("fit/ensemble_") + name + "_mean"))
           json["models"][models_[m]][name] = single(std::string("fit/ensemble_") + name, m);
     for (const char* name : {"law_off_closest", "law_off_farthest", "fair"})
-      if (const auto values = column(std::string("fit/") + name))
-        json["models"]["bem"][name] = number((*values)[bem()]);
+      if (const std::string column = std::string("fit/") + name; has(column))
+        json["models"]["bem"][name] = number(part(column, bem(), 1)[0]);
     for (const char* name : {"decay_length", "reference_pressure", "pressure_min", "pressure_max"})
       if (has(std::string("fit/") + name)) json["bem"][name] = list(bem_column(name));
     return json;
@@ -297,7 +314,7 @@ class Point {
     const std::size_t count = realisations(), points = midpoints->size();
     for (const char* name : {"mean_gap", "local_decay_length"}) {
       const auto values =
-          part(std::string("local/") + name, bem() * count * points, count * points);
+          part(std::string("local/") + name, bem(), count * points);
       for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r)
         json[name].push_back(list(std::span(values).subspan(r * points, points)));
     }
@@ -325,7 +342,7 @@ class Point {
     if (const std::string errors = "damping/ensemble_damping_constant_error_mean";
         has(errors) && bem() < models_.size() && json.contains("curve"))
       json["curve"]["damping_constant"]["bem"]["error"] =
-          list(part(errors, bem() * pressures_.size(), pressures_.size()));
+          list(part(errors, bem(), pressures_.size()));
     add(json, "deviation", by_model("damping/ensemble_", {"deviation"}));
     for (const char* name : {"deviation_min", "deviation_max"})
       if (has(std::string("damping/") + name) && bem() < models_.size())
@@ -367,9 +384,9 @@ class Point {
                  {"here", std::string(name.here)},
                  {"remedy", std::string(name.remedy)},
                  {"unit", std::string(si_unit(name.value_dimension))},
-                 {"value", list(*column(place))},
-                 {"verdict", list(*column(place + "_verdict"))}};
-      if (has(place + "_onset")) premise["onset"] = list(*column(place + "_onset"));
+                 {"value", list(required(place))},
+                 {"verdict", list(required(place + "_verdict"))}};
+      if (has(place + "_onset")) premise["onset"] = list(required(place + "_onset"));
     }
     return json;
   }

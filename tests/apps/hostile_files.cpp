@@ -234,4 +234,53 @@ std::vector<File> write_hdf5_files(const std::filesystem::path& folder) {
   return files;
 }
 
+namespace {
+
+void change(const std::filesystem::path& file, const std::function<void(hid_t)>& edit) {
+  const hid_t id = good(H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+  edit(id);
+  good(H5Fclose(id));
+}
+
+}  // namespace
+
+void set_text(const std::filesystem::path& file, const std::string& object,
+              const std::string& attribute, const std::string& text) {
+  change(file, [&](hid_t id) {
+    const hid_t owner = good(H5Oopen(id, object.c_str(), H5P_DEFAULT));
+    if (H5Aexists(owner, attribute.c_str()) > 0) good(H5Adelete(owner, attribute.c_str()));
+    const hid_t type = good(H5Tcopy(H5T_C_S1));
+    good(H5Tset_size(type, text.size() + 1));
+    const hid_t space = good(H5Screate(H5S_SCALAR));
+    const hid_t made =
+        good(H5Acreate2(owner, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+    good(H5Awrite(made, type, text.c_str()));
+    H5Aclose(made);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Oclose(owner);
+  });
+}
+
+void set_numbers(const std::filesystem::path& file, const std::string& dataset,
+                 const std::vector<double>& values, std::size_t rows) {
+  change(file, [&](hid_t id) {
+    if (H5Lexists(id, dataset.c_str(), H5P_DEFAULT) > 0)
+      good(H5Ldelete(id, dataset.c_str(), H5P_DEFAULT));
+    const hsize_t extents[] = {rows > 0 ? rows : values.size(),
+                               rows > 0 ? values.size() / rows : 1};
+    const hid_t space = good(H5Screate_simple(rows > 0 ? 2 : 1, extents, nullptr));
+    const hid_t made = good(H5Dcreate2(id, dataset.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
+                                       H5P_DEFAULT, H5P_DEFAULT));
+    if (!values.empty())
+      good(H5Dwrite(made, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    H5Dclose(made);
+    H5Sclose(space);
+  });
+}
+
+void remove(const std::filesystem::path& file, const std::string& name) {
+  change(file, [&](hid_t id) { good(H5Ldelete(id, name.c_str(), H5P_DEFAULT)); });
+}
+
 }  // namespace hostile
