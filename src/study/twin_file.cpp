@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/words.hpp>
@@ -55,6 +56,11 @@ TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& 
   table.require_no_other_keys();
   return measurement;
 }
+
+/// Of what a file may hold. A fit has five knots a decade and a thousand draws where nobody asks for
+/// more; a study tabulates each draw.
+constexpr Index most_draws = 20000;
+constexpr std::size_t most_knots = 64;
 
 /// The parameters of a twin with their names.
 constexpr std::pair<const char*, TwinParameter SurfaceTwin::*> parameters[] = {
@@ -132,6 +138,8 @@ SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const Twin
 
 void write_twin(const std::filesystem::path& path, const SurfaceTwin& twin,
                 const Provenance& provenance, const WriteOptions& options) {
+  require(std::ssize(twin.draws) <= most_draws, "draws", twin.draws.size(),
+          fmt::format("must be at most {} in a file", most_draws));
   ResultFile file(path, provenance, options);
   ResultGroup plain = file.group("twin");
   plain.attribute("form", word_of(twin.form));
@@ -161,20 +169,57 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const std::optional<SpectrumForm> form = word ? value_of<SpectrumForm>(*word) : std::nullopt;
   if (!form) throw InvalidInput(path.string(), "is no surface twin, which `salebra twin` writes");
   const std::string place = "twin/draws/";
-  const std::vector<double> knots = file.numbers(place + "knot"),
-                            log_psd = file.numbers(place + "log_psd");
-  std::vector<TwinDraw> draws(log_psd.size() / knots.size());
+  const bool table = *form == SpectrumForm::table;
+  // Extents come first: a packed file may hold more numbers than fit into the memory.
+  const auto count_of = [&](const std::string& name) {
+    std::size_t count = 1;
+    for (const Index extent : file.shape(place + name)) {
+      require(extent <= most_draws, path.string(), extent,
+              fmt::format("values of {}{} along one dimension must be at most {}", place, name,
+                          most_draws));
+      count *= static_cast<std::size_t>(extent);
+    }
+    return count;
+  };
+  const std::size_t knots_of_draw = count_of("knot"), values_of_draws = count_of("log_psd");
+  require(table ? knots_of_draw >= 2 && knots_of_draw <= most_knots : knots_of_draw == 1,
+          path.string(), knots_of_draw,
+          table ? fmt::format("knots in {}knot must be from 2 to {}", place, most_knots)
+                : fmt::format("knots in {}knot must be one for the form {}", place, *word));
+  const std::size_t count = values_of_draws / knots_of_draw;
+  require(count > 0 && count * knots_of_draw == values_of_draws, path.string(), values_of_draws,
+          fmt::format("values of {}log_psd make no draws of {} knots", place, knots_of_draw));
+  for (const auto& [name, member] : numbers_of_draw)
+    require(count_of(name) == count, path.string(), count_of(name),
+            fmt::format("values of {} belong to {} draws", name, count));
+  // Every number is in a range that holds all surfaces and no overflow.
+  const auto within = [&](const std::string& name, double low, double high) {
+    std::vector<double> values = file.numbers(place + name);
+    for (const double value : values)
+      require(value >= low && value <= high, path.string(), value,
+              fmt::format("in {}{} must be from {:g} to {:g}", place, name, low, high));
+    return values;
+  };
+  const std::vector<double> knots = within("knot", 1e-6, 1e15),
+                            log_psd = within("log_psd", -400, 400);
+  require(std::ranges::is_sorted(knots, std::less_equal()), path.string(), "",
+          fmt::format("has knots in {}knot that do not rise", place));
+  std::vector<TwinDraw> draws(count);
   for (const auto& [name, member] : numbers_of_draw) {
-    const std::vector<double> values = file.numbers(place + name);
-    require(values.size() == draws.size(), path.string(), values.size(),
-            fmt::format("values of {} belong to {} draws", name, draws.size()));
-    for (std::size_t i = 0; i < draws.size(); ++i) draws[i].*member = values[i];
+    // A table has neither exponent nor roll-off.
+    const bool unused = table && (member == &TwinDraw::hurst || member == &TwinDraw::rolloff);
+    const std::vector<double> values = unused                       ? file.numbers(place + name)
+                                       : member == &TwinDraw::hurst ? within(name, -1, 3)
+                                       : member == &TwinDraw::rms_slope
+                                           ? within(name, 0, 1e6)
+                                           : within(name, 1e-15, 1e6);
+    for (std::size_t i = 0; i < count; ++i) draws[i].*member = values[i];
   }
-  for (std::size_t i = 0; i < draws.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     TwinDraw& draw = draws[i];
     draw.form = *form;
     const auto first = log_psd.begin() + static_cast<std::ptrdiff_t>(i * knots.size());
-    if (*form == SpectrumForm::table) {
+    if (table) {
       draw.knots = knots;
       draw.log_psd.assign(first, first + static_cast<std::ptrdiff_t>(knots.size()));
     } else {
@@ -182,7 +227,6 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
       draw.amplitude = *first;
     }
   }
-  require(!draws.empty(), path.string(), 0, "draws make no surface");
   return draws;
 }
 

@@ -176,17 +176,27 @@ TwinDraw draw_of(const TwinLaw& law, std::span<const double> parameters, double 
 
 }  // namespace twin_detail
 
+namespace {
+
+/// C of a table at wave numbers below its end. The curvatures, whose cost is the third power of the
+/// number of knots, are found once for all of them.
+std::vector<double> table_density(const TwinDraw& draw, const std::vector<double>& wavenumbers) {
+  std::vector<double> places, densities;
+  for (const double knot : draw.knots) places.push_back(std::log(knot));
+  const Eigen::Map<const Eigen::VectorXd> heights(draw.log_psd.data(),
+                                                  static_cast<Index>(draw.log_psd.size()));
+  const Eigen::MatrixXd curvatures = twin_detail::spline_curvatures(places);
+  for (const double q : wavenumbers)
+    densities.push_back(
+        std::exp(twin_detail::spline_row(places, curvatures, std::log(q)).dot(heights)));
+  return densities;
+}
+
+}  // namespace
+
 double TwinDraw::density(double q) const {
   if (q > 2 * std::numbers::pi / short_cutoff * (1 + 1e-12)) return 0;
-  if (form == SpectrumForm::table) {
-    std::vector<double> places;
-    for (const double knot : knots) places.push_back(std::log(knot));
-    const Eigen::Map<const Eigen::VectorXd> heights(log_psd.data(),
-                                                    static_cast<Index>(log_psd.size()));
-    return std::exp(
-        twin_detail::spline_row(places, twin_detail::spline_curvatures(places), std::log(q))
-            .dot(heights));
-  }
+  if (form == SpectrumForm::table) return table_density(*this, {q}).front();
   const double corner = 2 * std::numbers::pi / rolloff;
   return form == SpectrumForm::corner
              ? std::exp(amplitude - 2 * (1 + hurst) * std::log(std::max(q, corner) / reference))
@@ -209,7 +219,10 @@ SpectrumTable tabulated(const TwinDraw& draw, double lowest, int points_per_deca
   }
   if (corner > table.wavenumber.back() && corner < end) table.wavenumber.push_back(corner);
   table.wavenumber.push_back(end);
-  for (const double q : table.wavenumber) table.psd.push_back(draw.density(q));
+  if (draw.form == SpectrumForm::table)
+    table.psd = table_density(draw, table.wavenumber);
+  else
+    for (const double q : table.wavenumber) table.psd.push_back(draw.density(q));
   return table;
 }
 
