@@ -2,6 +2,7 @@
 // Force curves in HDF5 groups and files.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
@@ -66,7 +67,8 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   curve.nominal_area = reader.number_attribute(group, "nominal_area").value_or(0);
   curve.rms_height = reader.number_attribute(group, "rms_height").value_or(ForceSample::unknown);
   curve.adhesive = reader.text_attribute(group, "adhesive").has_value();
-  std::size_t length = 0, surfaces = 1;
+  std::optional<std::size_t> length;  // no column was read yet
+  std::size_t surfaces = 1;
   bool study = false;
   const auto column = [&](const std::string& name) {
     std::vector<double> values = reader.numbers(group + "/" + name);
@@ -80,9 +82,10 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
       rows = static_cast<std::size_t>(shape[2]);
       values.resize(surfaces * rows);
     }
-    if (length == 0) length = rows;
-    if (rows != length)
+    if (rows == 0) detail::refuse(reader.file(), "has no values in " + group + "/" + name);
+    if (rows != length.value_or(rows))
       detail::refuse(reader.file(), "has datasets of different length in " + group);
+    length = rows;
     return values;
   };
   using Column = std::pair<double ForceSample::*, std::vector<double>>;
@@ -90,7 +93,7 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   for (const auto& [quantity, member] : detail::curve_quantities())
     if (const std::string name(quantity.name); reader.has(group + "/" + name))
       columns.emplace_back(member, column(name));
-  if (length == 0) detail::refuse(reader.file(), "holds no force curve in its group " + group);
+  if (!length) detail::refuse(reader.file(), "holds no force curve in its group " + group);
   const std::vector<double> converged =
       reader.has(group + "/converged") ? column("converged") : std::vector<double>{1};
   if (study) {
@@ -99,11 +102,11 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
     curve.nominal_area = reader.number_attribute("surface", "size_x").value_or(0) *
                          reader.number_attribute("surface", "size_y").value_or(0);
   }
-  curve.samples.resize(length);
+  curve.samples.resize(*length);
   std::vector<ForceCurve> curves(surfaces, curve);
   // What all surfaces have in common, such as their pressures, is stored once.
-  for (std::size_t i = 0; i < surfaces * length; ++i) {
-    ForceSample& sample = curves[i / length].samples[i % length];
+  for (std::size_t i = 0; i < surfaces * *length; ++i) {
+    ForceSample& sample = curves[i / *length].samples[i % *length];
     for (const auto& [member, values] : columns) sample.*member = values[i % values.size()];
     sample.converged = converged[i % converged.size()] != 0;
   }

@@ -38,7 +38,7 @@ double fall_distance(const CorrelationMap& map, double angle, double level) {
     const double column = distance * along_y / map.grid.dy();
     const auto last_row = static_cast<double>(map.pairs.rows() - 1);
     const auto last_column = static_cast<double>(map.pairs.cols() - 1);
-    if (row < 0 || row > last_row || column > last_column) return unknown;
+    if (!(row >= 0 && row <= last_row && column <= last_column)) return unknown;
     const double low_row = std::min(std::floor(row), std::max(last_row - 1, 0.0));
     const double low_column = std::min(std::floor(column), std::max(last_column - 1, 0.0));
     const auto i = static_cast<Index>(low_row), j = static_cast<Index>(low_column);
@@ -93,9 +93,12 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
   double sum = 0;
   for (double r = 0.5;; r += 0.5) {
     const double x = r * along_x, y = r * along_y;
+    // Of sides that are far apart a step leaves what an index holds: the numbers are compared first.
+    if (2 * std::abs(x) > static_cast<double>(grid.nx) ||
+        y >= static_cast<double>(spectrum.psd.cols()))
+      return sum;
     const double low_x = std::floor(x), low_y = std::floor(y);
     const auto i = static_cast<Index>(low_x), j = static_cast<Index>(low_y);
-    if (2 * std::abs(x) > static_cast<double>(grid.nx) || j >= spectrum.psd.cols()) return sum;
     const double u = x - low_x, v = y - low_y;
     sum += r * ((1 - u) * ((1 - v) * at(i, j) + v * at(i, j + 1)) +
                 u * ((1 - v) * at(i + 1, j) + v * at(i + 1, j + 1)));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <salebra/base/error.hpp>
 
 #include "base/stop_check.hpp"
 
@@ -134,7 +135,8 @@ TwinFit fitted(TwinModel& model) {
   for (const Eigen::VectorXd& start : starts(model)) {
     const Eigen::VectorXd inside = bounded(model, start);
     model.residuals(inside, work, values, nullptr);
-    candidates.push_back({inside, values.squaredNorm() / 2});
+    const double cost = values.squaredNorm() / 2;
+    if (std::isfinite(cost)) candidates.push_back({inside, cost});
   }
   std::ranges::stable_sort(candidates, {}, &TwinFit::cost);
   candidates.resize(std::min<std::size_t>(candidates.size(), 6));
@@ -143,6 +145,9 @@ TwinFit fitted(TwinModel& model) {
     const TwinFit fit = minimised(model, candidate.parameters);
     if (fit.cost < best.cost) best = fit;
   }
+  require_that(std::isfinite(best.cost), "scans",
+               "have spectral densities of which no law comes near, since their squares are beyond "
+               "any number; check the units of heights and sizes");
   return refitted(model, best.parameters);
 }
 

@@ -8,9 +8,14 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
+#include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "run_program.hpp"
 
@@ -59,6 +64,32 @@ void lay_baits(const ProgramTest& test) {
   test.write("secret.txt", hostile::secret);
   REQUIRE(mkfifo((test.folder() / "pipe").c_str(), 0600) == 0);
 }
+
+/// A surface, a study of one, and the least that a study needs, as options.
+const std::string material = " --contact-modulus 10GPa --poisson 0.3 ";
+void make_surface(const ProgramTest& test, const std::string& name, int points = 32) {
+  test.done("generate --points " + std::to_string(points) +
+            " --size-x 10um --hurst 0.8 --rolloff 5um --short-cutoff 1um --rms-height 10nm -o " +
+            name);
+}
+const std::string small_study = R"([surface]
+points = 32
+size_x = "10um"
+hurst = 0.8
+rolloff = "5um"
+short_cutoff = "1um"
+rms_height = "10nm"
+seeds = [1]
+[material]
+contact_modulus = "10GPa"
+poisson = 0.3
+[contact]
+pressures = "1MPa:10MPa:4"
+[damping]
+normal_amplitude = "0.1nm"
+drag_velocity = "1mm/s"
+frequency = "20kHz"
+)";
 
 const std::string motion =
     " --contact-modulus 10GPa --poisson 0.3 --normal-amplitude 0.1nm --drag-velocity 1mm/s "
@@ -240,4 +271,131 @@ TEST_CASE("Names inside a file are printed with their control characters escaped
   const auto result = test.run("convert ./'\x1b[2J.h5' ./'\x1b[1A.npy'");
   CHECK(result.status == 0);
   CHECK_FALSE(holds(result.out + result.err, "\x1b"));
+}
+
+TEST_CASE("A study's verdict enters a deck as a known word alone", "[hostile]") {
+  const ProgramTest test;
+  test.write("study.toml", small_study);
+  test.done("study study.toml --no-report -o study.h5");
+  for (const std::string& verdict : {"valid\n*INCLUDE,INPUT=secret.inp\n**", "*/ int x; /*", ""}) {
+    INFO(verdict);
+    hostile::set_text(test.folder() / "study.h5", "answer", "validity", verdict);
+    for (const std::string format : {"csv", "calculix", "ansys", "code-aster", "abaqus", "json"})
+      check_harmless(test.run("export study.h5 --to " + format + " -o deck"),
+                     "is no verdict of a study");
+    CHECK_FALSE(fs::exists(test.folder() / "deck"));
+  }
+  hostile::set_text(test.folder() / "study.h5", "answer", "validity", "not valid");
+  test.done("export study.h5 --to calculix -o deck.inp");
+  CHECK(holds(test.read("deck.inp"), "not valid"));
+}
+
+TEST_CASE("A curve of a file whose name breaks lines is read again", "[hostile]") {
+  const ProgramTest test;
+  make_surface(test, "./'a\nb.h5'");
+  test.done("contact ./'a\nb.h5' --pressure 1MPa,2MPa,4MPa,8MPa" + material + "-o curve.csv");
+  CHECK(holds(test.read("curve.csv"), "a\\x0ab.h5"));
+  test.done("export curve.csv --to csv -o deck.csv");
+}
+
+TEST_CASE("Crafted twins are refused in one line, at a bounded cost", "[hostile]") {
+  const ProgramTest test;
+  test.write("study.toml", small_study);
+  make_surface(test, "s.h5", 64);
+  test.write("scans.toml",
+             "[[measurement]]\nfile = \"s.h5\"\ninstrument = \"ideal\"\ndetrend = \"none\"\n");
+  test.done("twin scans.toml --form corner -o twin.h5");
+  using Edit = std::function<void(const fs::path&)>;
+  const auto numbers = [](const std::string& name, const std::vector<double>& values,
+                          std::size_t rows = 0) {
+    return [=](const fs::path& file) {
+      hostile::set_numbers(file, "twin/draws/" + name, values, rows);
+    };
+  };
+  const auto table = [&](const std::vector<double>& knots) {
+    return [=](const fs::path& file) {
+      hostile::set_text(file, "twin", "form", "table");
+      numbers("knot", knots)(file);
+      numbers("log_psd", std::vector<double>(1000 * knots.size(), -60.), 1000)(file);
+    };
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> many(700);
+  for (std::size_t k = 0; k < many.size(); ++k) many[k] = 1e5 * std::pow(1.01, k);
+  const std::vector<std::pair<std::string, Edit>> edits{
+      {"twin/draws/knot", numbers("knot", {})},
+      {"twin/draws/knot", table({1e6})},
+      {"that do not rise", table({1e6, 1e6, 1e6})},
+      {"that do not rise", table({1e8, 1e7, 1e6})},
+      {"nan in twin/draws/knot", table({1e6, nan, 1e8})},
+      {"-1000000 in twin/draws/knot", table({-1e6, 1e6, 1e8})},
+      {"from 2 to 64", table(many)},
+      {"in twin/draws/hurst", numbers("hurst", std::vector<double>(1000, 1e9))},
+      {"in twin/draws/rolloff", numbers("rolloff", std::vector<double>(1000, 1e-300))},
+      {"in twin/draws/short_cutoff", numbers("short_cutoff", std::vector<double>(1000, 1e300))},
+      {"in twin/draws/log_psd", numbers("log_psd", std::vector<double>(1000, 700), 1000)},
+      {"999 values of hurst", [&](const fs::path& file) {
+         numbers("hurst", std::vector<double>(999, 0.8))(file);
+       }},
+      {"at most 20000", numbers("log_psd", std::vector<double>(100000, -60), 100000)}};
+  for (const auto& [part, edit] : edits) {
+    INFO(part);
+    fs::copy_file(test.folder() / "twin.h5", test.folder() / "crafted.h5",
+                  fs::copy_options::overwrite_existing);
+    edit(test.folder() / "crafted.h5");
+    const auto result = run_bounded(test, "study study.toml --twin crafted.h5",
+                                    fs::file_size(test.folder() / "crafted.h5"));
+    INFO(result.err);
+    if (part == "999 values of hurst")
+      check_harmless(result, "hurst belong to 1000 draws");
+    else
+      check_harmless(result, part);
+  }
+  // A table that is sound is taken, though its curvatures cost the third power of its knots.
+  std::vector<double> most(64);
+  for (std::size_t k = 0; k < most.size(); ++k) most[k] = 1e5 * std::pow(1.12, k);
+  table(most)(test.folder() / "twin.h5");
+  CHECK(run_bounded(test, "study study.toml --twin twin.h5 --dry-run",
+                    fs::file_size(test.folder() / "twin.h5"))
+            .status == 0);
+}
+
+TEST_CASE("A curve with an empty column is refused by every command", "[hostile]") {
+  const ProgramTest test;
+  make_surface(test, "s.h5");
+  test.done("contact s.h5 --pressure 1MPa,2MPa,4MPa,8MPa" + material + "-o curve.h5");
+  for (const std::string column : {"pressure", "converged"}) {
+    hostile::set_numbers(test.folder() / "curve.h5", "curve/" + column, {});
+    for (const std::string& command :
+         {std::string("fit curve.h5"), std::string("export curve.h5 --to csv"),
+          "damping --curve curve.h5 --pressure 1MPa" + motion}) {
+      INFO(command);
+      check_harmless(test.run(command), "has no values in curve/" + column);
+    }
+    hostile::set_numbers(test.folder() / "curve.h5", "curve/" + column, {1e6, 2e6, 4e6, 8e6});
+  }
+}
+
+TEST_CASE("Heights and sizes beyond all measure end in an answer", "[hostile]") {
+  const ProgramTest test;
+  std::string text;
+  for (int i = 0; i < 64; ++i) {
+    for (int k = 0; k < 64; ++k) text += std::to_string((i * 37 + k * 91 + i * k * 13) % 101) + " ";
+    text += "\n";
+  }
+  test.write("s.txt", text);
+  for (const std::string unit : {"1e300", "1e-300"}) {
+    INFO(unit);
+    std::string scaled;
+    for (const char symbol : text)
+      scaled += symbol == ' ' ? unit.substr(1) + " " : std::string(1, symbol);
+    test.write("far.txt", "# Width: 1 um\n# Height: 1 um\n# Value units: m\n" + scaled);
+    test.write("scans.toml", "[[measurement]]\nfile = \"far.txt\"\ninstrument = \"ideal\"\n");
+    check_harmless(run_bounded(test, "twin scans.toml", scaled.size()), "");
+  }
+  for (const std::string sizes : {"--size-x 1e20 --size-y 1", "--size-x 1 --size-y 1e20"})
+    run_bounded(test, "statistics --all --height-unit m s.txt " + sizes, text.size());
+  // What stands in a title is looked at once: the square of 300000 took 43 s.
+  test.write("blanks.csv", "pressure [Pa]" + std::string(300000, ' ') + "mean_gap [m]\n1 2\n");
+  run_bounded(test, "fit blanks.csv", 300000);
 }
