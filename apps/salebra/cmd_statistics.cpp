@@ -2,6 +2,7 @@
 // `salebra statistics`: roughness parameters, spectra and correlations of a surface.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/areal_parameters.hpp>
@@ -62,6 +63,21 @@ constexpr std::string_view needs_whole =
     "of several processes: no correlation, bearing curve, histogram, Sal, Str, Std, Sk, Spk, Svk, "
     "Smr1, Smr2, Spd and Spc, which need the surface whole";
 
+constexpr std::string_view no_hurst =
+    "no Hurst exponent: no range of reliable wavelengths follows a self-affine law closely enough "
+    "for an interval";
+
+ReliabilityLimit reliability(const StatisticsArguments& arguments, const Surface& surface) {
+  return short_wavelength_limit(
+      surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution});
+}
+
+/// Shorter waves are the instrument's; 0 where nothing is known of it.
+double reliable_wavelength(const StatisticsArguments& arguments, const Surface& surface) {
+  return arguments.tip_radius || arguments.resolution ? reliability(arguments, surface).wavelength()
+                                                      : 0;
+}
+
 /// What is printed always.
 Json summary(const StatisticsArguments& arguments, const Surface& surface, Index undefined,
              const SelfAffineFit& fit) {
@@ -75,8 +91,7 @@ Json summary(const StatisticsArguments& arguments, const Surface& surface, Index
   answer["rolloff"] = to_json(fit.rolloff);
   answer["short_cutoff"] = to_json(fit.short_cutoff);
   answer["summits"] = json_of(summit_statistics(find_summits(surface)));
-  answer["reliability"] = json_of(short_wavelength_limit(
-      surface, {.tip_radius = arguments.tip_radius, .resolution = arguments.resolution}));
+  answer["reliability"] = json_of(reliability(arguments, surface));
   return answer;
 }
 
@@ -135,7 +150,13 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
     Surface without_holes;
     const Surface& complete = undefined == 0 ? surface : (without_holes = filled(surface));
     spectrum = power_spectrum(complete, window);
-    fit = fit_self_affine(*spectrum);
+    // Without a window, the steps between opposite edges are in the spectrum of what is not
+    // periodic.
+    if (complete.periodic || spectrum->windowed)
+      fit = fit_self_affine(*spectrum, reliable_wavelength(arguments, surface));
+    if (!fit.hurst.found())
+      session.note(complete.periodic || spectrum->windowed ? no_hurst
+                                                           : "no Hurst exponent without a window");
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
   const Json answer = summary(arguments, surface, undefined, fit);
@@ -181,7 +202,16 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
                      Session& session) {
   const Index undefined = profile.undefined_points();
   const Surface complete = undefined == 0 ? profile : filled(profile);
-  const ProfileFit fit = fit_profile(complete);
+  ProfileFit fit = fit_profile(complete, reliable_wavelength(arguments, complete));
+  if (const auto trend = value_of<Detrend>(arguments.surface.detrend);
+      trend == Detrend::none || trend == Detrend::mean) {
+    // Those of the profile with its straight line, which the fit takes off.
+    const Index n = complete.grid.nx;
+    fit.rms_height = height_statistics(complete).rms_height;
+    fit.rms_slope = std::sqrt(
+        (complete.heights.bottomRows(n - 1) - complete.heights.topRows(n - 1)).square().mean()) /
+        complete.grid.dx();
+  }
   const ProfilePsd psd = profile_psd(complete, Axis::x, *value_of<Window>(arguments.window));
   Json answer{
       {"nx", profile.grid.nx}, {"size_x", profile.grid.lx}, {"undefined_points", undefined}};
@@ -189,7 +219,10 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   answer["hurst"] = to_json<IntervalEstimate>(fit.hurst);
   answer["rolloff"] = fit.rolloff;
   answer["short_cutoff"] = fit.short_cutoff;
+  if (arguments.tip_radius || arguments.resolution)
+    answer["reliability"] = json_of(reliability(arguments, complete));
   if (undefined > 0) session.note(fmt::format("{} undefined points were filled", undefined));
+  if (!fit.hurst.found()) session.note(no_hurst);
   const std::vector<ResultTable> tables{psd_table(
       "profile_psd_x", converted(psd, *value_of<PsdConvention>(arguments.convention)), psd.modes)};
   write_tables(session, "statistics", answer, tables);

@@ -96,6 +96,7 @@ void bind_hurst(nb::module_& m) {
       m, "HurstEstimate",
       "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.");
   m.def("estimate_hurst", &estimate_hurst, nb::arg("spectrum"),
+        nb::arg("shortest_wavelength") = 0,
         "Hurst exponent by maximum quasi-likelihood over the power-law part of a "
         ":class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
   described_class<IntervalEstimate>(m, "IntervalEstimate",
@@ -105,14 +106,15 @@ void bind_hurst(nb::module_& m) {
       "A line profile, and the isotropic surface of whose profiles it can be one.");
   m.def(
       "fit_profile",
-      [](const BoundSurface& profile) {
-        return unlocked([&] { return fit_profile(profile.surface); });
+      [](const BoundSurface& profile, double shortest_wavelength) {
+        return unlocked([&] { return fit_profile(profile.surface, shortest_wavelength); });
       },
-      nb::arg("profile"),
+      nb::arg("profile"), nb::arg("shortest_wavelength") = 0,
       "Rq, slope and the isotropic self-affine surface of a line profile, a surface of one row as "
       ":func:`read_surface` with ``profiles=True`` gives it.");
   described_class<SelfAffineFit>(m, "SelfAffineFit", "The self-affine model of a surface.");
   m.def("fit_self_affine", &fit_self_affine, nb::arg("spectrum"),
+        nb::arg("shortest_wavelength") = 0,
         "Hurst exponent, roll-off and shortest wavelength of a :class:`PowerSpectrum`.");
 }
 

@@ -48,8 +48,9 @@ std::optional<double> metres_in(const std::string& unit);
 /// The same, where it must be one; throws InvalidInput naming the file.
 double metres_per(const std::filesystem::path& file, const std::string& unit);
 
-/// Points at these positions, which increase, as a profile of equal steps: heights between are
-/// interpolated where they are off by more than a tenth of a step. size_x is in the unit of x.
+/// Points at these positions, which increase, as a profile of equal steps. Where they are off by more
+/// than a tenth of a step, the straight lines between them are evaluated on a fine grid from the
+/// first point to the last. size_x is in the unit of x.
 LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<double>& positions,
                          const std::vector<double>& heights);
 

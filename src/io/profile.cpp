@@ -24,16 +24,30 @@ LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<do
   for (std::size_t i = 0; i < count; ++i)
     farthest = std::max(farthest, std::abs(positions[i] - first - static_cast<double>(i) * step));
   if (!(farthest > 0.1 * step)) return profile;
-  profile.remarks.emplace_back(
-      "its points are not equally spaced; heights between them are interpolated");
-  for (std::size_t i = 0; i < count; ++i) {
-    const double x = first + static_cast<double>(i) * step;
-    const auto above =
-        static_cast<std::size_t>(std::ranges::lower_bound(positions, x) - positions.begin());
-    const std::size_t right = std::clamp<std::size_t>(above, 1, count - 1), left = right - 1;
+  // The profile is what straight lines between its points make of it, on a grid of equal steps that
+  // is fine even to the shortest of them: sums over it are integrals.
+  const double length = positions.back() - first;
+  double shortest = length;
+  for (std::size_t i = 1; i < count; ++i)
+    shortest = std::min(shortest, positions[i] - positions[i - 1]);
+  constexpr double steps_of_piece = 16, most = 1 << 22;
+  const double points = std::min(most, std::ceil(steps_of_piece * length / shortest));
+  if (!(points * shortest >= 2 * length))
+    refuse(file, "is a line profile with points that are closer than " +
+                     std::to_string(2e6 / most) + "e-6 of its length; resample it");
+  const auto fine = static_cast<Index>(points);
+  profile.remarks.emplace_back("its points are not equally spaced; straight lines between them are "
+                               "evaluated at " +
+                               std::to_string(fine) + " points");
+  profile.size_x = length;
+  profile.heights.resize(fine, 1);
+  std::size_t right = 1;
+  for (Index i = 0; i < fine; ++i) {
+    const double x = first + (static_cast<double>(i) + 0.5) * length / points;
+    while (right + 1 < count && positions[right] < x) ++right;
+    const std::size_t left = right - 1;
     const double share = (x - positions[left]) / (positions[right] - positions[left]);
-    profile.heights(static_cast<Index>(i), 0) =
-        heights[left] + std::clamp(share, 0., 1.) * (heights[right] - heights[left]);
+    profile.heights(i, 0) = heights[left] + share * (heights[right] - heights[left]);
   }
   return profile;
 }

@@ -15,6 +15,7 @@
 
 #include "ring_means.hpp"
 #include "surface/dense_systems.hpp"
+#include "surface/power_law_range.hpp"
 
 namespace salebra {
 namespace {
@@ -65,15 +66,14 @@ class RunningFit {
 };
 
 /// The power-law piece of a radial spectrum; an empty range if there is none.
-Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& radial) {
+Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& radial,
+                        double highest) {
   const Grid2D& grid = spectrum.grid;
-  const double nyquist = pi / std::max(grid.dx(), grid.dy());
-  const double longest = 2 * pi / std::min(grid.lx, grid.ly);
+  const double nyquist = std::min(highest, pi / std::max(grid.dx(), grid.dy()));
   const double strongest = std::ranges::max(radial.psd);
   std::vector<std::size_t> bins;
   bool power_ended = false;
   for (std::size_t k = 0; k < radial.modes.size() && !power_ended; ++k) {
-    if (spectrum.windowed && radial.wavenumber[k] < 3.5 * longest) continue;
     if (radial.wavenumber[k] > nyquist) break;
     // Rounding leaves 1e-32 of the strongest mode where a spectrum is cut off.
     power_ended = !(radial.psd[k] > 1e-24 * strongest);
@@ -82,8 +82,7 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
   RunningFit fits;
   for (const std::size_t k : bins) {
     const double independent = static_cast<double>(radial.modes[k]) / 2;
-    const double variance =
-        spectrum.correlated_modes / independent + forgiven_deviation * forgiven_deviation;
+    const double variance = 1 / independent + forgiven_deviation * forgiven_deviation;
     // The mean of n exponential variates has a logarithm that is low by about 1/(2n).
     fits.add(std::log(radial.wavenumber[k]), std::log(radial.psd[k]) + 0.5 / independent,
              1 / variance);
@@ -221,10 +220,60 @@ Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
   return law;
 }
 
-HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
+/// The density that Hann's window shows of a surface that does not end: means over displacements of
+/// one mode each way, 1 : 4 : 1.
+detail::SelfAffineDensity windowed_density(const Grid2D& grid) {
+  const double step_x = 2 * pi / grid.lx, step_y = 2 * pi / grid.ly;
+  return [=](double q, double hurst, double q_rolloff) {
+    const auto at = [&](double qx, double qy) {
+      return std::pow(std::max(detail::length_of(qx, qy), q_rolloff), -2 - 2 * hurst);
+    };
+    // Beyond some waves it makes less of a difference than the bins can show.
+    if (q > 16 * std::max(step_x, step_y)) return at(q, 0);
+    double sum = 0;
+    // A direction for which the mean over all of them is met.
+    const double qx = q * std::cos(pi / 8), qy = q * std::sin(pi / 8);
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        sum += (i == 0 ? 4 : 1) * (j == 0 ? 4 : 1) * at(qx + i * step_x, qy + j * step_y);
+    return sum / 36;
+  };
+}
+
+/// H of a surface that is not periodic.
+HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
+  const Grid2D& grid = spectrum.grid;
+  // As many rings as describe a law to better than a hundredth.
+  constexpr int rings_per_octave = 6;
+  const RadialSpectrum radial = radial_spectrum(spectrum, rings_per_octave);
+  const double lowest = 4 * 2 * pi / std::min(grid.lx, grid.ly);
+  // Waves of less than two and a half cells are what points fold most, and no law describes them.
+  highest = std::min(highest, 0.8 * pi / std::max(grid.dx(), grid.dy()));
+  constexpr double forgiven = 0.02;
+  const double strongest = radial.psd.empty() ? 0 : std::ranges::max(radial.psd);
+  std::vector<detail::SpectrumBin> bins;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < radial.modes.size(); ++k) {
+    const double q = radial.wavenumber[k];
+    if (q < lowest || q > highest) continue;
+    if (!(radial.psd[k] > 1e-24 * strongest)) break;
+    const double independent = static_cast<double>(radial.modes[k]) / 2 / spectrum.correlated_modes;
+    bins.push_back({q, radial.psd[k], 1 / (1 / independent + forgiven * forgiven)});
+    places.push_back(k);
+  }
+  const detail::PowerLawRange law =
+      detail::fit_power_law_range(bins, windowed_density(grid), least_span);
+  if (!law.found()) return {};
+  HurstEstimate estimate{law.hurst, bins[law.begin].wavenumber, bins[law.end - 1].wavenumber, 0};
+  for (std::size_t k = law.begin; k < law.end; ++k) estimate.modes += radial.modes[places[k]];
+  return estimate;
+}
+
+HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
+  if (spectrum.windowed) return of_windowed(spectrum, highest);
   const RadialSpectrum radial = radial_spectrum(spectrum);
   if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return {};
-  Range range = self_affine_range(spectrum, radial);
+  Range range = self_affine_range(spectrum, radial, highest);
   spectrum.ranks.broadcast(&range, sizeof range);
   ModesWithin modes(spectrum, range);
   const auto [count, weight, moment, power, all] =
@@ -270,10 +319,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
   const double value = -1 - law(1) / 2;
   const double span = std::exp(greatest - least);
   if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5)) return {};
-  // A window makes neighbouring modes alike: rings that happen to scatter less than that are luck,
-  // not knowledge.
-  const double dispersion =
-      std::max(scatter / freedom, spectrum.windowed ? spectrum.correlated_modes : 0);
+  const double dispersion = scatter / freedom;
   const double error = std::sqrt(dispersion * detail::pseudo_inverse(information)(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;
   return {{value, value - half_width, value + half_width},
@@ -284,8 +330,8 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum) {
 
 }  // namespace
 
-HurstEstimate estimate_hurst(const PowerSpectrum& spectrum) {
-  HurstEstimate estimate = found_or_not(spectrum);
+HurstEstimate estimate_hurst(const PowerSpectrum& spectrum, double shortest_wavelength) {
+  HurstEstimate estimate = found_or_not(spectrum, 2 * pi / shortest_wavelength);
   spectrum.ranks.broadcast(&estimate, sizeof estimate);
   return estimate;
 }

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Isotropic self-affine surface of a line profile, by integration of its spectrum.
 #include <gsl/gsl_integration.h>
-#include <gsl/gsl_multimin.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
-#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/profile_fit.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "base/quiet_gsl.hpp"
+#include "surface/power_law_range.hpp"
 
 namespace salebra {
 namespace {
@@ -32,15 +29,6 @@ struct FreeTable {
     gsl_integration_glfixed_table_free(table);
   }
 };
-struct FreeMinimizer {
-  void operator()(gsl_multimin_fminimizer* minimizer) const {
-    gsl_multimin_fminimizer_free(minimizer);
-  }
-};
-struct FreeVector {
-  void operator()(gsl_vector* vector) const { gsl_vector_free(vector); }
-};
-
 /// ∫cos^power θ dθ by a Gauss–Legendre rule.
 double cosine_integral(double power, double from, double to) {
   static const std::unique_ptr<gsl_integration_glfixed_table, FreeTable> table(
@@ -54,128 +42,29 @@ double cosine_integral(double power, double from, double to) {
   return sum;
 }
 
-/// Means of P over bins of wave numbers, with the number of independent modes in each.
-struct ProfileBin {
-  double wavenumber, power, modes;
-};
-
-/// The law within the first bins of a spectrum: its amplitude is the most likely one.
-class ProfileRange {
- public:
-  /// q_short: where C ends; infinity where it does not within the profile.
-  ProfileRange(std::span<const ProfileBin> bins, double q_short) : bins_(bins), q_short_(q_short) {}
-
-  struct Law {
-    double deviance = 1e300;  ///< −ln L over that of a law through every bin
-    double hurst = 0.7, q_rolloff = 0, amplitude = 0;
-
-    double density(double q, double q_short) const {
-      return amplitude * profile_density(q, hurst, q_rolloff, q_short);
-    }
-  };
-
-  /// The most likely law; hurst: held. Without a plateau, the power law begins beyond the profile.
-  Law fit(bool plateau, std::optional<double> hurst = {}) const {
-    Law best;
-    const double first = std::log(bins_.front().wavenumber),
-                 span = std::log(bins_.back().wavenumber) - first;
-    for (const double place : {0.0, 0.3, 0.6}) {
-      if (!plateau && place > 0) continue;
-      const Law found = descend(hurst, hurst.value_or(0.6), plateau, first + place * span);
-      if (found.deviance < best.deviance) best = found;
-    }
-    return best;
-  }
-
- private:
-  Law at(double hurst, double q_rolloff) const {
-    Law law{.hurst = hurst, .q_rolloff = q_rolloff};
-    if (!(hurst > 0.01 && hurst < 1.3 && q_rolloff < bins_.back().wavenumber)) return law;
-    double weighted = 0, modes = 0, logarithms = 0;
-    for (const ProfileBin& bin : bins_) {
-      const double ratio = bin.power / profile_density(bin.wavenumber, hurst, q_rolloff, q_short_);
-      weighted += bin.modes * ratio;
-      modes += bin.modes;
-      logarithms -= bin.modes * std::log(ratio);
-    }
-    law.amplitude = weighted / modes;
-    law.deviance = logarithms + modes * std::log(law.amplitude);
-    return law;
-  }
-
-  /// What a minimum is searched over.
-  struct Search {
-    const ProfileRange* range;
-    std::optional<double> hurst;
-    bool plateau;
-
-    Law law(const gsl_vector* place) const {
-      std::size_t next = 0;
-      const double free = hurst ? *hurst : gsl_vector_get(place, next++);
-      const double begin = 1e-3 * range->bins_.front().wavenumber;
-      return range->at(free, plateau ? std::exp(gsl_vector_get(place, next)) : begin);
-    }
-  };
-
-  Law descend(std::optional<double> held, double hurst, bool plateau, double log_rolloff) const {
-    const Search search{this, held, plateau};
-    std::vector<std::pair<double, double>> from;  // and how far the first step goes
-    if (!held) from.emplace_back(hurst, 0.1);
-    if (plateau) from.emplace_back(log_rolloff, 0.4);
-    const std::unique_ptr<gsl_vector, FreeVector> place(
-        gsl_vector_alloc(std::max<std::size_t>(1, from.size()))),
-        step(gsl_vector_alloc(std::max<std::size_t>(1, from.size())));
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      gsl_vector_set(place.get(), i, from[i].first);
-      gsl_vector_set(step.get(), i, from[i].second);
-    }
-    if (from.empty()) return search.law(place.get());
-    gsl_multimin_function function{[](const gsl_vector* x, void* data) {
-                                     return static_cast<const Search*>(data)->law(x).deviance;
-                                   },
-                                   from.size(), const_cast<Search*>(&search)};
-    const std::unique_ptr<gsl_multimin_fminimizer, FreeMinimizer> minimizer(
-        gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, from.size()));
-    gsl_multimin_fminimizer_set(minimizer.get(), &function, place.get(), step.get());
-    constexpr int most = 150;
-    for (int i = 0; i < most; ++i) {
-      if (gsl_multimin_fminimizer_iterate(minimizer.get()) != 0) break;
-      if (gsl_multimin_fminimizer_size(minimizer.get()) < 3e-4) break;
-    }
-    return search.law(minimizer->x);
-  }
-
-  std::span<const ProfileBin> bins_;
-  double q_short_;
-};
-
 constexpr double endless = 1e300;
 
-/// The bins that the law describes, at least a third: one that it misses costs more than to leave
-/// it and all shorter waves out.
-std::size_t described_bins(std::span<const ProfileBin> bins) {
-  constexpr double left_out = 2;
-  std::size_t best = bins.size();
-  double least = 1e300;
-  for (std::size_t count = std::max<std::size_t>(6, bins.size() / 3); count <= bins.size();
-       count += 2) {
-    const double cost = ProfileRange(bins.first(count), endless).fit(true).deviance +
-                        left_out * static_cast<double>(bins.size() - count);
-    if (cost < least) {
-      least = cost;
-      best = count;
-    }
-  }
-  return best;
+/// Power spectral density of profiles under Hann's window, which mixes each wave with its
+/// neighbours by 1 : 4 : 1. step: from one wave to the next.
+detail::SelfAffineDensity windowed_density(double step, double q_short) {
+  return [=](double q, double hurst, double q_rolloff) {
+    // Without a plateau the power law begins beyond the profile.
+    const double begin = q_rolloff > 0 ? q_rolloff : 1e-3 * step;
+    const auto at = [&](double place) { return profile_density(place, hurst, begin, q_short); };
+    // Beyond some waves it makes less of a difference than the bins can show.
+    if (q > 24 * step) return at(q);
+    return (at(q - step) + 4 * at(q) + at(q + step)) / 6;
+  };
 }
 
 /// Where the power falls below a quarter of the law, and soon to a twentieth; endless where it does
 /// not.
-double end_of_law(std::span<const ProfileBin> bins, const ProfileRange::Law& law) {
+double end_of_law(std::span<const detail::SpectrumBin> bins, const detail::PowerLawRange& law,
+                  const detail::SelfAffineDensity& density) {
   // Long waves are too few: some of them lack power by chance.
   for (std::size_t i = bins.size() / 3; i < bins.size(); ++i) {
-    const auto share = [&](const ProfileBin& bin) {
-      return bin.power / law.density(bin.wavenumber, endless);
+    const auto share = [&](const detail::SpectrumBin& bin) {
+      return bin.power / (law.amplitude * density(bin.wavenumber, law.hurst.value, law.q_rolloff));
     };
     if (share(bins[i]) > 0.25) continue;
     constexpr double soon = 1.6;
@@ -186,12 +75,28 @@ double end_of_law(std::span<const ProfileBin> bins, const ProfileRange::Law& law
   return endless;
 }
 
-std::vector<ProfileBin> profile_bins(const ProfilePsd& psd) {
-  constexpr std::size_t mixed = 2;
+/// Twice the longest straight piece of a profile that was interpolated: shorter waves are the
+/// interpolation's. 0 where four fifths of its points are not on such pieces.
+double interpolated_wavelength(const Surface& profile) {
+  const Index n = profile.grid.nx;
+  const double least = 1e-12 * profile.heights.abs().maxCoeff();
+  Index straight = 0, run = 0, longest = 0;
+  for (Index i = 1; i + 1 < n; ++i) {
+    const double bend = profile.heights(i + 1, 0) - 2 * profile.heights(i, 0) + profile.heights(i - 1, 0);
+    run = std::abs(bend) <= least ? run + 1 : 0;
+    straight += run > 0;
+    longest = std::max(longest, run);
+  }
+  if (5 * straight < 4 * n) return 0;
+  return 2 * static_cast<double>(longest + 1) * profile.grid.dx();
+}
+
+std::vector<detail::SpectrumBin> profile_bins(const ProfilePsd& psd) {
+  constexpr std::size_t mixed = 3;
   // Neighbours under Hann's window are correlated: 35/18 of them count as one.
   constexpr double independent = 18. / 35;
   constexpr double ratio = 1.12;
-  std::vector<ProfileBin> bins;
+  std::vector<detail::SpectrumBin> bins;
   double end = 0;
   for (std::size_t k = mixed; k + 1 < psd.wavenumber.size(); ++k) {
     if (psd.wavenumber[k] >= end) {
@@ -202,9 +107,9 @@ std::vector<ProfileBin> profile_bins(const ProfilePsd& psd) {
     bins.back().power += psd.psd[k];
     bins.back().modes += 1;
   }
-  // A spectrum that no law describes to better than a twentieth.
-  constexpr double forgiven = 0.05;
-  for (ProfileBin& bin : bins) {
+  // A spectrum that no law describes to better than three hundredths.
+  constexpr double forgiven = 0.03;
+  for (detail::SpectrumBin& bin : bins) {
     bin.wavenumber = std::exp(bin.wavenumber / bin.modes);
     bin.power /= bin.modes;
     bin.modes = 1 / (1 / (independent * bin.modes) + forgiven * forgiven);
@@ -219,11 +124,14 @@ double profile_density(double q, double hurst, double q_rolloff, double q_short)
   double density = 0;
   if (q < q_rolloff) density += 2 * std::sqrt(q_rolloff * q_rolloff - q * q);
   const double from = std::acos(q / std::max(q, q_rolloff)), to = std::acos(q / q_short);
-  return density +
-         2 * std::pow(q_rolloff / q, 2 + 2 * hurst) * q * cosine_integral(2 * hurst, from, to);
+  // The whole quarter of a turn has a closed form, √π Γ(H+½)/(2 Γ(H+1)).
+  const double integral = q >= q_rolloff && q < 1e-9 * q_short
+                              ? std::sqrt(pi) / 2 * std::tgamma(hurst + 0.5) / std::tgamma(hurst + 1)
+                              : cosine_integral(2 * hurst, from, to);
+  return density + 2 * std::pow(q_rolloff / q, 2 + 2 * hurst) * q * integral;
 }
 
-ProfileFit fit_profile(const Surface& profile) {
+ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   profile.require_complete("the spectrum of a profile");
   require(profile.grid.ny == 1 && profile.grid.nx >= 2, "profile",
           std::to_string(profile.grid.nx) + " x " + std::to_string(profile.grid.ny) + " points",
@@ -240,41 +148,34 @@ ProfileFit fit_profile(const Surface& profile) {
   fit.surface_slope = std::numbers::sqrt2 * fit.rms_slope;
   constexpr Index fewest = 32;
   if (!(fit.rms_height > 1e-9 * profile.heights.abs().maxCoeff()) || n < fewest) return fit;
-  const std::vector<ProfileBin> bins = profile_bins(profile_psd(level, Axis::x, Window::hann));
-  if (std::ranges::any_of(bins, [](const ProfileBin& bin) { return !(bin.power > 0); })) return fit;
+  const double unreliable = std::max(shortest_wavelength, interpolated_wavelength(profile));
+  // Waves of less than two and a half cells are what points fold most, and no law describes them.
+  const double highest = std::min(0.8 * pi / level.grid.dx(), unreliable > 0 ? 2 * pi / unreliable : endless);
+  std::vector<detail::SpectrumBin> bins = profile_bins(profile_psd(level, Axis::x, Window::hann));
+  if (unreliable > 0) std::erase_if(bins, [&](const auto& bin) { return bin.wavenumber > highest; });
+  if (std::ranges::any_of(bins, [](const auto& bin) { return !(bin.power > 0); })) return fit;
 
-  const std::span<const ProfileBin> all(bins);
-  std::size_t count = described_bins(all);
-  double q_short = endless;
-  ProfileRange::Law law = ProfileRange(all.first(count), q_short).fit(true);
-  // Short of its end, the law's own profiles lack what lies beyond.
-  for (int round = 0; round < 2; ++round) {
-    q_short = end_of_law(all, law);
-    if (q_short == endless) break;
-    constexpr double steep = 0.85;
-    count = static_cast<std::size_t>(std::ranges::count_if(
-        all, [&](const ProfileBin& bin) { return bin.wavenumber < steep * q_short; }));
-    law = ProfileRange(all.first(count), q_short).fit(true);
-  }
-  const ProfileRange range(all.first(count), q_short);
-  if (q_short != endless) fit.short_cutoff = 2 * pi / q_short;
-  constexpr double limit = 1.92;  // half of the 95 % point of χ² with one degree of freedom
-  if (range.fit(false).deviance - law.deviance > limit && law.q_rolloff > all.front().wavenumber)
-    fit.rolloff = 2 * pi / law.q_rolloff;
-  fit.hurst.value = law.hurst;
-  // Outwards until the likelihood has fallen by the limit, then between.
-  const auto end = [&](double direction) {
-    double inside = law.hurst;
-    for (double step = 0.02; step > 1e-3 && inside > 0.02 && inside < 1.28;) {
-      if (range.fit(true, inside + direction * step).deviance - law.deviance > limit)
-        step /= 3;
-      else
-        inside += direction * step;
-    }
-    return inside;
+  const double step = 2 * pi / level.grid.lx;
+  const auto below = [&](double limit) {
+    return std::span(bins).first(static_cast<std::size_t>(std::ranges::count_if(
+        bins, [&](const auto& bin) { return bin.wavenumber < limit; })));
   };
-  fit.hurst.low = end(-1);
-  fit.hurst.high = end(1);
+  double q_short = endless;
+  detail::PowerLawRange law;
+  // Short of its end, the law's own profiles lack what lies beyond.
+  for (int round = 0; round < 3; ++round) {
+    constexpr double steep = 0.85;
+    const auto density = windowed_density(step, q_short);
+    law = detail::fit_power_law_range(below(std::min(highest, steep * q_short)), density, 4);
+    if (!law.found()) return fit;
+    if (round == 2) break;
+    const double end = end_of_law(bins, law, windowed_density(step, endless));
+    if (end == q_short) break;
+    q_short = end;
+  }
+  if (q_short != endless) fit.short_cutoff = 2 * pi / q_short;
+  if (law.rolloff_seen) fit.rolloff = 2 * pi / law.q_rolloff;
+  fit.hurst = law.hurst;
   return fit;
 }
 

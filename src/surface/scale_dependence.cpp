@@ -149,7 +149,8 @@ double ReliabilityLimit::wavelength() const {
 ReliabilityLimit short_wavelength_limit(const Surface& surface, const ReliabilityOptions& options) {
   require_positive(options.safety_factor, "safety_factor");
   ReliabilityLimit limit;
-  limit.pixel = 2 * std::max(surface.grid.dx(), surface.grid.dy());
+  limit.pixel = 2 * (surface.grid.ny == 1 ? surface.grid.dx()
+                                          : std::max(surface.grid.dx(), surface.grid.dy()));
   if (options.resolution) {
     require_positive(*options.resolution, "resolution");
     limit.resolution = options.resolution;
@@ -159,6 +160,7 @@ ReliabilityLimit short_wavelength_limit(const Surface& surface, const Reliabilit
   const double sharpest = -options.safety_factor / *options.tip_radius;
   limit.tip = 0;
   for (const Axis axis : {Axis::x, Axis::y}) {
+    if (axis == Axis::y && surface.grid.ny == 1) continue;  // a line profile
     const ScaleDependence scales = scale_dependence(surface, axis);
     std::size_t k = scales.spacing.size();
     while (k > 0 && scales.min_curvature[k - 1] >= sharpest) --k;

@@ -207,8 +207,8 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
 
 }  // namespace
 
-SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum) {
-  SelfAffineFit fit{estimate_hurst(spectrum), {}, {}};
+SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, double shortest_wavelength) {
+  SelfAffineFit fit{estimate_hurst(spectrum, shortest_wavelength), {}, {}};
   if (!fit.hurst.found()) return fit;
   fit.rolloff = fit_rolloff(spectrum, fit.hurst);
   fit.short_cutoff = find_short_cutoff(spectrum, fit.hurst);

@@ -40,16 +40,18 @@ constexpr void describe(auto&& visit, std::type_identity<ProfileFit>) {
 /// from θ = arccos(q/max(q, q_r)) to arccos(q/q_s), over C0, in 1/m. q > 0.
 double profile_density(double q, double hurst, double q_rolloff, double q_short);
 
-/// Fits C₁ to the spectrum of a profile under Hann's window, less its straight line: C follows from
-/// integrating a model, never from inverting what was measured. Powers are exponentially
-/// distributed. The two longest waves, into which the window mixes others, are left out, and so are
-/// the shortest ones where they are off the law: noise, a filter, a tip. The interval of H is that of
-/// a likelihood-ratio test at 5 %, the roll-off being free; the choice of the range is not in it. A
-/// roll-off counts as seen where a law without it is less likely by more than that, a shortest
-/// wavelength where the power falls to a twentieth of the law within a factor of 1.6.
-/// H is not found of less than 32 points, of a straight line, and where a wave has no power.
+/// Fits A·C₁(q)·exp(−g q²) + floor to the spectrum of a profile under Hann's window, less its straight
+/// line, as estimate_hurst() does to that of a surface: C follows from integrating a model, never from
+/// inverting what was measured. Powers are exponentially distributed. The three longest waves, into
+/// which the window mixes others, are left out, and so are those of less than 2.5 cells, those shorter
+/// than shortest_wavelength (m), and of an interpolated profile those shorter than twice its longest
+/// straight piece. The interval of H is that of a likelihood-ratio test at 5 %, the roll-off, floor
+/// and g being free. A roll-off counts as seen where a law without it is less likely by more than
+/// that, a shortest wavelength where the power falls to a twentieth of the law within a factor of
+/// 1.6. H is not found of less than 32 points, of a straight line, where a wave has no power, and
+/// where no range of a factor of four in q follows the law.
 /// Throws InvalidInput unless the profile is complete, with one row and two points at least. Cost:
 /// some 10⁴ evaluations of the spectrum in sixty bins, 0.3 s.
-ProfileFit fit_profile(const Surface& profile);
+ProfileFit fit_profile(const Surface& profile, double shortest_wavelength = 0);
 
 }  // namespace salebra

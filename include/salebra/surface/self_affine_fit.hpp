@@ -27,12 +27,12 @@ constexpr void describe(auto&& visit, std::type_identity<SelfAffineFit>) {
       Kept{"short_cutoff", "wavelength; NaN unless the spectrum ends within the lattice", length});
 }
 
-/// H as estimate_hurst. The roll-off is that of greatest quasi-likelihood, plateau and slope being
+/// H as estimate_hurst, with the same shortest_wavelength. The roll-off is that of greatest quasi-likelihood, plateau and slope being
 /// free, over all modes up to the end of the fitted range (of a windowed spectrum without its three
 /// longest waves); its interval holds what a likelihood-ratio test at 5 % does not reject, powers
 /// being exponentially distributed and correlated as the window has it. The shortest wavelength
 /// lies between the last mode that has power and the first that has none; a window spreads power by
 /// some modes, up to four of which the interval allows for. Cost: as estimate_hurst.
-SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum);
+SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, double shortest_wavelength = 0);
 
 }  // namespace salebra

@@ -169,17 +169,26 @@ constexpr void describe(auto&& visit, std::type_identity<HurstEstimate>) {
   visit(&S::modes, Kept{"modes", "modes in the range"});
 }
 
-/// The range is the middle of up to three pieces (plateau, power law, and a tail of other slope:
-/// noise, or what a tip or filter left) that describe ln C of the radial spectrum up to π/max(dx,
-/// dy) best by Bayes' information criterion, deviations of 10 % in C being forgiven; bins without
-/// power end it, and a bin at either limit is left out. In it, ln C = a − 2(1+H) ln q is fitted to
-/// all modes by maximum quasi-likelihood, the power of a mode being exponentially distributed about
-/// C (as for a Gaussian surface). The interval is Student's, from the scatter of the bins about the
-/// fit: it holds the statistical error, correlation of windowed modes and bins that are off a power
-/// law, but not the choice of the range. Of a windowed spectrum the three longest waves are left
-/// out, into which the window mixes their neighbours. No range (less than a factor of three in q,
-/// or H outside −0.25 … 1.5) is a result with NaN, not an error. Cost: some ten passes over the
-/// modes of the range.
-HurstEstimate estimate_hurst(const PowerSpectrum& spectrum);
+/// A spectrum without a window, of a periodic surface: the range is the middle of up to three pieces
+/// (plateau, power law, and a tail of other slope: noise, or what a tip or filter left) that describe
+/// ln C of the radial spectrum up to π/max(dx, dy) best by Bayes' information criterion, deviations
+/// of 10 % in C being forgiven; bins without power end it, and a bin at either limit is left out. In
+/// it, ln C = a − 2(1+H) ln q is fitted to all modes by maximum quasi-likelihood, the power of a
+/// mode being exponentially distributed about C (as for a Gaussian surface). The interval is
+/// Student's, from the scatter of the bins about the fit; it does not hold the choice of the range.
+///
+/// Under a window, of a surface that goes on beyond its edges: A·C(q)·exp(−g q²) + floor is fitted
+/// to the rings, C having a plateau or none and being seen through Hann's window. The floor >= 0 is
+/// noise and the waves shorter than two cells, which points fold into the spectrum; g >= 0 is what
+/// pixels, lenses and tips take away. The range is the longest one that this law describes (90 %
+/// point of the deviance), above the four longest waves and below 0.8 of π/max(dx, dy). The interval
+/// is that of a likelihood-ratio test at 5 % in which floor, g and roll-off are free, and holds the
+/// most likely H of the range without its shortest half octave. The powers of neighbouring modes
+/// count as correlated.
+///
+/// shortest_wavelength: shorter waves take no part, m; such as ReliabilityLimit::wavelength()
+/// No range (less than a factor of three in q, or H outside −0.2 … 1.5) is a result with NaN, not an
+/// error. Cost: some ten passes over the modes of the range.
+HurstEstimate estimate_hurst(const PowerSpectrum& spectrum, double shortest_wavelength = 0);
 
 }  // namespace salebra

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Self-affine law of a range of wave numbers with a floor and an attenuation that are not known.
+#include <gsl/gsl_cdf.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "surface/dense_systems.hpp"
+#include "surface/power_law_range.hpp"
+
+namespace salebra::detail {
+namespace {
+
+constexpr double least_hurst = -0.2, greatest_hurst = 1.5;
+
+/// The free numbers of a law.
+enum Parameter : std::size_t { hurst, rolloff, attenuation, floor_share, parameters };
+using Numbers = std::array<double, parameters>;
+using Held = std::array<bool, parameters>;
+
+/// The law in a range of bins. Its amplitude is always the most likely one.
+class LawInRange {
+ public:
+  LawInRange(std::span<const SpectrumBin> bins, const SelfAffineDensity& density)
+      : bins_(bins), density_(density) {
+    first_ = std::log(bins.front().wavenumber);
+    last_ = std::log(bins.back().wavenumber);
+    // A roll-off below the first bin is none. g is in units of the last wave number, the floor in
+    // those of the law there.
+    least_ = {least_hurst, first_ - 0.3, 0, 0};
+    greatest_ = {greatest_hurst, last_ - 0.7, 6, 50};
+  }
+
+  struct Fit {
+    Numbers at{};
+    double deviance = std::numeric_limits<double>::infinity();
+    double amplitude = 0;
+  };
+
+  Numbers start(double value) const { return {value, least_[rolloff], 0.05, 0.05}; }
+  double no_rolloff() const { return least_[rolloff]; }
+  std::span<const SpectrumBin> bins() const { return bins_; }
+
+  /// From `from` downhill: Fisher's scoring with a step that is damped until it goes down.
+  Fit descend(Numbers from, const Held& held) const {
+    for (std::size_t p = 0; p < parameters; ++p) from[p] = std::clamp(from[p], least_[p], greatest_[p]);
+    Fit best = at(from);
+    std::vector<double> shape(bins_.size()), other(bins_.size());
+    double damping = 1e-3;
+    for (int iteration = 0; iteration < 60; ++iteration) {
+      shapes(best.at, shape);
+      // ln E = ln A + ln shape: the column of ln A is 1.
+      Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(Index(bins_.size()), Index(parameters));
+      for (std::size_t p = 0; p < parameters; ++p) {
+        if (held[p]) continue;
+        Numbers moved = best.at;
+        const double step = moved[p] + 1e-5 > greatest_[p] ? -1e-5 : 1e-5;
+        moved[p] += step;
+        shapes(moved, other);
+        for (std::size_t k = 0; k < bins_.size(); ++k)
+          slopes(Index(k), Index(p)) = std::log(other[k] / shape[k]) / step;
+      }
+      Eigen::VectorXd weights(bins_.size()), excess(bins_.size());
+      for (std::size_t k = 0; k < bins_.size(); ++k) {
+        weights(Index(k)) = bins_[k].modes;
+        excess(Index(k)) = bins_[k].power / (best.amplitude * shape[k]) - 1;
+      }
+      // The amplitude takes the mean off each column.
+      for (Index p = 0; p < Index(parameters); ++p)
+        slopes.col(p).array() -= slopes.col(p).dot(weights) / weights.sum();
+      Eigen::VectorXd gradient = slopes.transpose() * (weights.array() * excess.array()).matrix();
+      Eigen::MatrixXd information = slopes.transpose() * weights.asDiagonal() * slopes;
+      // What stands at a limit and is pushed beyond it stays.
+      for (std::size_t p = 0; p < parameters; ++p) {
+        const bool below = best.at[p] <= least_[p] && gradient(Index(p)) < 0;
+        const bool above = best.at[p] >= greatest_[p] && gradient(Index(p)) > 0;
+        if (!below && !above && !held[p]) continue;
+        gradient(Index(p)) = 0;
+        information.row(Index(p)).setZero();
+        information.col(Index(p)).setZero();
+        information(Index(p), Index(p)) = 1;
+      }
+      bool down = false;
+      double gain = 0;
+      for (; damping < 1e8 && !down; damping *= down ? 0.1 : 8) {
+        Eigen::MatrixXd damped = information;
+        damped.diagonal() *= 1 + damping;
+        damped.diagonal().array() += 1e-9;
+        const Eigen::VectorXd step = damped.ldlt().solve(gradient);
+        Numbers next = best.at;
+        for (std::size_t p = 0; p < parameters; ++p)
+          next[p] = std::clamp(next[p] + std::clamp(step(Index(p)), -1.0, 1.0), least_[p], greatest_[p]);
+        const Fit tried = at(next);
+        if (tried.deviance < best.deviance) {
+          gain = best.deviance - tried.deviance;
+          best = tried;
+          down = true;
+        }
+      }
+      if (!down || gain < 1e-5) break;
+      damping = std::max(damping, 1e-6);
+    }
+    return best;
+  }
+
+  /// The most likely law, from several roll-offs. Without a plateau: held there.
+  Fit fit(bool plateau, std::optional<double> value = {}) const {
+    const Held held{value.has_value(), !plateau, false, false};
+    Fit best;
+    for (const double place : {0.0, 0.3, 0.6}) {
+      if (!plateau && place > 0) continue;
+      Numbers from = start(value.value_or(0.6));
+      if (place > 0) from[rolloff] = first_ + place * (last_ - first_);
+      const Fit found = descend(from, held);
+      if (found.deviance < best.deviance) best = found;
+    }
+    return best;
+  }
+
+ private:
+  /// E/A at each bin.
+  void shapes(const Numbers& at, std::vector<double>& shape) const {
+    const double q_rolloff = at[rolloff] <= least_[rolloff] ? 0 : std::exp(at[rolloff]);
+    const double q_last = bins_.back().wavenumber;
+    const double unit = density_(q_last, at[hurst], q_rolloff);
+    for (std::size_t k = 0; k < bins_.size(); ++k) {
+      const double share = bins_[k].wavenumber / q_last;
+      shape[k] = density_(bins_[k].wavenumber, at[hurst], q_rolloff) / unit *
+                     std::exp(-at[attenuation] * share * share) +
+                 at[floor_share];
+    }
+  }
+
+  Fit at(const Numbers& numbers) const {
+    std::vector<double> shape(bins_.size());
+    shapes(numbers, shape);
+    Fit fit{numbers};
+    double weighted = 0, modes = 0;
+    for (std::size_t k = 0; k < bins_.size(); ++k) {
+      weighted += bins_[k].modes * bins_[k].power / shape[k];
+      modes += bins_[k].modes;
+    }
+    fit.amplitude = weighted / modes;
+    fit.deviance = 0;
+    for (std::size_t k = 0; k < bins_.size(); ++k)
+      fit.deviance -= 2 * bins_[k].modes * std::log(bins_[k].power / (fit.amplitude * shape[k]));
+    return fit;
+  }
+
+  std::span<const SpectrumBin> bins_;
+  const SelfAffineDensity& density_;
+  double first_ = 0, last_ = 0;
+  Numbers least_{}, greatest_{};
+};
+
+/// The interval in which the deviance is above its least by no more than χ² at 5 %.
+IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& best, double limit) {
+  const auto end = [&](double direction) {
+    double inside = best.at[hurst], step = 0.03;
+    LawInRange::Fit warm = best;
+    while (step > 2e-3 && inside > least_hurst && inside < greatest_hurst) {
+      Numbers from = warm.at;
+      from[hurst] = std::clamp(inside + direction * step, least_hurst, greatest_hurst);
+      const LawInRange::Fit tried = range.descend(from, {true, false, false, false});
+      if (tried.deviance - best.deviance > limit) {
+        step /= 3;
+        continue;
+      }
+      inside = tried.at[hurst];
+      warm = tried;
+      step *= 1.5;
+    }
+    return inside + direction * step;
+  };
+  return {best.at[hurst], end(-1), end(1)};
+}
+
+}  // namespace
+
+PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
+                                  const SelfAffineDensity& density, double least_span) {
+  constexpr std::size_t fewest = 8;
+  if (bins.size() < fewest) return {};
+  struct Candidate {
+    std::size_t begin, end;
+    double span;
+  };
+  // Ends a quarter of an octave apart, the longest range first.
+  std::vector<std::size_t> places{0};
+  for (std::size_t k = 1; k < bins.size(); ++k)
+    if (bins[k].wavenumber > 1.18 * bins[places.back()].wavenumber) places.push_back(k);
+  places.push_back(bins.size());
+  std::vector<Candidate> candidates;
+  for (const std::size_t begin : places)
+    for (const std::size_t end : places)
+      if (end >= begin + fewest)
+        if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber; span >= least_span)
+          candidates.push_back({begin, end, span});
+  std::ranges::stable_sort(candidates, std::greater(), &Candidate::span);
+  const auto acceptable = [&](std::size_t begin, std::size_t end, const LawInRange::Fit& fit) {
+    const double freedom = static_cast<double>(end - begin) - 4;
+    return fit.deviance < gsl_cdf_chisq_Pinv(0.9, freedom);
+  };
+  for (const Candidate& candidate : candidates) {
+    const LawInRange range(bins.subspan(candidate.begin, candidate.end - candidate.begin), density);
+    const LawInRange::Fit best = range.fit(true);
+    if (!acceptable(candidate.begin, candidate.end, best)) continue;
+    if (best.at[hurst] <= least_hurst || best.at[hurst] >= greatest_hurst) continue;
+    const double limit = gsl_cdf_chisq_Pinv(0.95, 1);
+    PowerLawRange found{candidate.begin, candidate.end, interval_of(range, best, limit)};
+    const LawInRange::Fit straight = range.fit(false);
+    found.rolloff_seen = straight.deviance - best.deviance > limit &&
+                         best.at[rolloff] > std::log(bins[candidate.begin].wavenumber);
+    // What the choice of the range may do: the short waves are where instruments show.
+    const double shorter = bins[candidate.end - 1].wavenumber / std::numbers::sqrt2;
+    std::size_t end = candidate.end;
+    while (end > candidate.begin + fewest && bins[end - 1].wavenumber > shorter) --end;
+    const double other =
+        LawInRange(bins.subspan(candidate.begin, end - candidate.begin), density).fit(true).at[hurst];
+    found.hurst.low = std::min(found.hurst.low, other);
+    found.hurst.high = std::max(found.hurst.high, other);
+    // An interval from 0 to 1 excludes nothing.
+    if (found.hurst.low <= 0 && found.hurst.high >= 1) return {};
+    if (best.at[rolloff] > range.no_rolloff()) found.q_rolloff = std::exp(best.at[rolloff]);
+    found.amplitude = best.amplitude / density(bins[candidate.end - 1].wavenumber, best.at[hurst], found.q_rolloff);
+    return found;
+  }
+  return {};
+}
+
+}  // namespace salebra::detail
