@@ -264,8 +264,17 @@ HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
   const detail::PowerLawRange law =
       detail::fit_power_law_range(bins, windowed_density(grid), least_span);
   if (!law.found()) return {};
-  HurstEstimate estimate{law.hurst, bins[law.begin].wavenumber, bins[law.end - 1].wavenumber, 0};
-  for (std::size_t k = law.begin; k < law.end; ++k) estimate.modes += radial.modes[places[k]];
+  const auto limit = [&](std::size_t ring, std::size_t next) {
+    return std::sqrt(radial.wavenumber[ring] * radial.wavenumber[next]);
+  };
+  const std::size_t first = places[law.begin], last = places[law.end - 1];
+  const ModesWithin modes(
+      spectrum, {first > 0 ? limit(first - 1, first) : 0,
+                 last + 1 < radial.modes.size() ? std::min(highest, limit(last, last + 1)) : highest});
+  const auto [all] = modes.sums<1>(
+      [](std::span<double> sums, const Mode& mode) { sums[0] += 2 * mode.weight; });
+  const auto [least, greatest] = modes.range();
+  HurstEstimate estimate{law.hurst, std::exp(least), std::exp(greatest), static_cast<Index>(all)};
   return estimate;
 }
 
