@@ -191,8 +191,9 @@ std::string comparison_text(const StudyResult& result, const StudyAnswer& found)
                               loads_table(result) + "\n";
   if (result.configuration.adhesion)
     return contact + pull_off_table(result) + ensemble_remarks(result);
-  return contact + damping_table(result, found) + "\n" + premises_of(found, result).text() + "\n" +
-         ensemble_remarks(result);
+  const PremiseReport premises = premises_of(found, result);
+  return contact + premises.warning() + damping_table(result, found) + "\n" + premises.text() +
+         "\n" + ensemble_remarks(result);
 }
 
 struct CompareArguments {

@@ -121,14 +121,16 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
   session.warn(doubts_of_profile(*profile, law.contact_radius(indentation)));
-  const ContactFacts facts =
-      at_state(arguments.premises.facts(arguments.material), law, nullptr, indentation);
-
+  const ContactFacts known = arguments.premises.facts(arguments.material);
   const std::vector<ViscoelasticLoss> losses =
       losses_of(arguments, law, prony, indentation, session);
   PremiseReport premises{.list = true, .body = "relaxed elastic body"};
   for (const Oscillation& motion : arguments.motion.motions())
-    premises.cases.push_back(premises_of(law, indentation, motion, facts));
+    premises.cases.push_back(premises_of(
+        law, indentation, motion,
+        at_state(
+            known, law, nullptr, indentation,
+            indentation + std::visit([](const auto& m) { return m.normal_amplitude; }, motion))));
 
   Json answer = json_of(state_of(*any_law, indentation));
   answer.add(json_of(prony));

@@ -114,7 +114,9 @@ void PremiseReport::add_to(Json& answer) const {
   }
   if (!body.empty()) answer["premises_of"] = body;
   const std::vector<LargestMotion>& judged = any_largest(cases);
-  if (!judged.empty())
+  const bool known =
+      std::ranges::any_of(cases, [](const Premises& p) { return p.regime != Regime::unknown; });
+  if (known || !judged.empty())
     answer["regime"] = column([](const Premises& p) -> Json {
       return p.regime == Regime::unknown ? Json(nullptr) : Json(word_of(p.regime));
     });
@@ -140,19 +142,26 @@ std::string PremiseReport::text() const {
     text = wrapped("Without slip up to " + largest + "\n", text_width());
   text += fmt::format("Validity: {}\n{}", word_of(validity_of(conditions)),
                       in_options(in_words(conditions)));
-  if (!list && cases.front().regime != Regime::unknown)
-    text += fmt::format(
-        "Regime: {}{}\n", word_of(cases.front().regime),
-        cases.front().regime == Regime::sliding
-            ? ": the mean friction of a motion that goes on is that of `salebra sliding`"
-            : "");
+  if (const std::string regimes = regimes_in_words(cases, pressures);
+      !regimes.empty() && warning().empty())
+    text += wrapped("Regime: " + regimes + "\n", text_width());
   if (!body.empty()) text += "The conditions are those of the " + body + "\n";
   return text;
 }
 
+std::string PremiseReport::warning() const {
+  for (const Condition& one : all_conditions())
+    if (one.name == "regime")
+      return wrapped(
+          in_options(fmt::format("Regime: {}. {}; {}\n", regimes_in_words(cases, pressures),
+                                 one.here.substr(0, one.here.find(';')), one.remedy)),
+          text_width());
+  return "";
+}
+
 void PremiseReport::answer(Session& session, Json object, const std::string& text) const {
   add_to(object);
-  session.answer(object, text + "\n" + this->text());
+  session.answer(object, warning() + text + "\n" + this->text());
 }
 
 void PremiseReport::answer(Session& session, Json object) const {

@@ -29,9 +29,11 @@ struct PremiseReport {
   std::string body = {};               ///< that was judged, where it is not the one of the answer
   bool slip_followed = false;          ///< the loss is that with slip
 
-  /// Adds the keys `validity`, `conditions`, `premises`, `largest_motion` and, unless slip is
-  /// computed, `regime`; of another body `premises_of`.
+  /// Adds the keys `validity`, `conditions`, `premises`, `largest_motion` and, where it is known or
+  /// was looked for, `regime`; of another body `premises_of`.
   void add_to(Json& answer) const;
+  /// Stands above the numbers of a contact that slides as a whole, and says so; else empty.
+  std::string warning() const;
   /// The verdict and the conditions behind it, to stand below the answer.
   std::string text() const;
   /// The answer with its premises, as JSON or text.

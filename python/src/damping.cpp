@@ -31,12 +31,15 @@ DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>
 /// that cannot be are refused now. Called with the interpreter's lock.
 BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, const Motion& motion,
                           const ContactFacts* facts, const ForceCurve* curve) {
-  const ContactFacts all = at_state(known(facts), law, curve, result.indentation);
+  const double mean = result.indentation;
+  const ContactFacts all = with_motion(motion, [&](const auto& one) {
+    return at_state(known(facts), law, curve, mean, mean + one.normal_amplitude);
+  });
   // The object keeps the law.
-  return {result, {}, [&law, kept = nb::find(law), motion, indentation = result.indentation, all] {
+  return {result, {}, [&law, kept = nb::find(law), motion, mean, all] {
             return unlocked([&] {
               return with_motion(
-                  motion, [&](const auto& one) { return premises_of(law, indentation, one, all); });
+                  motion, [&](const auto& one) { return premises_of(law, mean, one, all); });
             });
           }};
 }

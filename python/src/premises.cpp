@@ -70,9 +70,11 @@ void bind_premise_classes(nb::module_& m) {
         const Position position = position_of(indentation, force);
         return unlocked([&] {
           const double mean = indentation_of(law, position);
-          const ContactFacts all = at_state(known(facts), law, curve, mean);
-          return with_motion(motion,
-                             [&](const auto& one) { return premises_of(law, mean, one, all); });
+          return with_motion(motion, [&](const auto& one) {
+            return premises_of(
+                law, mean, one,
+                at_state(known(facts), law, curve, mean, mean + one.normal_amplitude));
+          });
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),

@@ -177,7 +177,9 @@ function regimeOf(law, middle, motion, loss) {
   const slips = motion.drag ? changed(loss.opened, loss.stick) || !(loss.slip <= 0.05 * loss.stick)
     : ladder.some((part) => { const one = losses(law, middle, {...motion, place: (angle) => part * motion.place(angle)}); return changed(one.opened + one.slip, one.stick); });
   if (!slips) return "no slip";
-  return law.force(slipsDownTo(middle, motion)) <= 0.05 * law.force(bottom) ? "sliding" : "partial slip";
+  // Below the velocity from which opening levels never stick they may lose more than those that slide.
+  const friction = !motion.drag || motion.speed >= motion.stretch * motion.amplitude || loss.slip >= loss.stick;
+  return friction && law.force(slipsDownTo(middle, motion)) <= 0.05 * law.force(bottom) ? "sliding" : "partial slip";
 }
 
 const VERDICTS = ["holds", "doubtful", "broken", "unknown"];
@@ -193,6 +195,8 @@ function conditionsOf(point, k, law, middle, motion, loss) {
     const fill = (text, number) => text.replace("{}", quantity(number, words.unit, 3));
     found.push({name, verdict, condition: name === "plasticity" && limit === 1 ? "elastic again: loads below that of the first loading" : known(limit) ? fill(words.condition, limit) : words.condition.split(": ")[0], here: verdict === "unknown" ? (needs ? `\`${needs}\` not given` : "not known for such a motion") : fill(words.here, value), remedy: ["broken", "doubtful"].includes(verdict) ? words.remedy : ""});
   };
+  // As conditions_of() has it, of a loss with slip.
+  if (regimeOf(law, middle, motion, loss) === "sliding") found.push({name: "regime", verdict: "broken", condition: "a damper: the contact does not slide as a whole", here: motion.drag ? "γ = µF/v: Coulomb friction, not a damper" : "γ = 4µF/(πωu_x): Coulomb friction, not a damper", remedy: motion.drag ? "use `salebra sliding`" : "use the energy dissipated in a cycle"});
   if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_levels", "slip_of_closed_levels"]) add(name, "unknown", null, null, "friction_coefficient");
   if (motion.drag) {
     const cost = costOfTurning(law, middle, motion.amplitude), cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
@@ -201,7 +205,7 @@ function conditionsOf(point, k, law, middle, motion, loss) {
   const stored = (name, column = "value") => point.premises[name][column][k];
   add("plasticity", VERDICTS[stored("plasticity", "verdict")] ?? "unknown", stored("plasticity"), stored("plasticity", "onset"), "hardness");
   const waves = stored("inertia") * motion.omega / point.damping.angular_frequency, radiation = 0.58;
-  const whole = 2 * point.damping.modulus_ratio * point.damping.contact_modulus * Math.max(point.surface.size_x, point.surface.size_y), stiffness = law.stiffness(middle);
+  const whole = 2 * point.damping.modulus_ratio * point.damping.contact_modulus * Math.max(point.surface.size_x, point.surface.size_y), stiffness = law.stiffness(middle + motion.amplitude);
   const [five, twenty] = [0.05, 0.2].map((share) => Math.min(Math.sqrt((1 + share) ** 2 - 1) / radiation,
     motion.drag || !(loss.stick > 0) ? Infinity : share * loss.stick / motion.tangential_amplitude ** 2 / (Math.PI * radiation * stiffness * Math.min(1, stiffness / whole))));
   add("inertia", known(stored("inertia")) ? judge(waves, five, twenty) : "unknown", waves, five, "density");

@@ -21,6 +21,7 @@ const finding = (title, value, details, doubt) => h("div", {class: doubt ? "find
 function cards(point) {
   const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
   if (point.validity) found.push(finding("Validity", point.validity, ["the conditions stand below, worst first"], doubt));
+  if (point.answer?.regime) found.push(finding("Regime", point.answer.regime[shownLoad(point)], ["at the load chosen"], point.answer.regime[shownLoad(point)] === "sliding"));
   if (known(fit?.decay_length?.mean)) {
     const ratio = fit.decay_length_over_rms_height, limits = [interval(fit.decay_length, "m"), interval(ratio, "1")];
     found.push(finding(fit.fair === 0 ? "Force law ‹F› ∝ exp(−‹ū›/‹l›), a poor description" : "Force law ‹F› ∝ exp(−‹ū›/‹l›)", `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`,

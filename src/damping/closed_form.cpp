@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Equations (6) to (16) of the paper and the closed forms beyond them, stable at any argument.
+#include <fmt/format.h>
 #include <gsl/gsl_sf_bessel.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <salebra/base/error.hpp>
+#include <salebra/base/units.hpp>
 #include <salebra/damping/closed_form.hpp>
 
 #include "base/quiet_gsl.hpp"
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 
 namespace salebra::closed_form {
 namespace {
@@ -153,7 +157,13 @@ double damping_constant(double work, const Oscillation& motion) {
 
 double work_per_cycle_exponential(double modulus_ratio, double reference_force, double decay_length,
                                   const Oscillation& motion) {
-  const double k = std::abs(normal_amplitude(motion)) / decay_length;
+  const double amplitude = std::abs(normal_amplitude(motion)), k = amplitude / decay_length;
+  require(
+      !(amplitude > detail::possible_amplitude(decay_length)), "normal_amplitude", amplitude,
+      fmt::format("m takes the force beyond {:g} times that at rest, up to which an exponential "
+                  "law holds; at most {}, or hold the mean force",
+                  detail::most_force_ratio,
+                  format_quantity(detail::possible_amplitude(decay_length), Dimension::length, 3)));
   const double peak_curvature = reference_force * std::exp(k) / square(decay_length);
   return work_at(modulus_ratio, peak_curvature, motion) * exponential_ratio_scaled(motion, k);
 }

@@ -8,6 +8,7 @@
 #include <salebra/damping/damper.hpp>
 
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 
 namespace salebra {
 namespace {
@@ -88,6 +89,9 @@ double stabilising_amplitude(const ContactLaw& law, const Position& position,
                              double largest_amplitude, const DampingOptions& options) {
   require_positive(falling_slope, "falling_slope");
   require_positive(largest_amplitude, "largest_amplitude");
+  if (options.hold == Hold::indentation)
+    largest_amplitude =
+        std::min(largest_amplitude, detail::possible_amplitude(law, indentation_of(law, position)));
   auto excess = [&](double amplitude) {
     return damper_at(law, position, amplitude, angular_frequency, options).damping_constant -
            falling_slope;

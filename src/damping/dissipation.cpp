@@ -12,6 +12,7 @@
 
 #include "base/special_values.hpp"
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {
@@ -171,10 +172,14 @@ detail::Integral work_factor(const NormalCycle& cycle, const Kernel& kernel, dou
 
 void set_work(DampingResult& result, const detail::Integral& factor, const Kernel& kernel) {
   const double work = factor.value * kernel.square_velocity;
+  require(std::isfinite(work), "normal_amplitude", kernel.normal_amplitude,
+          "m makes a loss beyond all measure with this tangential motion; reduce them");
   result.work_per_cycle = kernel.periodic ? work : unknown;
   result.error_estimate = factor.error * kernel.square_velocity;
   result.power = work * kernel.rate;
   result.damping_constant = factor.value * kernel.rate / kernel.mean_square_velocity;
+  require(!std::isinf(result.power) && !std::isinf(result.damping_constant), "angular_frequency",
+          2 * pi * kernel.rate, "rad/s makes a damping beyond all measure");
   result.converged = factor.converged;
 }
 
@@ -199,6 +204,21 @@ double settled_indentation(const ContactLaw& law, const Position& position) {
   return indentation_of(law, position);
 }
 
+// The loss about a mean indentation at a finite amplitude.
+void set_finite(DampingResult& result, const ContactLaw& law, double middle, const Kernel& kernel,
+                double tolerance) {
+  const double amplitude = kernel.normal_amplitude;
+  require_covered(law, middle, amplitude);
+  require_representable(law, middle, amplitude);
+  set_state(result, law, middle);
+  result.mean_force = mean_force_of_cycle(law, middle, amplitude);
+  const NormalCycle cycle{
+      [&](double angle) { return law.tangential_stiffness(middle + amplitude * std::cos(angle)); },
+      break_angles(law, middle, amplitude), law.tangential_stiffness(middle),
+      law.tangential_stiffness(middle - amplitude), law.tangential_stiffness(middle + amplitude)};
+  set_work(result, work_factor(cycle, kernel, tolerance), kernel);
+}
+
 DampingResult damping_of(const ContactLaw& law, const Position& position, const Kernel& kernel,
                          const DampingOptions& options) {
   check(options);
@@ -211,22 +231,14 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
     result.mean_force = result.force;
     set_work(result, {small_factor, 0, true}, kernel);
   } else {
-    double middle = settled;
-    if (options.hold == Hold::force) {
+    const bool mean_force = options.hold == Hold::force;
+    const auto middle_at = [&](double one) {
+      if (!mean_force) return settled;
       const auto* at = std::get_if<AtForce>(&position);
-      middle = indentation_at_mean_force(law, at ? at->force : law.force(settled), amplitude);
-    }
-    require_covered(law, middle, amplitude);
-    require_representable(law, middle, amplitude);
-    set_state(result, law, middle);
-    result.mean_force = mean_force_of_cycle(law, middle, amplitude);
-    const NormalCycle cycle{[&](double angle) {
-                              return law.tangential_stiffness(middle + amplitude * std::cos(angle));
-                            },
-                            break_angles(law, middle, amplitude), law.tangential_stiffness(middle),
-                            law.tangential_stiffness(middle - amplitude),
-                            law.tangential_stiffness(middle + amplitude)};
-    set_work(result, work_factor(cycle, kernel, options.tolerance), kernel);
+      return indentation_at_mean_force(law, at ? at->force : law.force(settled), one);
+    };
+    detail::require_possible(law, settled, amplitude, middle_at, mean_force);
+    set_finite(result, law, middle_at(amplitude), kernel, options.tolerance);
   }
   result.small_amplitude_work = small_factor * kernel.square_velocity;
   return result;
@@ -269,6 +281,16 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
 }
 
 }  // namespace
+
+DampingResult detail::damping_about(const ContactLaw& law, double mean_indentation,
+                                    const Motion& motion, double tolerance) {
+  const Kernel kernel = std::visit([](const auto& one) { return kernel_of(one); }, motion);
+  DampingResult result;
+  set_finite(result, law, mean_indentation, kernel, tolerance);
+  result.small_amplitude_work =
+      small_amplitude_factor(law, result.force_curvature, kernel) * kernel.square_velocity;
+  return result;
+}
 
 double indentation_of(const ContactLaw& law, const Position& position) {
   if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;

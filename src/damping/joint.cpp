@@ -17,6 +17,7 @@
 #include "base/stop_check.hpp"
 #include "contact/quadrature.hpp"
 #include "joint_loop.hpp"
+#include "largest_motion.hpp"
 #include "surface/refine.hpp"
 #include "sweep_breaks.hpp"
 
@@ -262,6 +263,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
                      const DampingOptions& options) {
   check(motion, friction_coefficient);
   const double high = indentation_of(law, position);
+  detail::require_possible(law, high, 0, [&](double) { return high; });
   const double limit = friction_coefficient / law.stiffness_ratio(high);  // stretch over depth
   const auto* by_force = std::get_if<TangentialForce>(&motion);
   const double depth = by_force ? depth_of_slip(law, high, by_force->amplitude,
@@ -279,6 +281,9 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   });
   // Stiffness over that of the deepest level that slips: what is the same all over loses nothing.
   const double deepest = levels.stiffness_at(pi);
+  // Below this part of K_t so little is left that sticks that T is μF to round-off, and the loss
+  // grows at a constant force.
+  constexpr double nothing_left = 1e-9;
   levels.allow_cancelling();
   loss.slip_work = loss.work_per_cycle = x * x * levels.integral([&](double theta, double k) {
     return (k - deepest) * std::sin(2 * theta);
@@ -287,7 +292,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
   const double beyond = x / 2 * levels.integral([&](double theta, double k) {
     return (k - deepest) * std::sin(theta);
   });
-  if (deepest > 0)
+  if (deepest > nothing_left * levels.stiffness_at(0))
     loss.exponent = loss.tangential_force / loss.work_per_cycle * 4 * beyond / deepest;
   loss.converged = levels.converged();
   set_ratios(loss);
@@ -358,6 +363,7 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position, const Join
   require(std::isfinite(motion.phase), "phase", motion.phase, "must be finite");
   require(steps >= 16, "steps", steps, "must be >= 16");
   const double mean = indentation_of(law, position);
+  detail::require_possible(law, mean, motion.normal_amplitude, [&](double) { return mean; });
   const auto at = [&](double factor) {
     JointMotion scaled = motion;
     std::visit([&](auto& one) { one.amplitude *= factor; }, scaled.tangential);
@@ -374,7 +380,10 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position, const Join
   loss.slip_work = one.slip_work;
   loss.relaxation_work = one.work - one.slip_work;
   loss.storage_stiffness = one.storage_stiffness;
-  loss.exponent = std::log(one.work / less.work) / std::log(one.force / less.force);
+  // A force that does not follow a hundredth of the motion to a ten-thousandth is that of sliding,
+  // to the accuracy of the steps.
+  if (const double change = std::log(one.force / less.force); change > 1e-6)
+    loss.exponent = std::log(one.work / less.work) / change;
   loss.converged = true;
   set_ratios(loss);
   return loss;

@@ -15,6 +15,7 @@
 
 #include "base/special_values.hpp"
 #include "judge.hpp"
+#include "largest_motion.hpp"
 #include "level_loss.hpp"
 
 namespace salebra {
@@ -144,8 +145,7 @@ template <class Motion>
 std::function<double(double)> loss_at(const ContactLaw& law, double mean, Motion motion) {
   return [&law, mean, motion](double amplitude) mutable {
     motion.normal_amplitude = amplitude;
-    const DampingResult result =
-        relaxation_damping(law, AtIndentation{mean}, motion, {.tolerance = 1e-7});
+    const DampingResult result = detail::damping_about(law, mean, motion, 1e-7);
     return std::isnan(result.work_per_cycle) ? result.power : result.work_per_cycle;
   };
 }
@@ -429,12 +429,16 @@ SlipLimits slip_limits(const ContactLaw& law, const JudgedMotion& motion, double
 constexpr double stuck_share = 0.05;
 
 // Whether all levels slip. displacement of case (a), v/ω and the excursion of case (b), in units of
-// μ/g.
+// μ/g; stick: the loss without slip at the displacement 1.
 bool slides(const ContactLaw& law, const JudgedMotion& motion, double displacement,
-            double excursion) {
-  const double bottom = motion.mean - motion.amplitude, least = law.force(bottom);
-  // No level is closed at all times.
-  if (!(least > 0)) return motion.drag && displacement >= motion.amplitude;
+            double excursion, double stick) {
+  const double bottom = motion.mean - motion.amplitude, top = motion.mean + motion.amplitude;
+  const double least = law.force(bottom);
+  // No level is closed at all times. In case (a) a level slips in each half of the cycle where the
+  // displacement is beyond its largest limit.
+  if (!(least > 0))
+    return motion.drag ? displacement >= motion.amplitude
+                       : law.force(top - displacement) <= stuck_share * law.force(top);
   double deepest = bottom - 0.5 * excursion;
   if (!motion.drag) {
     // A level sticks where one anchor is within its limit δ − ζ of x at all times: 2ζ < min(x + δ)
@@ -447,7 +451,12 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
     }
     deepest = 0.5 * (low - high);
   }
-  return law.force(deepest) <= stuck_share * least;
+  if (law.force(deepest) > stuck_share * least) return false;
+  // Below v_c levels that open stick while they are closed, and lose in proportion to v. What
+  // slides under a large oscillation may be a small part of the mean force.
+  return !motion.drag || displacement >= motion.amplitude ||
+         ClosedLevels(law, bottom, motion.amplitude, displacement).loss_per_cycle(excursion) >=
+             stick * displacement * displacement;
 }
 
 // What a turning point of a slow motion at a random phase costs, in losses of one normal cycle. A
@@ -521,11 +530,14 @@ void judge_flow(Premise& premise) {
                                                     : Verdict::holds;
 }
 
-Premise plasticity_of(const ContactFacts& facts, double mean_force) {
+// peak_force: at the deepest indentation.
+Premise plasticity_of(const ContactFacts& facts, double peak_force) {
   if (!std::isnan(facts.first_load)) {
-    constexpr double round_off = 1e-6;
-    const double share = mean_force / facts.first_load;
-    Premise premise{.value = std::abs(share - 1) < round_off ? 1 : share, .onset = 1};
+    // A first loading ends at the peak of the oscillation, whose force a law through some loads
+    // has to this accuracy.
+    constexpr double accuracy = 0.02;
+    const double share = peak_force / facts.first_load;
+    Premise premise{.value = std::abs(share - 1) < accuracy ? 1 : share, .onset = 1};
     judge_flow(premise);
     return premise;
   }
@@ -584,7 +596,7 @@ Premise inertia_of(const ContactLaw& law, const JudgedMotion& motion, double sti
   const double shear = ratio * facts.contact_modulus * (2 - poisson) / 4;
   premise.value = motion.fastest * facts.loaded_size / std::sqrt(shear / facts.density);
   if (!motion.drag && stick > 0) {
-    const double stiffness = law.tangential_stiffness(motion.mean);
+    const double stiffness = law.tangential_stiffness(motion.mean + motion.amplitude);
     const double whole = 2 * ratio * facts.contact_modulus * facts.loaded_size;
     const double radiated = pi * radiation * stiffness * std::min(1.0, stiffness / whole);
     premise.limit_5_percent = std::min(premise.limit_5_percent, 0.05 * stick / radiated);
@@ -655,13 +667,13 @@ std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const Con
 
 // By the verdicts on the slip of both kinds of levels. stretch: μ/g.
 Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Premises& premises,
-                 double stretch) {
+                 double stretch, double stick) {
   const Premise& opening = premises.slip_of_opening_levels;
   const Premise& closed = premises.slip_of_closed_levels;
   if (opening.verdict == Verdict::unknown || closed.verdict == Verdict::unknown)
     return premises.regime;
   if (opening.verdict == Verdict::holds && closed.verdict == Verdict::holds) return Regime::no_slip;
-  return slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch)
+  return slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch, stick)
              ? Regime::sliding
              : Regime::partial_slip;
 }
@@ -674,7 +686,8 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   require_positive(amplitude, "normal_amplitude");
   const double length = length_of(law, motion.mean, amplitude);
   Premises premises;
-  premises.plasticity = plasticity_of(facts, law.force(motion.mean));
+  premises.plasticity = plasticity_of(
+      facts, law.force(std::min(motion.mean + amplitude, given.highest_indentation())));
   premises.coupling =
       coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr, motion.drag, facts);
   premises.slow_motion = slow_motion_of(law, motion, facts);
@@ -723,7 +736,7 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   }
   if (closed.needs.empty()) judge(closed);
   if (!motion.drag || closed.value >= 2 * pi * displacement)
-    premises.regime = regime_of(law, motion, premises, stretch);
+    premises.regime = regime_of(law, motion, premises, stretch, stick);
   return premises;
 }
 
@@ -736,21 +749,24 @@ const ForceSample& nearest_load(const ForceCurve& curve, double force) {
 }  // namespace
 
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
-                      double indentation) {
+                      double indentation, double deepest) {
   check(facts);
-  const double force = law.force(indentation);
-  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && force > 0) {
-    const double radius = indenter->contact_radius(indentation);
+  // A motion may leave a table, which says nothing beyond its last load.
+  deepest = std::min(deepest, law.highest_indentation());
+  const double force = law.force(indentation), peak = law.force(deepest);
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && peak > 0) {
+    const auto pressure = [](double load, double radius) { return load / (pi * radius * radius); };
+    const double radius = indenter->contact_radius(deepest);
     facts.contact_modulus = indenter->contact_modulus();
     facts.loaded_size = radius;
-    facts.mean_contact_pressure = facts.nominal_pressure =
-        force / (std::numbers::pi * radius * radius);
+    facts.mean_contact_pressure = pressure(peak, radius);
+    if (force > 0) facts.nominal_pressure = pressure(force, indenter->contact_radius(indentation));
   }
   if (curve == nullptr || !(curve->nominal_area > 0)) return facts;
   facts.loaded_size = std::sqrt(curve->nominal_area);
   facts.nominal_pressure = force / curve->nominal_area;
   // Area and force grow almost in proportion: that of the nearest load will do.
-  const ForceSample& nearest = nearest_load(*curve, force);
+  const ForceSample& nearest = nearest_load(*curve, peak);
   facts.mean_contact_pressure =
       nearest.force / (nearest.contact_area_fraction * curve->nominal_area);
   return facts;
@@ -822,7 +838,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
   const double limit = friction_coefficient / law.stiffness_ratio(mean_indentation);
   const double bottom = mean_indentation - amplitude;
   const double length = length_of(law, mean_indentation, amplitude);
-  const DampingResult without = relaxation_damping(given, AtIndentation{mean_indentation}, drag);
+  const DampingResult without = detail::damping_about(given, mean_indentation, drag, 1e-10);
   const SlipLimits slip = slip_limits(law, motion, length);
   const double cost = cost_of_turning(law, mean_indentation, amplitude);
 
@@ -856,9 +872,10 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
         regimes.push_back(Regime::unknown);
         continue;
       }
-      regimes.push_back(may_stick && !(excursion > limits.five)        ? Regime::no_slip
-                        : slides(law, motion, displacement, excursion) ? Regime::sliding
-                                                                       : Regime::partial_slip);
+      regimes.push_back(may_stick && !(excursion > limits.five) ? Regime::no_slip
+                        : slides(law, motion, displacement, excursion, slip.stick)
+                            ? Regime::sliding
+                            : Regime::partial_slip);
       if (!(stick > 0)) continue;
       map.slip_ratio(i, j) = closed.loss_per_cycle(excursion) / stick;
       map.loss_ratio(i, j) =

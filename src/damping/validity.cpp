@@ -25,6 +25,15 @@ std::string runs_of(const std::vector<bool>& chosen, std::span<const double> pre
   return text;
 }
 
+/// Which of several cases are meant: "at all loads", "in 2 of 5", "at 1 MPa to 5 MPa"; empty of one.
+std::string which_of(const std::vector<bool>& chosen, std::span<const double> pressures) {
+  const auto count = std::size_t(std::ranges::count(chosen, true));
+  return chosen.size() == 1       ? ""
+         : count == chosen.size() ? "at all loads"
+         : pressures.empty()      ? fmt::format("in {} of {}", count, chosen.size())
+                                  : runs_of(chosen, pressures);
+}
+
 /// Worst first; what could not be judged comes between what fails and what holds.
 int rank_of(Verdict verdict) {
   switch (verdict) {
@@ -93,11 +102,28 @@ Condition condition_of(const PremiseName& name, std::span<const Premises> cases,
   std::vector<bool> objected;
   for (const Premises& premises : cases)
     objected.push_back((premises.*name.premise).verdict == worst.verdict);
-  const auto count = std::size_t(std::ranges::count(objected, true));
-  if (cases.size() == 1) return one;
-  one.here += count == cases.size() ? ", at all loads"
-              : pressures.empty()   ? fmt::format(", in {} of {}", count, cases.size())
-                                    : ", " + runs_of(objected, pressures);
+  if (const std::string which = which_of(objected, pressures); !which.empty())
+    one.here += ", " + which;
+  return one;
+}
+
+/// Slow motions alone have a number of normal cycles in their excursion.
+bool is_slow_motion(const Premises& premises) { return !std::isnan(premises.slow_motion.value); }
+
+/// That of a contact that slides as a whole: the loss is right, but no damping constant.
+Condition no_damper(std::span<const Premises> cases, std::span<const double> pressures) {
+  Condition one{.name = "regime",
+                .verdict = Verdict::broken,
+                .condition = "a damper: the contact does not slide as a whole"};
+  std::vector<bool> sliding;
+  for (const Premises& premises : cases) sliding.push_back(premises.regime == Regime::sliding);
+  const Premises& first = *std::ranges::find(cases, Regime::sliding, &Premises::regime);
+  one.here = is_slow_motion(first) ? "γ = µF/v: Coulomb friction, not a damper"
+                                   : "γ = 4µF/(πωu_x): Coulomb friction, not a damper";
+  one.remedy =
+      is_slow_motion(first) ? "use `salebra sliding`" : "use the energy dissipated in a cycle";
+  if (const std::string which = which_of(sliding, pressures); !which.empty())
+    one.here += "; " + which;
   return one;
 }
 
@@ -134,6 +160,8 @@ std::vector<Condition> conditions_of(std::span<const Premises> cases, bool slip_
     if (one.verdict == Verdict::holds && one.here.empty()) continue;
     conditions.push_back(std::move(one));
   }
+  if (slip_followed && std::ranges::count(cases, Regime::sliding, &Premises::regime) > 0)
+    conditions.push_back(no_damper(cases, pressures));
   std::ranges::stable_sort(conditions, {},
                            [](const Condition& one) { return rank_of(one.verdict); });
   return conditions;
@@ -179,6 +207,21 @@ std::string in_words(std::span<const Condition> conditions) {
     else
       text += fmt::format("{}\n{:{}}{}\n", line, "", margin, here);
     if (!one.remedy.empty()) text += fmt::format("{:{}}-> {}\n", "", margin, one.remedy);
+  }
+  return text;
+}
+
+std::string regimes_in_words(std::span<const Premises> cases, std::span<const double> pressures) {
+  std::string text;
+  for (const Regime regime :
+       {Regime::sliding, Regime::partial_slip, Regime::no_slip, Regime::unknown}) {
+    std::vector<bool> here;
+    for (const Premises& premises : cases) here.push_back(premises.regime == regime);
+    const auto count = std::ranges::count(here, true);
+    if (count == 0 || (regime == Regime::unknown && text.empty())) continue;
+    const std::string which = which_of(here, pressures);
+    text += (text.empty() ? "" : ", ") + std::string(word_of(regime)) +
+            (which.empty() ? "" : " " + which);
   }
   return text;
 }

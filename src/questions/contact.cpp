@@ -223,8 +223,8 @@ std::size_t ContactAnswer::load() const {
   return std::size_t(nearest - curve->samples.begin());
 }
 
-ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation) const {
-  facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation);
+ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation, double deepest) const {
+  facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation, deepest);
   if (first_loading && first_loading->yielded())
     facts.first_load = first_loading->pressure * curve->nominal_area;
   return facts;
@@ -232,13 +232,14 @@ ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation) con
 
 Premises ContactAnswer::premises_beside_slip(double indentation, const Oscillation& motion,
                                              const ContactFacts& known) const {
-  Premises premises = premises_of(*law, indentation, motion, facts_at(known, indentation));
+  const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
+  Premises premises =
+      premises_of(*law, indentation, motion, facts_at(known, indentation, indentation + amplitude));
   // What slides on does not turn back, and the loss is that at its amplitude.
   for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
                              &Premises::slow_motion, &Premises::amplitude})
     premises.*premise = {.verdict = Verdict::holds};
   premises.largest.clear();
-  premises.regime = Regime::unknown;
   return premises;
 }
 

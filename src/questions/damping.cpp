@@ -11,6 +11,8 @@
 #include <salebra/questions/damping.hpp>
 #include <utility>
 
+#include "damping/largest_motion.hpp"
+
 namespace salebra {
 namespace {
 
@@ -104,7 +106,11 @@ Premises premises_of_case(const ContactAnswer& contact, const Case& one,
     std::visit(
         [&](auto& m) { m.normal_amplitude = *one.force_amplitude / result.normal_stiffness; },
         motion);
-  const ContactFacts known = contact.facts_at(facts, result.indentation);
+  const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
+  const double deepest = one.force_amplitude
+                             ? contact.law->indentation_of(result.mean_force + *one.force_amplitude)
+                             : result.indentation + amplitude;
+  const ContactFacts known = contact.facts_at(facts, result.indentation, deepest);
   return std::visit(
       [&](const auto& m) { return premises_of(*contact.law, result.indentation, m, known); },
       motion);
@@ -486,14 +492,22 @@ PathAnswer ask(const PathQuestion& question, const Context& context) {
   require(!planar || std::isnan(friction), "friction_coefficient", friction,
           "cannot be combined with a trajectory in two directions, whose slip is not followed; "
           "leave it out, or the fourth column");
+  const auto [low, high] = std::ranges::minmax(question.path.indentation);
+  // The exponential law counts indentations from its rest.
+  if (const auto* body = std::get_if<ExponentialContact>(&question.contact))
+    require(high <= detail::possible_amplitude(body->decay_length), "trajectory", high,
+            fmt::format("m is an indentation at which the force is more than {:g} times that at "
+                        "rest, up to which an exponential law holds; at most {}",
+                        detail::most_force_ratio,
+                        format_quantity(detail::possible_amplitude(body->decay_length),
+                                        Dimension::length, 3)));
   TrajectoryDampingOptions options{.on_progress = context.on_progress};
   if (!std::isnan(friction)) options.friction_coefficient = friction;
   PathAnswer answer;
   answer.loss = planar ? trajectory_damping(*law, question.path, question.transverse)
                        : trajectory_damping(*law, question.path, options);
-  const auto [low, high] = std::ranges::minmax(question.path.indentation);
-  answer.premises =
-      premises_of(*law, question.path, at_state(question.facts, *law, nullptr, 0.5 * (low + high)));
+  answer.premises = premises_of(*law, question.path,
+                                at_state(question.facts, *law, nullptr, 0.5 * (low + high), high));
   if (!planar) return answer;
   // Slip is judged along x alone, where it is one of the vector.
   Premises& judged = answer.premises;
@@ -564,7 +578,8 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
     motion.drag_velocity = question.drag_velocity;
     answer.premises.push_back(
         premises_of(law, indentations.back(), motion,
-                    answer.contact.facts_at(question.facts, indentations.back())));
+                    answer.contact.facts_at(question.facts, indentations.back(),
+                                            indentations.back() + amplitude)));
   }
   std::optional<SurfaceDamper> of_surface;
   if (answer.contact.surface) of_surface.emplace(question, material, context, answer);

@@ -10,6 +10,8 @@
 #include <span>
 #include <tuple>
 
+#include "damping/largest_motion.hpp"
+
 namespace salebra {
 namespace {
 
@@ -41,7 +43,8 @@ std::vector<SlidingPoint> points_at(const SlidingQuestion& question, double ampl
 
 // The largest oscillation about an indentation that the law covers.
 double covered_amplitude(const ContactLaw& law, double indentation) {
-  return std::min(indentation - law.lowest_indentation(), law.highest_indentation() - indentation);
+  return std::min({indentation - law.lowest_indentation(), law.highest_indentation() - indentation,
+                   detail::possible_amplitude(law, indentation)});
 }
 
 SliderThreshold in_hertz(SliderThreshold threshold) {

@@ -100,6 +100,7 @@ class Point {
           {"damping_constant", estimate("answer/damping_constant", 0, pressures_.size())}};
       json["answer"]["damping_constant"]["error"] = list(required("answer/damping_constant_error"));
       json["answer"]["slip_share"] = list(required("answer/slip_share"));
+      if (has("answer/regime")) json["answer"]["regime"] = regimes();
     }
     add(json, "premises", premises());
     add(json, "spots", spots());
@@ -115,6 +116,18 @@ class Point {
   }
 
  private:
+  /// In words, one for each pressure.
+  Json regimes() const {
+    Json words = Json::array();
+    for (const double value : part("answer/regime", 0, pressures_.size())) {
+      const auto known = std::ranges::find(Words<Regime>::values, value,
+                                           [](const auto& one) { return double(one.first); });
+      words.push_back(std::string(
+          word_of(known == Words<Regime>::values.end() ? Regime::unknown : known->first)));
+    }
+    return words;
+  }
+
   static void add(Json& json, const char* key, Json part) {
     if (!part.is_null() && !part.empty()) json[key] = std::move(part);
   }

@@ -15,6 +15,7 @@ ForceCurve mean_curve(const StudyResult& result) {
   const auto tangential = result.curve(&ForceSample::tangential_stiffness);
   const auto area = result.curve(&ForceSample::contact_area_fraction);
   ForceCurve curve;
+  curve.nominal_area = result.grid.area();
   double least_gap = HUGE_VAL;
   for (std::size_t k = 0; k < result.pressures.size(); ++k) {
     ForceSample& sample = curve.samples.emplace_back();
@@ -97,12 +98,16 @@ StudyAnswer answer_of(const StudyResult& result) {
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
-    ContactFacts facts = facts_of(result);
+    const ContactFacts known = facts_of(result);
+    const double amplitude = std::visit([](const auto& motion) { return motion.normal_amplitude; },
+                                        configuration.motion);
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;
+      ContactFacts facts =
+          at_state(known, law, &curve, -sample.mean_gap, amplitude - sample.mean_gap);
       facts.nominal_pressure = sample.pressure;
-      facts.mean_contact_pressure = sample.pressure / sample.contact_area_fraction;
+      facts.loaded_size = known.loaded_size;
       answer.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
       if (answer.slips() && !by_contacts)
         follow_slip(answer, k,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/closed_form.hpp>
 
 using namespace salebra;
@@ -89,7 +90,8 @@ TEST_CASE("Small and large amplitudes of the exponential law have their limits",
   CHECK(1 / at(drag, 0.5) == Approx(1.2).epsilon(0.02));
   EqualFrequency violent = equal;
   violent.normal_amplitude = 600 * decay_length;
-  CHECK(std::isfinite(cf::work_per_cycle_exponential(ratio, force, decay_length, violent)));
+  CHECK_THROWS_AS(cf::work_per_cycle_exponential(ratio, force, decay_length, violent),
+                  InvalidInput);
   violent.normal_amplitude = 1e6 * decay_length;
   CHECK(std::isfinite(
       cf::work_per_cycle_exponential_held_force(ratio, force, decay_length, violent)));
@@ -97,7 +99,7 @@ TEST_CASE("Small and large amplitudes of the exponential law have their limits",
 
 TEST_CASE("Under a dead weight the exponential contact is that of a force lower by I_0(k)",
           "[closed_form]") {
-  const double decay_length = 1e-7, ratio = 0.8, k = GENERATE(1e-5, 0.3, 0.9999, 1.0001, 30.0);
+  const double decay_length = 1e-7, ratio = 0.8, k = GENERATE(1e-5, 0.3, 0.9999, 1.0001, 9.0);
   Drag motion = drag;
   motion.normal_amplitude = k * decay_length;
   const double shift = cf::indentation_shift_at_held_force(motion.normal_amplitude, decay_length);

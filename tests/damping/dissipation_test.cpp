@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
+#include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 
@@ -89,7 +90,7 @@ TEST_CASE("The theorem meets the exponential law's closed forms at finite amplit
           "[dissipation]") {
   const double decay_length = 1e-7, force = 1;
   const ExponentialLaw law(3, decay_length, ratio);
-  const double k = GENERATE(1e-3, 0.25, 1.0, 4.0, 30.0);
+  const double k = GENERATE(1e-3, 0.25, 1.0, 4.0, 9.0);
   for (const Oscillation& motion : {Oscillation(equal_frequency(k * decay_length, 0.3)),
                                     Oscillation(slow_drag(k * decay_length))}) {
     CAPTURE(k, motion.index());
@@ -110,6 +111,47 @@ TEST_CASE("The theorem meets the exponential law's closed forms at finite amplit
               .epsilon(1e-9)
               .margin(1e-11 * decay_length));
   }
+}
+
+TEST_CASE("An oscillation ends where no contact has the pressure of the law", "[dissipation]") {
+  const double decay_length = 27e-9;
+  const ExponentialLaw law(10, decay_length, ratio);
+  // Four decades of force: u_z = l ln 10⁴.
+  const double most = decay_length * std::log(1e4);
+  for (const auto& motion : {slow_drag(most), slow_drag(1.001 * most)}) {
+    const bool possible = motion.normal_amplitude <= most;
+    for (const double force : {10.0, 2e3})
+      if (possible)
+        CHECK(relaxation_damping(law, AtForce{force}, motion).damping_constant > 0);
+      else
+        CHECK_THROWS_WITH(relaxation_damping(law, AtForce{force}, motion),
+                          Catch::Contains("at most 249 nm"));
+    if (possible)
+      CHECK(cf::work_per_cycle_exponential(ratio, 10, decay_length, motion) > 0);
+    else
+      CHECK_THROWS_WITH(cf::work_per_cycle_exponential(ratio, 10, decay_length, motion),
+                        Catch::Contains("at most 249 nm"));
+  }
+  // A mean force that is held has a finite largest one, √(2πu_z/l) = 15 times as large.
+  CHECK(
+      relaxation_damping(law, AtForce{10}, slow_drag(1e-6), {.hold = Hold::force}).work_per_cycle ==
+      Approx(cf::work_per_cycle_exponential_held_force(ratio, 10, decay_length, slow_drag(1e-6)))
+          .epsilon(1e-9));
+
+  // A paraboloid has the mean pressure 4E*a/(3πR), a² = Rδ, which is E* at δ = (3π/4)² R.
+  const double radius = 1e-3;
+  const IndenterLaw ball(paraboloid_profile(radius), Material::of_contact_modulus(1e9, 0.3));
+  const double deepest = std::pow(3 * pi / 4, 2) * radius;
+  CHECK_NOTHROW(relaxation_damping(ball, AtIndentation{1e-6}, slow_drag(0.999 * deepest - 1e-6)));
+  CHECK_THROWS_WITH(relaxation_damping(ball, AtIndentation{1e-6}, slow_drag(1)),
+                    Catch::Contains("at most 5.55 mm"));
+  // A cone has its pressure at every load, whatever the amplitude.
+  const IndenterLaw cone(cone_profile(0.1), Material::of_contact_modulus(1e9, 0.3));
+  CHECK_NOTHROW(relaxation_damping(cone, AtIndentation{1e-6}, slow_drag(1)));
+  // A loss that no number holds is refused.
+  Drag fast = slow_drag(1e-9);
+  fast.drag_velocity = 1e200;
+  CHECK_THROWS_AS(relaxation_damping(law, AtForce{10}, fast), InvalidInput);
 }
 
 TEST_CASE("A force-controlled exponential contact follows Eqs (12), (15) at every amplitude",

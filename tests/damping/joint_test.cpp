@@ -191,3 +191,23 @@ TEST_CASE("Joints that cannot be are refused", "[joint]") {
   CHECK_THROWS_WITH(at(TangentialForce{0.1}, 0), Catch::Contains("friction_coefficient"));
   CHECK_THROWS_AS(joint_loss(law, AtForce{2}, {TangentialForce{0.1}, -1e-9, 0}, 0.3), InvalidInput);
 }
+
+TEST_CASE("A joint that slides as a whole has no exponent", "[joint]") {
+  const ExponentialLaw law(1, 1e-8, 0.8);
+  const auto at = [&](double x) {
+    return joint_loss(law, AtForce{1}, TangentialOscillation(TangentialAmplitude{x}), 0.3).exponent;
+  };
+  // d ln W/d ln T from two motions a thousandth apart, where a part still sticks.
+  const double x = 1e-8;
+  const auto loss = [&](double one) {
+    return joint_loss(law, AtForce{1}, TangentialOscillation(TangentialAmplitude{one}), 0.3);
+  };
+  const JointLoss low = loss(0.999 * x), high = loss(1.001 * x);
+  CHECK(at(x) == Approx(std::log(high.work_per_cycle / low.work_per_cycle) /
+                        std::log(high.tangential_force / low.tangential_force))
+                     .epsilon(1e-3));
+  // T = µF to the last digit: W grows with x at a constant force.
+  CHECK(std::isnan(at(2e-6)));
+  const JointMotion follows{TangentialAmplitude{2e-6}, 1e-9, 0.5};
+  CHECK(std::isnan(joint_loss(law, AtForce{1}, follows, 0.3, 400).exponent));
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests of the premises of a damping constant against scaling laws, closed forms and simulated
 // paths.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -422,7 +423,8 @@ TEST_CASE("After a first loading the plasticity is the load over the first load"
   CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::broken);
   facts.first_load = 1.25;
   const Premise below = premises_of(law, 0, motion, facts).plasticity;
-  CHECK(below.value == Approx(0.8));
+  // That at the peak, F exp(u_z/l).
+  CHECK(below.value == Approx(0.8 * std::exp(0.01)));
   CHECK(below.verdict == Verdict::holds);
   facts.first_load = 1;
   CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::holds);
@@ -738,4 +740,123 @@ TEST_CASE("Conditions name their limit, what holds, at which loads, and what to 
       cases[3].largest = {{.friction_coefficient = 0.1, .tangential_amplitude = 1e-9},
                           {.friction_coefficient = 0.3, .tangential_amplitude = 3e-9}};
   CHECK(motion_without_slip(cases) == "1 nm (\u00b5 = 0.1), 3 nm (\u00b5 = 0.3)");
+}
+
+TEST_CASE("Pressure and size are judged at the deepest point of the oscillation", "[premises]") {
+  const double modulus = 1e10, radius = 1e-3, rest = 1e-6, amplitude = 5e-6;
+  const Drag motion{amplitude, 1e-6, 1e5};
+  const auto judged = [&](const ContactLaw& law, const ForceCurve* curve, double rests,
+                          const Drag& drag) {
+    ContactFacts facts{.hardness = 1e9, .density = 7800};
+    facts.contact_modulus = modulus;
+    return premises_of(law, rests, drag,
+                       at_state(facts, law, curve, rests, rests + drag.normal_amplitude));
+  };
+  const Material material = Material::of_contact_modulus(modulus, 0.3);
+  // Hertz: p0 = 2E*√(δ/R)/π = 1.5 times the mean, a = √(Rδ).
+  const IndenterLaw ball(paraboloid_profile(radius), material);
+  const Premises found = judged(ball, nullptr, rest, motion);
+  CHECK(found.plasticity.value ==
+        Approx(2 * modulus / pi * std::sqrt((rest + amplitude) / radius) / 1e9).epsilon(1e-9));
+  const Premises still = judged(ball, nullptr, rest, Drag{1e-6 * rest, 1e-6, 1e5});
+  CHECK(found.inertia.value / still.inertia.value ==
+        Approx(std::sqrt((rest + amplitude) / rest)).epsilon(1e-5));
+  // The mean pressure of a cone is the same at all loads, that of a flat punch grows with δ.
+  const IndenterLaw cone(cone_profile(std::atan(0.01)), material);
+  CHECK(judged(cone, nullptr, rest, motion).plasticity.value ==
+        Approx(1.5 * modulus * 0.01 / 2 / 1e9).epsilon(1e-9));
+  const IndenterLaw punch(flat_punch_profile(radius), material);
+  CHECK(judged(punch, nullptr, rest, motion).plasticity.value ==
+        Approx(1.5 * 2 * modulus * (rest + amplitude) / (pi * radius) / 1e9).epsilon(1e-9));
+  // Of a curve the load that is nearest to the peak; beyond its end the last.
+  const double length = 1e-7;
+  ForceCurve curve = exponential_curve(length);
+  curve.nominal_area = 1e-6;
+  for (ForceSample& sample : curve.samples)
+    sample.contact_area_fraction =
+        sample.force / curve.nominal_area / (1e8 * (2 + sample.indentation / length / 8));
+  const TabulatedLaw table(curve, ratio);
+  CHECK(judged(table, &curve, 0, Drag{2 * length, 1e-6, 1e5}).plasticity.value ==
+        Approx(1.5 * 1e8 * 2.25 / 1e9).epsilon(1e-9));
+  CHECK(judged(table, &curve, 4 * length, Drag{2 * length, 1e-6, 1e5}).plasticity.value ==
+        Approx(1.5 * 1e8 * 2.5 / 1e9).epsilon(1e-9));
+  CHECK(in_words(conditions_of({&found, 1}, true)).find("at peak") != std::string::npos);
+}
+
+TEST_CASE("A contact that slides as a whole is no damper: its friction is that of the mean force",
+          "[premises][regimes]") {
+  const double friction = 0.3, omega = 1e5;
+  const Material material = Material::of_contact_modulus(1e9, 0.3);
+  const IndenterLaw ball(paraboloid_profile(1e-3), material), cone(cone_profile(0.1), material);
+  const ExponentialLaw exponential(10, 1e-7, ratio);
+  const TabulatedLaw table(exponential_curve(1e-7), ratio);
+  const auto said = [](const Premises& premises) {
+    return in_words(conditions_of({&premises, 1}, true));
+  };
+  const auto word = [](const Premises& premises) {
+    const auto conditions = conditions_of({&premises, 1}, true);
+    return std::ranges::any_of(conditions, [](const Condition& one) {
+      return one.name == "regime" && one.verdict == Verdict::broken;
+    });
+  };
+  for (const auto& [law, rest, amplitude] :
+       {std::tuple<const ContactLaw*, double, double>{&ball, 1e-6, 1e-8},
+        {&cone, 1e-6, 1e-7},
+        {&exponential, 0, 1e-8},
+        {&table, 0, 1e-8}}) {
+    const double force = mean_force_of_cycle(*law, rest, amplitude);
+    // A thousand times the elastic way of any of these, far above the velocity at which levels
+    // stick: turning points and the force above δ_min change less than 1 %.
+    const Drag drag{amplitude, 10 * friction * amplitude * omega, omega};
+    const double excursion = 1e3 * friction * law->force(rest) / law->normal_stiffness(rest);
+    const Premises slides =
+        premises_of(*law, rest, drag, {.friction_coefficient = friction, .excursion = excursion});
+    CHECK(slides.regime == Regime::sliding);
+    const LossWithSlip loss = loss_with_slip(*law, rest, drag, friction, excursion);
+    CHECK(closed_form::damping_constant(loss.work_per_cycle, drag) ==
+          Approx(friction * force / drag.drag_velocity).epsilon(0.01));
+    CHECK(word(slides));
+    CHECK(validity_of(conditions_of({&slides, 1}, true)) == Validity::not_valid);
+    CHECK(said(slides).find("γ = µF/v: Coulomb friction, not a damper") != std::string::npos);
+    CHECK(said(slides).find("use `salebra sliding`") != std::string::npos);
+
+    // Case (a): W = 4µF u_x, less twice the elastic way.
+    const EqualFrequency shear{amplitude, excursion, pi / 2, omega};
+    const Premises sheared = premises_of(*law, rest, shear, {.friction_coefficient = friction});
+    CHECK(sheared.regime == Regime::sliding);
+    const double work = loss_with_slip(*law, rest, shear, friction).work_per_cycle;
+    // At φ0 = 90° the force has its mean where the velocity is largest, and ∮F|dx| = 4F̄u_x.
+    CHECK(work == Approx(4 * friction * force * excursion).epsilon(0.02));
+    CHECK(said(sheared).find("γ = 4µF/(πωu_x)") != std::string::npos);
+
+    // A short motion is a damper.
+    const Premises sticks = premises_of(*law, rest, EqualFrequency{amplitude, 1e-13, pi / 4, omega},
+                                        {.friction_coefficient = friction});
+    CHECK(sticks.regime == Regime::no_slip);
+    CHECK_FALSE(word(sticks));
+  }
+  // Under a large oscillation what is always closed slides and is next to nothing: slowly dragged
+  // the contact relaxes, and its force is far from µF.
+  const Drag slow{5e-7, 0.1 * friction / ratio * 5e-7 * omega, omega};
+  const ContactFacts facts{.friction_coefficient = friction, .excursion = 1e-4};
+  CHECK(premises_of(exponential, 0, slow, facts).regime == Regime::partial_slip);
+  const double force =
+      closed_form::damping_constant(
+          loss_with_slip(exponential, 0, slow, friction, 1e-4).work_per_cycle, slow) *
+      slow.drag_velocity;
+  CHECK(force < 0.5 * friction * mean_force_of_cycle(exponential, 0, 5e-7));
+  // A contact that lifts off slides in case (a) too.
+  const EqualFrequency wide{2e-6, 1e-4, pi / 2, omega};
+  CHECK(premises_of(ball, 1e-6, wide, {.friction_coefficient = friction}).regime ==
+        Regime::sliding);
+  // Over loads the line says which.
+  const Premises none{}, sliding = [] {
+    Premises one;
+    one.regime = Regime::sliding;
+    return one;
+  }();
+  const std::vector<Premises> loads{none, sliding, sliding};
+  const double pressures[] = {1e6, 2e6, 5e6};
+  CHECK(regimes_in_words(loads, pressures) == "sliding at 2 MPa to 5 MPa, unknown at 1 MPa");
+  CHECK(regimes_in_words({&none, 1}).empty());
 }

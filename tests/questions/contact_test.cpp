@@ -70,9 +70,7 @@ TEST_CASE("A position beyond a curve is refused in the quantity that was given",
                ask(IndenterContact{paraboloid_profile(1e-2), body, {Standing::pressure, {1e6}}});
              }),
              Catch::StartsWith("pressure: given"));
-  CHECK_THAT(refusal([] {
-               ask(ExponentialContact{1e-7, 1, {1, -1}});
-             }),
+  CHECK_THAT(refusal([] { ask(ExponentialContact{1e-7, 1, {1, -1}}); }),
              Catch::StartsWith("normal_force: -1"));
 }
 
@@ -98,7 +96,7 @@ TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[quest
   // The radius of contact is a = 20 µm. Contacts that repeat at L = 1 mm are stiffer by some 2.8 a/L
   // = 6 %, and a is known to a fraction of its 2.5 cells.
   CHECK(cells.law->normal_stiffness(indentation_of(cells)) == Approx(stiffness).epsilon(0.15));
-  const ContactFacts facts = hertz.facts_at({}, indentation_of(hertz));
+  const ContactFacts facts = hertz.facts_at({}, indentation_of(hertz), indentation_of(hertz));
   CHECK(facts.contact_modulus == Approx(1e9).epsilon(1e-12));
   CHECK(facts.loaded_size == Approx(stiffness / 2e9).epsilon(1e-9));
 }

@@ -26,12 +26,13 @@ struct ContactFacts {
   /// X > 0, m: case (a) the greatest tangential displacement from the mean, u_x if not given; case
   /// (b) the way from one turning point of the slow motion to the other, velocity times duration.
   double excursion = unknown;
-  double contact_modulus = unknown;   ///< E* > 0, Pa
-  double dundurs = unknown;           ///< β; one elastic body with the law's G*/E* if not given
-  double loaded_size = unknown;       ///< a, m: radius of one contact, side of a rough surface
-  double nominal_pressure = unknown;  ///< F over the nominal area or over the one contact, Pa
-  double largest_pressure = unknown;  ///< Pa
-  double mean_contact_pressure = unknown;  ///< F over the true contact area, Pa
+  double contact_modulus = unknown;  ///< E* > 0, Pa
+  double dundurs = unknown;          ///< β; one elastic body with the law's G*/E* if not given
+  /// a at the deepest indentation, m: radius of one contact, side of a rough surface.
+  double loaded_size = unknown;
+  double nominal_pressure = unknown;       ///< F over the nominal area or over the one contact, Pa
+  double largest_pressure = unknown;       ///< Pa
+  double mean_contact_pressure = unknown;  ///< F over the contact area at the deepest, Pa
   double rms_slope = unknown;              ///< h' of a rough surface
   /// F up to which the surface was loaded before with pressures up to its hardness, N; the law is
   /// that of its residual surface (contact/normal/first_loading.hpp).
@@ -62,10 +63,11 @@ constexpr void describe(auto&& visit, std::type_identity<ContactFacts>) {
            "normal force of a plastic first loading, whose residual surface the law is of", force});
 }
 
-/// Adds what an indenter, or the curve that the law is made of, says of the contact at an
-/// indentation: E*, pressures and size. curve may be nullptr.
+/// Adds what an indenter, or the curve that the law is made of, says of the contact: E*, the nominal
+/// pressure at a mean indentation, and the size and the pressure in contact at the deepest
+/// indentation of the oscillation, by which plasticity and inertia are judged. curve may be nullptr.
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
-                      double indentation);
+                      double indentation, double deepest);
 
 /// Radius of a typical contact spot, m: of an indenter's one contact; of a curve 2E*A/(πK), since
 /// spots of radius a have K = 2E*Σa and A = πΣa². NaN where E* or K is not known.
@@ -123,6 +125,8 @@ enum class Regime {
   partial_slip,  ///< levels slip, and others that carry a part of the force do not
   /// All levels slip but those that carry less than 5 % of the least normal force; where the
   /// contact opens in each cycle, levels never stick, which is case (b) from v_c = (μ/g) u_z ω on.
+  /// Case (b) below v_c slides only where the slip of closed levels loses more than the relaxation
+  /// of those that open; otherwise its force grows with the velocity, as that of a damper.
   sliding,
   /// Not known: a fact is missing, or the excursion of case (b) is shorter than the way in one
   /// normal cycle, and the motion not slow.
@@ -186,14 +190,14 @@ struct Premises {
   /// theorem at finite amplitude, mean
   ///        indentation held. A loss at finite amplitude does not need this premise.
   Premise amplitude;
-  /// value  the largest that is known of: largest pressure/H, 1.5 mean pressure of the contact/H (a
-  ///        paraboloid's), E*h'/H.
+  /// value  at the deepest indentation δ0 + u_z, the largest that is known of: largest pressure/H,
+  ///        1.5 mean pressure of the contact/H (a paraboloid's), E*h'/H.
   /// onset  0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and
   ///        Williamson's ψ), beyond which the premise is doubtful; it is broken beyond 1. After a
-  ///        first loading: the mean force over the first load, 1: below it the residual surface is
-  ///        elastic.
+  ///        first loading: the force at δ0 + u_z over the first load, 1: below it the residual
+  ///        surface is elastic. To 2 %, by which the law's force may be off that of the contact.
   Premise plasticity;
-  /// value  ω a/c_s, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
+  /// value  ω a/c_s at δ0 + u_z, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
   /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1
   /// change |K| by 5 and 20 %; in case (a)
   ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
@@ -242,11 +246,11 @@ constexpr void describe(auto&& visit, std::type_identity<Premises>) {
                                     length});
   visit(&S::plasticity, PremiseWords{{"plasticity", "plasticity"},
                                      "elastic: pressure on spots below {} of the hardness",
-                                     "{}",
+                                     "{} at peak",
                                      "less load; a surface with `hardness` is loaded first"});
   visit(&S::inertia, PremiseWords{{"inertia", "inertia"},
                                   "quasi-static: ωa/c_s below {}",
-                                  "{}",
+                                  "{} at peak",
                                   "a lower `frequency`, or a smaller part of the contact"});
   visit(&S::coupling, PremiseWords{{"coupling", "coupling"},
                                    "pressure and traction uncoupled: {} of the loss",
@@ -405,7 +409,8 @@ constexpr void describe(auto&& visit, std::type_identity<Condition>) {
 std::string given_as(const std::string& fact);
 
 /// The conditions of a damping constant, worst first. pressures: of the cases, Pa, to be named;
-/// empty: they are counted. slip_followed: the loss is that with slip, which then is no condition.
+/// empty: they are counted. slip_followed: the loss is that with slip, which then is no condition,
+/// but a contact that slides as a whole is no damper.
 /// The amplitude of the closed forms is none: see closed_form_condition().
 std::vector<Condition> conditions_of(std::span<const Premises> cases, bool slip_followed,
                                      std::span<const double> pressures = {});
@@ -420,6 +425,11 @@ Validity validity_of(std::span<const Condition> conditions);
 /// A line for each condition, "  !   slow: at least … here 2, …", of at most 78 columns, with its
 /// remedy below where it does not hold. Names of facts stand in backticks.
 std::string in_words(std::span<const Condition> conditions);
+
+/// The regimes of the cases, "partial slip at 1 MPa to 5 MPa, sliding at 20 MPa"; empty where none
+/// is known.
+std::string regimes_in_words(std::span<const Premises> cases,
+                             std::span<const double> pressures = {});
 
 /// The largest motions without slip, "no excursion (µ up to 0.3), 89.6 pm at 5.75 µm/s (µ = 1)", of the
 /// case that bears least; empty where none is known.

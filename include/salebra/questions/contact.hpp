@@ -95,8 +95,9 @@ struct ContactAnswer {
   /// The sample of the curve whose load is nearest to the first position.
   std::size_t load() const;
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
-  /// The facts at an indentation, with what the law, the curve and the first loading say.
-  ContactFacts facts_at(ContactFacts facts, double indentation) const;
+  /// The facts at a mean indentation and at the deepest one, with what the law, the curve and the
+  /// first loading say.
+  ContactFacts facts_at(ContactFacts facts, double indentation, double deepest) const;
   /// Judges a loss whose slip and amplitude are computed, not left out: the premises of slip, of a
   /// slow motion and of a small amplitude hold, without a value, and the others are judged.
   Premises premises_beside_slip(double indentation, const Oscillation& motion,

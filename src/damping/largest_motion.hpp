@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <salebra/contact/law/law.hpp>
+#include <salebra/damping/dissipation.hpp>
+
+namespace salebra::detail {
+
+/// An exponential law is one of a rough surface between some first cells in contact, at about
+/// 10⁻⁴ E*h', and full contact, at about E*h'. No force can be more times that at rest.
+constexpr double most_force_ratio = 1e4;
+
+/// The largest amplitude of an exponential law with this decay length, the mean indentation held.
+double possible_amplitude(double decay_length);
+/// The same of any law about a contact at rest; infinity: the law itself names none.
+double possible_amplitude(const ContactLaw& law, double rest);
+
+/// Throws InvalidInput, with the amplitude that is possible, where an oscillation takes a contact
+/// that rests at `rest` to pressures that no elastic contact has: an indenter to a mean pressure
+/// above E*, an exponential law to most_force_ratio times its force. A table has an end of its own.
+/// middle_at   mean indentation under an amplitude
+/// mean_force  the force at rest is held in the mean: an exponential law then has no limit
+void require_possible(const ContactLaw& law, double rest, double amplitude,
+                      const std::function<double(double)>& middle_at, bool mean_force = false);
+
+/// As relaxation_damping(), of a mean indentation at which the contact does not rest: one that
+/// holds its mean force, or is searched over amplitudes.
+DampingResult damping_about(const ContactLaw& law, double mean_indentation, const Motion& motion,
+                            double tolerance);
+
+}  // namespace salebra::detail
