@@ -70,11 +70,11 @@ void bind_premise_classes(nb::module_& m) {
         const Position position = position_of(indentation, force);
         return unlocked([&] {
           const double mean = indentation_of(law, position);
-          return with_motion(motion, [&](const auto& one) {
-            return premises_of(
-                law, mean, one,
-                at_state(known(facts), law, curve, mean, mean + one.normal_amplitude));
-          });
+          const auto judged = [&](const auto& one) {
+            return premises_of(law, mean, one,
+                               at_state(known(facts), law, curve, mean, mean + one.normal_amplitude));
+          };
+          return std::visit(judged, motion);
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
