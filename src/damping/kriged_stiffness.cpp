@@ -62,6 +62,9 @@ KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, Ve
     : places_(std::move(places)) {
   const StiffnessSample &high = samples.front(), &low = samples.back();
   half_ = (high.indentation - low.indentation) / 2;
+  corrections_ = VectorXd::NullaryExpr(static_cast<Index>(samples.size()), [&](Index k) {
+    return samples[static_cast<std::size_t>(k)].force_correction;
+  });
   const VectorXd x = (places_.array() - (high.indentation + low.indentation) / 2) / half_;
   const Said said = said_by(samples);
   set_covariances(samples, x, said);
@@ -219,13 +222,13 @@ KrigedStiffness::Estimate KrigedStiffness::estimate(const VectorXd& weights,
   return {bend_ * (trend + mean), bend_ * std::sqrt(std::max(0.0, square - mean * mean))};
 }
 
-double KrigedStiffness::change_by_force(const VectorXd& weights) const {
+double KrigedStiffness::solver_error(const VectorXd& weights) const {
   const VectorXd all = sample_weights(parts(weights), best_of_spots_, best_of_cells_);
   const Index differences = all.size() / 2;
   VectorXd by_force = VectorXd::Zero(differences + 1);
   by_force.head(differences) += all.head(differences);
   by_force.tail(differences) -= all.head(differences);
-  return by_force.lpNorm<1>() / half_;
+  return by_force.cwiseAbs().dot(corrections_) / half_;
 }
 
 VectorXd KrigedStiffness::weights_at(double indentation) const {

@@ -15,6 +15,7 @@ struct StiffnessSample {
   double cells = 0, spots = 0;  // that touch
   double perimeter = 0;         // of the contact, in widths of a cell
   double together = 1;          // cells that enter at a time, of a straight part of the perimeter
+  double force_correction = 0;  // its size, N: the solver's error is smaller
 };
 
 /// Over what is predicted, the variances of K by spots and by cells: the logarithm of a
@@ -73,8 +74,8 @@ class KrigedStiffness {
     double value, deviation;
   };
   Estimate estimate(const Eigen::VectorXd& weights, const VarianceScales& scales) const;
-  /// Largest change of it where each force is off by 1 N at the most.
-  double change_by_force(const Eigen::VectorXd& weights) const;
+  /// Largest change of it where each force is off by its correction at the most.
+  double solver_error(const Eigen::VectorXd& weights) const;
 
  private:
   /// What the samples say of K at the places, all in the units of K: F differs by the mean of K.
@@ -103,6 +104,7 @@ class KrigedStiffness {
   double bend_, half_;
   double best_of_spots_, best_of_cells_;
   Eigen::VectorXd places_, stiffness_, force_, values_;
+  Eigen::VectorXd corrections_;          // of the forces of the samples
   Eigen::MatrixXd trend_;                // powers at the places
   Eigen::MatrixXd fit_;                  // coefficients of the parabola from the samples
   Eigen::MatrixXd spots_;                // covariance between places

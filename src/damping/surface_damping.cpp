@@ -213,7 +213,7 @@ class Load {
       sum.work += work;
       sum.deviation = std::hypot(sum.deviation, deviation);
       sum.ratio_error += std::abs(work - between.estimate(straight, scales).value);
-      sum.solver_error += tolerance() * sample_.force * between.change_by_force(weights);
+      sum.solver_error += between.solver_error(weights);
       if (!chooses) return;
       const KrigedStiffness half(every_other(samples), at);
       by_half += half.estimate(tangential(of_level, at, half, ratio_), scales).value;
@@ -369,7 +369,7 @@ class Load {
     value.converged = std::isfinite(work);
     const Eigen::VectorXd straight = weights_of_work(kriged, ratio_.straight(), mean);
     value.ratio_error = std::abs(work - kriged.estimate(straight, scales).value);
-    value.solver_error = tolerance() * sample_.force * kriged.change_by_force(weights);
+    value.solver_error = kriged.solver_error(weights);
     return value;
   }
 
@@ -457,6 +457,9 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   const std::size_t own = options.coarsen ? 1 : 0;  // place of the cells as they are
   const std::size_t at = options.keep_cells ? std::min(own, values.size() - 1) : values.size() - 1;
   const GridValue& value = values[at];
+  // K_t grows with the indentation, so that no cycle has a negative loss: contacts that give one say
+  // nothing of it. (A loss with slip that is not asked for is NaN.)
+  if (value.work < 0 || value.with_slip.work < 0) return result;
   result.converged = true;
   result.work_per_cycle = value.work;
   result.damping_constant = closed_form::damping_constant(value.work, motion);

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 #include <salebra/base/error.hpp>
+#include <salebra/base/parallel.hpp>
+#include <salebra/base/share.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
@@ -188,19 +190,40 @@ class Levels {
 
   /// Adds the stiffness; returns the contact, of which it needs the pressure.
   NormalContactState stiffen(StiffnessSample& sample, Field* punch_pressure = nullptr) {
-    if (sample.indentation != last_at_ && !(before_ && sample.indentation == before_at_))
-      press(sample.indentation);
+    if (sample.indentation != last_at_) press(sample.indentation);
     NormalContactState state;
-    state.contact_pressure = sample.indentation == last_at_ ? *last_ : *before_;
+    state.contact_pressure = *last_;
     state.ranks = surface_.ranks;
+    Field own;
+    if (!punch_pressure) punch_pressure = &own;
     sample.stiffness =
         normal_stiffness(state, surface_.grid, contact_modulus_, options_, punch_pressure);
     converged_ = converged_ && std::isfinite(sample.stiffness);
+    if (converged_) correct_force(sample, *punch_pressure);
     return state;
+  }
+
+  /// Takes what the tolerance left in the contact out of its force: where G(p − p*) is the gap u,
+  /// Σ(p − p*) = Σqu, since Gq = 1. What then is left of the force is round-off, so that forces of
+  /// contacts of any distance may be subtracted.
+  void correct_force(StiffnessSample& sample, const Field& punch_pressure) {
+    const double sum = parallel::sum_blocks(
+        surface_.share(),
+        [&](Index begin, Index end) {
+          double part = 0;
+          for (Index k = begin * surface_.grid.ny; k < end * surface_.grid.ny; ++k)
+            if (last_->data()[k] > 0) part += punch_pressure.data()[k] * last_gap_.data()[k];
+          return part;
+        },
+        last_gap_.size());
+    const double correction = sum * surface_.grid.cell_area();
+    sample.force = last_force_ - correction;
+    sample.force_correction = std::abs(correction);
   }
 
   void press(double indentation) {
     NormalContactOptions options = options_;
+    last_gap_ = Field();
     const std::optional<Field> start = extrapolated(indentation);
     if (start) options.initial_pressure = &*start;
     NormalContactState state =
@@ -238,6 +261,8 @@ class Levels {
     before_ = std::move(last_);
     before_at_ = last_at_;
     last_ = std::move(state.contact_pressure);
+    last_gap_ = std::move(state.gap);
+    last_force_ = state.force;
     last_at_ = state.indentation;
   }
 
@@ -247,7 +272,8 @@ class Levels {
   double limit_;
   std::map<double, StiffnessSample> known_;
   std::optional<Field> last_, before_;  // whether there are any is the same in all processes
-  double last_at_ = 0, before_at_ = 0;
+  Field last_gap_;                      // until the next is solved
+  double last_at_ = 0, before_at_ = 0, last_force_ = 0;
   bool converged_ = true;
 };
 

@@ -84,7 +84,7 @@ struct SurfaceDamping {
   double level_error = unknown;  ///< change of W by the last doubling of the levels
   double ratio_error = unknown;  ///< of the bend of K_t/((G*/E*)K) over the oscillation
   double seam_error = 0;  ///< change of W without the seam, beyond scatter; 0 where not asked for
-  double solver_error = unknown;     ///< tolerance of the forces, as it enters W
+  double solver_error = unknown;     ///< correction of the forces, as it enters W
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
   double window = unknown;  ///< half the range of indentations that were solved, m; at least u_z
   double relaxation_work = unknown;       ///< with slip, by levels that open and close, J
@@ -94,7 +94,7 @@ struct SurfaceDamping {
   int levels = 0;
   Index points = 0;  ///< along x, of the grid that W belongs to
   bool converged =
-      false;  ///< every contact did, and the cycle lies within the range of the contact
+      false;  ///< every contact did, the cycle lies within the range of the contact, and W >= 0
 
   double damping_constant_error() const { return error * damping_constant / work_per_cycle; }
 };
@@ -149,7 +149,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// pressure. Forces converge at second order, so that a third of what W changes by is the error of
 /// the finer grid, and four thirds that of the coarser. Of the levels: what W changes by between
 /// n/2 and n, nested, on the first grid. Of ρ: what W changes by where ρ is a straight line. Of the
-/// solver: its tolerance, relative to F, times the weights of the forces in W.
+/// solver: what each force was corrected by for the gaps left in its contact, as it enters W.
 ///
 /// With a coefficient of friction, besides: the loss of the same springs with slip, as
 /// loss_with_slip() of a law, W = −∫K_t w' dζ with the loss w of one spring at each level, which
