@@ -32,6 +32,7 @@ struct ViscoelasticArguments {
 /// "G1:tau1,G2:tau2".
 std::vector<PronyTerm> parse_terms(const std::string& text) {
   std::vector<PronyTerm> terms;
+  std::string moduli, times;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string term = text.substr(begin, end - begin);
@@ -40,8 +41,13 @@ std::vector<PronyTerm> parse_terms(const std::string& text) {
             "is not MODULUS:TIME; give for example 10MPa:1ms,2MPa:0.1s");
     terms.push_back({parse_quantity(term.substr(0, colon), Dimension::pressure, "--prony"),
                      parse_quantity(term.substr(colon + 1), Dimension::time, "--prony")});
+    moduli += (begin > 0 ? "," : "") + term.substr(0, colon);
+    times += (begin > 0 ? "," : "") + term.substr(colon + 1);
     begin = end + 1;
   }
+  // Refuses a list with units at some of its numbers alone.
+  parse_values(moduli, Dimension::pressure, "--prony");
+  parse_values(times, Dimension::time, "--prony");
   return terms;
 }
 

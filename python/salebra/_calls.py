@@ -241,6 +241,15 @@ def _in_si(quantity: Any, argument: str) -> Any:
     return converted.magnitude if hasattr(converted, "magnitude") else converted.value
 
 
+def _is_bare(item: Any) -> bool:
+    """Whether it is a number without a unit."""
+    try:
+        float(item)
+    except (TypeError, ValueError):
+        return False
+    return True
+
+
 def _from_text(value: Any, argument: str, annotation: str) -> Any:
     """The numbers of a text or an object with a unit, or of a list of them, where numbers are wanted; else the value itself."""
     parts = _parts(annotation)
@@ -255,6 +264,10 @@ def _from_text(value: Any, argument: str, annotation: str) -> Any:
         if any(part.endswith("Material") for part in parts):
             return _core.Material(_number(value, argument))
     if wants_array and isinstance(value, (list, tuple)) and any(isinstance(item, str) or _has_unit(item) for item in value):
+        bare = [item for item in value if _is_bare(item)]
+        if bare and len(bare) < len(value):
+            listed = ", ".join(str(item) for item in value)
+            raise refusal(argument, f"[{listed}]", f"has a unit at some of its numbers alone; give {bare[0]} one too, or none to all")
         return type(value)(
             _number(item, argument) if isinstance(item, str) else _in_si(item, argument) if _has_unit(item) else item for item in value
         )

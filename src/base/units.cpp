@@ -376,12 +376,37 @@ std::vector<std::string_view> split_at(std::string_view text, char separator) {
   return parts;
 }
 
+/// Refuses "10,20,50MPa", which may be meant as 10, 20 and 50 MPa, and "1,5MPa", which on many
+/// keyboards is 1.5 MPa.
+void require_units_at_all_or_none(std::string_view text, const std::vector<Written>& list,
+                                  Dimension dimension, std::string_view field) {
+  const auto bare = [](const Written& written) { return written.unit.empty(); };
+  const auto first = std::ranges::find_if_not(list, bare);
+  if (first == list.end() || std::ranges::none_of(list, bare)) return;
+  std::string with_units, without;
+  for (const Written& written : list) {
+    const std::string_view unit = bare(written) ? first->unit : written.unit;
+    const char* comma = &written == &list.front() ? "" : ",";
+    with_units += fmt::format("{}{}{}", comma, written.number, unit);
+    without += fmt::format("{}{:.6g}", comma,
+                           unit_scale(written.unit, dimension, text, field)(written.number));
+  }
+  const std::string_view si = si_unit(dimension);
+  require(false, field, "'" + std::string(text) + "'",
+          fmt::format("has a unit at some of its numbers alone; write {} or, {}, {}", with_units,
+                      si == "1" ? "without a unit" : fmt::format("in {}", si), without) +
+              (list.size() == 2 ? "; a decimal comma is written as a point" : ""));
+}
+
 std::vector<double> geometric(std::string_view text, Dimension dimension, std::string_view field) {
   const auto parts = split_at(text, ':');
   const std::string quoted = "'" + std::string(text) + "'";
   require(parts.size() == 3, field, quoted, "is not a range; write from:to:count");
   const Written to_written = split(parts[1], dimension, field);
   Written from_written = split(parts[0], dimension, field);
+  require(from_written.unit.empty() || !to_written.unit.empty(), field, quoted,
+          fmt::format("has a unit at its first number alone; write {}:{}{}:{}", trim(parts[0]),
+                      trim(parts[1]), from_written.unit, trim(parts[2])));
   if (from_written.unit.empty()) from_written.unit = to_written.unit;
   const double from = value_of(from_written, dimension, text, field);
   const double to = value_of(to_written, dimension, text, field);
@@ -420,10 +445,12 @@ double parse_quantity(std::string_view text, Dimension dimension, std::string_vi
 std::vector<double> parse_values(std::string_view text, Dimension dimension,
                                  std::string_view field) {
   if (text.find(':') != std::string_view::npos) return geometric(text, dimension, field);
+  std::vector<Written> list;
+  for (const std::string_view part : split_at(text, ','))
+    list.push_back(split(part, dimension, field));
+  require_units_at_all_or_none(text, list, dimension, field);
   std::vector<double> values;
-  for (const std::string_view part : split_at(text, ',')) {
-    values.push_back(parse_quantity(part, dimension, field));
-  }
+  for (const Written& written : list) values.push_back(value_of(written, dimension, text, field));
   return values;
 }
 

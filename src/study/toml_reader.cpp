@@ -220,9 +220,20 @@ std::vector<double> TomlTable::values(std::string_view key, Dimension dimension)
   if (!node) return {};
   std::vector<double> all;
   if (const toml::array* array = node->as_array()) {
-    for (const toml::node& item : *array)
+    std::string list;
+    bool texts = false;
+    for (const toml::node& item : *array) {
       all.push_back(Access::quantity_of(*this, item, key, dimension));
+      texts = texts || item.is_string();
+      list += (list.empty() ? "" : ",") +
+              (item.is_string() ? *item.value<std::string>() : fmt::format("{}", all.back()));
+    }
     check(!all.empty(), key, "must not be empty");
+    try {
+      if (texts) all = parse_values(list, dimension, key);
+    } catch (const InvalidInput& error) {
+      rethrow_located(error);
+    }
   } else if (node->is_string()) {
     try {
       all = parse_values(*node->value<std::string>(), dimension, key);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -173,7 +174,8 @@ TEST_CASE("What is not a quantity of the dimension is refused with the option's 
 
 TEST_CASE("Values are one number, a list or a logarithmic range", "[units]") {
   CHECK(parse_values("3kPa", Dimension::pressure, "--p") == std::vector{3e3});
-  CHECK(parse_values("1,2kPa, 3 MPa", Dimension::pressure, "--p") == std::vector{1., 2e3, 3e6});
+  CHECK(parse_values("1Pa,2kPa, 3 MPa", Dimension::pressure, "--p") == std::vector{1., 2e3, 3e6});
+  CHECK(parse_values("1,2, 3e6", Dimension::pressure, "--p") == std::vector{1., 2., 3e6});
 
   const auto range = parse_values("1:100MPa:5", Dimension::pressure, "--p");
   REQUIRE(range.size() == 5);
@@ -190,6 +192,23 @@ TEST_CASE("Values are one number, a list or a logarithmic range", "[units]") {
     INFO(bad);
     CHECK_THROWS_AS(parse_values(bad, Dimension::length, "--p"), InvalidInput);
   }
+}
+
+TEST_CASE("A list has units at all of its numbers or at none", "[units]") {
+  for (const auto& [text, with, without] : std::initializer_list<std::array<const char*, 3>>{
+           {"10,20,50MPa", "write 10MPa,20MPa,50MPa", "in Pa, 10,20,5e+07"},
+           {"1,5MPa", "write 1MPa,5MPa", "a decimal comma is written as a point"},
+           {"0,5MPa", "write 0MPa,5MPa", "a decimal comma is written as a point"},
+           {"1kPa,2", "write 1kPa,2kPa", "in Pa, 1000,2"},
+           {"1,2kPa,3MPa", "write 1kPa,2kPa,3MPa", "in Pa, 1,2000,3e+06"},
+           {"1MPa:100:5", "write 1MPa:100MPa:5", ""}}) {
+    INFO(text);
+    CHECK_THROWS_WITH(parse_values(text, Dimension::pressure, "--pressure"),
+                      Catch::StartsWith("--pressure: '" + std::string(text) + "' has a unit at") &&
+                          Catch::Contains(with) && Catch::Contains(without));
+  }
+  CHECK_THROWS_WITH(parse_values("1,2%", Dimension::dimensionless, "--x"),
+                    Catch::Contains("write 1%,2% or, without a unit, 1,0.02"));
 }
 
 TEST_CASE(

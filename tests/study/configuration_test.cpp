@@ -13,7 +13,8 @@ using Catch::StartsWith;
 namespace {
 
 const std::string material = "[material]\ncontact_modulus = 1e9\npoisson = 0.25\n";
-const std::string contact = "[contact]\npressures = [1e5, \"0.2MPa\", \"300kPa\", 4e5]\n";
+const std::string contact =
+    "[contact]\npressures = [\"0.1MPa\", \"0.2MPa\", \"300kPa\", \"4e5Pa\"]\n";
 const std::string damping =
     "[damping]\nnormal_amplitude = \"1nm\"\ndrag_velocity = 0.01\nangular_frequency = 100\n";
 
@@ -39,6 +40,21 @@ TEST_CASE("Numbers are SI and strings have units", "[configuration]") {
   CHECK_FALSE(configuration.relative_pressures);
   CHECK(configuration.material.modulus_ratio() == Approx(1.5 / 1.75).epsilon(1e-14));
   CHECK(std::get<Drag>(configuration.motion).angular_frequency == 100);
+}
+
+TEST_CASE("An array has units at all of its numbers or at none", "[configuration]") {
+  const std::string surface =
+      "[surface]\npoints = 32\nsize_x = 4e-6\nhurst = 0.5\nrolloff = 2e-6\n"
+      "short_cutoff = 1e-6\nrms_slope = 0.1\nseed_count = 3\n";
+  const auto with = [&](const std::string& pressures) {
+    return parse(surface + material + "[contact]\npressures = " + pressures + "\n" + damping);
+  };
+  CHECK(with("[1e5, 2e5, 3e5, 4e5]").pressures == std::vector{1e5, 2e5, 3e5, 4e5});
+  for (const char* mixed :
+       {"[10, 20, \"50MPa\"]", "[\"10\", \"20\", \"50MPa\"]", "\"10,20,50MPa\""})
+    CHECK_THROWS_WITH(with(mixed),
+                      StartsWith("x.toml:13: contact.pressures: '10,20,50MPa' has a unit "
+                                 "at some of its numbers alone; write 10MPa,20MPa,50MPa"));
 }
 
 TEST_CASE("A measured surface is looked for beside its configuration", "[configuration]") {

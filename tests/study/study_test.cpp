@@ -317,7 +317,7 @@ TEST_CASE(
 TEST_CASE("Conductances of a study are its stiffness times a constant, and so are their intervals",
           "[study]") {
   StudyConfiguration configuration =
-      small_study("[conduction]\nconductivity = [\"50W/mK\", 400]\nresistivity = 2e-8\n");
+      small_study("[conduction]\nconductivity = [\"50W/mK\", \"400W/mK\"]\nresistivity = 2e-8\n");
   configuration.levels = 0;
   const StudyResult result = run_study(configuration);
   const StudyAnswer answer = answer_of(result);
@@ -327,7 +327,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
   for (std::size_t k = 0; k < stiffness.size(); ++k) {
     const double thermal = thermal_conductance(1 / area, modulus, 50, 400),
                  electrical = electrical_conductance(1 / area, modulus, 2e-8, 2e-8);
-    for (double EnsembleMean::*part :
+    for (double EnsembleMean::* part :
          {&EnsembleMean::mean, &EnsembleMean::low, &EnsembleMean::high}) {
       CHECK(answer.thermal_conductance[k].*part == Approx(thermal * stiffness[k].*part));
       CHECK(answer.electrical_conductance[k].*part == Approx(electrical * stiffness[k].*part));
