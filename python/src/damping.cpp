@@ -32,9 +32,11 @@ DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>
 BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, const Motion& motion,
                           const ContactFacts* facts, const ForceCurve* curve) {
   const double mean = result.indentation;
-  const ContactFacts all = with_motion(motion, [&](const auto& one) {
-    return at_state(known(facts), law, curve, mean, mean + one.normal_amplitude);
-  });
+  const ContactFacts all = std::visit(
+      [&](const auto& one) {
+        return at_state(known(facts), law, curve, mean, mean + one.normal_amplitude);
+      },
+      motion);
   // The object keeps the law.
   return {result, {}, [&law, kept = nb::find(law), motion, mean, all] {
             return unlocked([&] {
