@@ -22,6 +22,12 @@ bool is_there(const Session& session, const std::string& file) {
   return session.ranks().all_agree(!session.ranks().is_root() || std::filesystem::exists(file));
 }
 
+constexpr const char* mark = "checkpoint";
+
+bool is_checkpoint(const std::string& file) {
+  return ResultReader(file).text_attribute("contact", mark).has_value();
+}
+
 }  // namespace
 
 void ContactCheckpoint::add_to(Command& command) {
@@ -47,6 +53,10 @@ void ContactCheckpoint::check(const Session& session, const std::string& initial
     require_that(
         replaces || !std::filesystem::exists(file), file,
         "exists; continue from it with --initial " + file + ", or add --overwrite to start anew");
+    // A checkpoint is removed at the end: a result that the user kept is none.
+    require(!same_file(file, initial) || !std::filesystem::exists(file) || is_checkpoint(file),
+            "--checkpoint", file,
+            "is a result, which --initial reads and the checkpoint would replace; name another file");
     require_output(file, {.overwrite = true});
   });
 }
@@ -73,6 +83,7 @@ bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field&
       result.emplace(file, session.provenance(), WriteOptions{.overwrite = true}, session.ranks());
       QuantityGroup group(result->group("contact"));
       group.axes(grid);
+      group.plain().attribute(mark, std::string("yes"));
       group.dataset("contact_pressure", pressure, "x", "y", FieldType::float32);
     });
     result->commit();

@@ -8,6 +8,7 @@
 
 #include "io/child_program.hpp"
 #include "io/surface_importer.hpp"
+#include "session.hpp"
 
 namespace salebra::cli {
 namespace {
@@ -28,19 +29,25 @@ std::vector<std::string> lines_of(const std::string& kind, const std::string& te
 std::vector<std::string> import_surface(const std::filesystem::path& from,
                                         const std::filesystem::path& to,
                                         const UnknownFormat& refusal) {
-  if (!detail::on_path(helper))
+  if (detail::found_on_path(helper).empty())
     throw InvalidInput(
         from.string(),
         refusal.statement() + "; pip install 'salebra[formats]' adds the formats of instruments");
   // No name of a file may be taken for an option.
   const std::string file = std::filesystem::absolute(from).string();
-  const detail::ChildRun run = detail::run_child({helper, file, to.string()});
+  // A reader of a minute and some memory; libraries take a part of it before they read.
+  const detail::ChildLimits limits{
+      .time = std::chrono::seconds(60 + std::filesystem::file_size(from) / 1'000'000),
+      .memory = (std::uint64_t{1} << 30) + 64 * std::uint64_t(std::filesystem::file_size(from)),
+      .stopped = interrupted};
+  const detail::ChildRun run = detail::run_child({helper, file, to.string()}, "", limits);
   if (run.start_error != 0)
     throw IoError(std::string(helper) + ": cannot be started (" + std::strerror(run.start_error) +
                   ")");
   if (run.signal == 0 && run.status == 0) return lines_of("note", run.errors, file);
   const std::vector<std::string> errors = lines_of("error", run.errors, file);
-  const std::string reason = !errors.empty()   ? errors.front()
+  const std::string reason = run.late          ? "took too long and was ended"
+                             : !errors.empty() ? errors.front()
                              : run.signal != 0 ? "was ended by signal " + std::to_string(run.signal)
                                                : "failed with status " + std::to_string(run.status);
   // What both say of a file is worth more than either.

@@ -48,4 +48,12 @@ void NamedFiles::writes(std::string_view option, const std::filesystem::path& fi
   add({std::string(option), std::string(partner), file, true});
 }
 
+void NamedFiles::opens(const std::filesystem::path& file) const {
+  for (const Named& named : named_)
+    if (named.written && named.option != "--checkpoint" && named.option != "--fields" &&
+        same_file(named.file, file))
+      throw InvalidInput(named.option, named.file.string(),
+                         "is read by this command too; name another file");
+}
+
 }  // namespace salebra::cli

@@ -18,6 +18,10 @@ class NamedFiles {
   /// excepted.
   void writes(std::string_view option, const std::filesystem::path& file,
               std::string_view partner = "");
+  /// A file that is opened for reading, whoever named it: an option, or a file that an option names.
+  /// Throws InvalidInput where it is written too. Checkpoints and the fields of a cycle are excepted,
+  /// which their command reads itself to go on.
+  void opens(const std::filesystem::path& file) const;
 
  private:
   struct Named {

@@ -17,6 +17,8 @@
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/printable.hpp"
+#include "io/input_file.hpp"
+#include "io/sidecar.hpp"
 #include "io/input.hpp"
 #include "option_words.hpp"
 #include "terminal.hpp"
@@ -75,7 +77,15 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
     if (has_plot() && ranks().is_root()) require_plot(options_.plot, write_options());
   });
   if (!ranks().alone()) warn_of_few_cores();
+  // A file may name others that are read. Of several processes only the root knows what is written,
+  // and one that refuses alone would leave the others waiting.
+  if (options_.overwrite && ranks().alone())
+    detail::set_input_watcher([this](const std::filesystem::path& file) {
+      if (!output_is_written_) files_.opens(file);
+    });
 }
+
+Session::~Session() { detail::set_input_watcher({}); }
 
 void Session::warn_of_few_cores() {
   cpu_set_t mine;
@@ -142,10 +152,13 @@ void Session::name_files(const std::deque<Option>& options) {
   for (const Option& option : options)
     for (const std::string& file : option.files()) {
       const std::string& name = option.names().back();
-      if (option.file_use() == FileUse::output)
+      if (option.file_use() == FileUse::output) {
         writes(name, file, option.partner());
-      else
+        if (std::filesystem::path(file).extension() == ".npy")
+          writes(name, detail::sidecar_of(file), option.partner());
+      } else {
         reads(name, file);
+      }
     }
 }
 

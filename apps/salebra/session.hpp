@@ -52,6 +52,10 @@ class Session {
   /// unnecessarily. Collective. launch: outlives it.
   Session(CommonOptions options, std::string command_line, OutputCheck check, const Launch& launch);
 
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
   /// The processes that compute together, for what is spread over them.
@@ -70,6 +74,8 @@ class Session {
   void reads(std::string_view option, const std::filesystem::path& file);
   void writes(std::string_view option, const std::filesystem::path& file,
               std::string_view partner = "");
+  /// From now on the command reads what it has written itself.
+  void output_is_written() { output_is_written_ = true; }
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.
@@ -110,6 +116,7 @@ class Session {
   std::string command_line_;
   ProgressBar bar_;
   NamedFiles files_;
+  bool output_is_written_ = false;
   std::set<std::string> warned_;
 };
 

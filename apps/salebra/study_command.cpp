@@ -155,6 +155,7 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
 }
 
 std::optional<std::string> StudyReport::write() {
+  session_.output_is_written();
   if (lacks_assets_)
     session_.note(
         "no report was written: this build carries no plotly.js (scripts/report-assets fetches "

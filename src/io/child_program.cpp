@@ -4,14 +4,18 @@
 
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <salebra/base/error.hpp>
+#include <salebra/base/progress.hpp>
 #include <sstream>
 
 extern char** environ;
@@ -60,15 +64,50 @@ class MemoryFile {
 
 }  // namespace
 
-bool on_path(const std::string& program) {
+std::string found_on_path(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
   for (std::string folder; std::getline(folders, folder, ':');)
-    if (access(((folder.empty() ? "." : folder) + "/" + program).c_str(), X_OK) == 0) return true;
-  return false;
+    if (folder.starts_with('/') && access((folder + "/" + program).c_str(), X_OK) == 0)
+      return folder + "/" + program;
+  return "";
 }
 
-ChildRun run_child(std::vector<std::string> words, std::string_view input) {
+namespace {
+
+void limit(pid_t child, __rlimit_resource resource, rlim_t most) {
+  rlimit both{};
+  if (prlimit(child, resource, nullptr, &both) != 0) return;
+  both.rlim_cur = both.rlim_max = std::min(most, both.rlim_max);
+  prlimit(child, resource, &both, nullptr);
+}
+
+/// Its end, or that of its time. Ends it where it has to stop.
+int wait_for(pid_t child, const std::string& name, const ChildLimits& limits, ChildRun& run) {
+  using namespace std::chrono;
+  const auto end = steady_clock::now() + limits.time;
+  int status = 0;
+  bool stopped = false;
+  // It is looked for at intervals, as a hundredth of its age at first: a short run is not delayed.
+  for (microseconds pause(500);; pause = std::min<microseconds>(pause * 11 / 10, 20ms)) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) break;
+    if (ended < 0 && errno != EINTR) throw IoError(name + " was lost");
+    stopped = stopped || (limits.stopped && limits.stopped());
+    run.late = steady_clock::now() > end;
+    if (stopped || run.late) kill(child, SIGKILL);
+    usleep(static_cast<useconds_t>(pause.count()));
+  }
+  if (stopped) throw Interrupted(name + ": stopped");
+  return status;
+}
+
+}  // namespace
+
+ChildRun run_child(std::vector<std::string> words, std::string_view input,
+                   const ChildLimits& limits) {
+  const std::string program = found_on_path(words.front());
+  if (program.empty()) return {.start_error = ENOENT, .output = {}, .errors = {}};
   MemoryFile given("input"), output("output"), errors("errors");
   given.write(input);
   posix_spawn_file_actions_t actions;
@@ -82,12 +121,12 @@ ChildRun run_child(std::vector<std::string> words, std::string_view input) {
   ChildRun run;
   pid_t child = 0;
   run.start_error =
-      posix_spawnp(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+      posix_spawn(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (run.start_error != 0) return run;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw IoError(words.front() + " was lost");
+  limit(child, RLIMIT_CORE, 0);
+  limit(child, RLIMIT_DATA, limits.memory);
+  const int status = wait_for(child, words.front(), limits, run);
   run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   run.status = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   run.output = output.read();

@@ -24,6 +24,10 @@ namespace salebra {
 namespace detail {
 namespace {
 
+std::function<void(const std::filesystem::path&)> input_watcher;
+
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
+
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& path, int error) {
   const std::string why = std::string("cannot be read (") + std::strerror(error) + ")";
   if (error == EACCES || error == EPERM || error == ENAMETOOLONG || error == EISDIR)
@@ -33,7 +37,12 @@ namespace {
 
 }  // namespace
 
+void set_input_watcher(std::function<void(const std::filesystem::path&)> watcher) {
+  input_watcher = std::move(watcher);
+}
+
 InputFile::InputFile(std::filesystem::path path) : path_(std::move(path)) {
+  if (input_watcher) input_watcher(path_);
   // O_NONBLOCK: a named pipe is opened without waiting for its other end, and then refused.
   do {
     descriptor_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -109,9 +118,16 @@ std::uint64_t InputFile::checksum() const {
   }
 }
 
-bool InputFile::is_hdf5() const {
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  return head(signature.size()) == signature;
+bool InputFile::is_hdf5() const { return head(hdf5_signature.size()) == hdf5_signature; }
+
+bool InputFile::may_be_hdf5() const {
+  if (is_hdf5()) return true;
+  std::string found(hdf5_signature.size(), '\0');
+  for (std::uint64_t at = 512; size_ >= found.size() && at <= size_ - found.size(); at *= 2) {
+    read(at, std::as_writable_bytes(std::span(found)));
+    if (found == hdf5_signature) return true;
+  }
+  return false;
 }
 
 }  // namespace detail

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -40,11 +41,18 @@ class InputFile {
   std::uint64_t checksum() const;
   /// Whether the file begins as HDF5 does.
   bool is_hdf5() const;
+  /// Whether the HDF5 library would take it for its own: the signature may also stand behind a block
+  /// of 512 bytes, or of twice as many, and so on.
+  bool may_be_hdf5() const;
 
  private:
   std::filesystem::path path_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
 };
+
+/// Is called with the name of each file that is opened from now on, before it is opened; throws to
+/// refuse it. None as at the start. All readers pass through InputFile, hence here too.
+void set_input_watcher(std::function<void(const std::filesystem::path&)> watcher);
 
 }  // namespace salebra::detail

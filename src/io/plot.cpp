@@ -30,7 +30,7 @@ detail::PictureFormat format_of(const std::filesystem::path& file) {
 }
 
 void require_gnuplot(const std::filesystem::path& file) {
-  if (!detail::on_path("gnuplot"))
+  if (detail::found_on_path("gnuplot").empty())
     fail(file, "gnuplot is not installed (Debian package gnuplot-nox), which draws the pictures");
 }
 
@@ -50,6 +50,7 @@ std::string run_gnuplot(const std::filesystem::path& file, std::string_view scri
   const detail::ChildRun run = detail::run_child({"gnuplot", "--default-settings", "-"}, script);
   if (run.start_error != 0)
     fail(file, std::string("gnuplot cannot be started (") + std::strerror(run.start_error) + ")");
+  if (run.late) fail(file, "gnuplot took longer than ten minutes and was ended");
   if (run.signal != 0) fail(file, "gnuplot was ended by signal " + std::to_string(run.signal));
   if (run.status != 0) fail(file, "gnuplot failed (" + complaint(run.errors) + ")");
   return run.output;

@@ -63,6 +63,8 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
     return detail::read_content(file, detail::file_content(input));
   } catch (const UnknownFormat& refusal) {
     if (surface_importer == nullptr || options.known_formats) throw;
+    // An importer reads HDF5 by a library that follows what the file says to other files.
+    if (detail::InputFile(file).may_be_hdf5()) throw;
     const ScratchFolder scratch;
     std::vector<std::string> remarks = surface_importer(file, scratch / "surface.h5", refusal);
     detail::LoadedSurface loaded = detail::read_hdf5(scratch / "surface.h5");
