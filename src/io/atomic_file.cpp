@@ -3,6 +3,7 @@
 #include "atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -126,6 +127,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& target, const WriteOptions& 
     if (descriptor_ < 0 && errno != EEXIST) fail("be created", errno);
   }
   if (descriptor_ < 0) fail("be created", EEXIST);
+  // What only its owner may read stays so. A file system without such modes refuses.
+  struct stat before = {};
+  if (stat(target.c_str(), &before) == 0 && fchmod(descriptor_, before.st_mode & 0777) != 0) return;
 }
 
 AtomicFile::~AtomicFile() {
