@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import ctypes
 import datetime
 import io
 import json
 import os
+import resource
+import struct
 import sys
 import tempfile
 import warnings
@@ -30,6 +33,62 @@ INSTALL = "pip install 'salebra[formats]'"
 
 class ImportRefusal(Exception):
     """A file that is not read, with the reason in one line."""
+
+
+# What the HDF5 library takes a file for its own by, at its start or behind a block of 512 bytes, twice as many, and so on.
+_HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+
+
+def _require_harmless(file: str) -> None:
+    """Raises ImportRefusal for what is no regular file, and for HDF5, which may name other files that h5py would read."""
+    if not os.path.isfile(file):
+        raise ImportRefusal("does not exist, or is no regular file; check the path")
+    with open(file, "rb") as stream:
+        size, place = os.fstat(stream.fileno()).st_size, 0
+        while place < size:
+            stream.seek(place)
+            if stream.read(len(_HDF5_SIGNATURE)) == _HDF5_SIGNATURE:
+                raise ImportRefusal("is HDF5, which salebra reads itself and which may point at other files; store the surface as heights")
+            place = 2 * place or 512
+
+
+def _require_place(file: str, out: str) -> None:
+    """Raises ImportRefusal where OUT is the file itself, or a device, pipe or folder that a file would replace."""
+    if not os.path.lexists(out):
+        return
+    if not os.path.isfile(out):
+        raise ImportRefusal(f"cannot be written to {out}, which is no regular file; name another file")
+    if os.path.exists(file) and os.path.samefile(file, out):
+        raise ImportRefusal("is the file to write too; name another file")
+
+
+def _confine(file: str, out: str) -> None:
+    """Takes from this process what a reader of a damaged file could do: other files, core files, endless work.
+
+    Landlock (Linux 5.13) leaves it the file, the folder of OUT and what Python and its libraries are made of; where the kernel has no
+    Landlock, the limits remain.
+    """
+    seconds = 60 + os.path.getsize(file) // 1_000_000
+    for kind, most in ((resource.RLIMIT_CORE, 0), (resource.RLIMIT_CPU, seconds)):
+        hard = resource.getrlimit(kind)[1]
+        resource.setrlimit(kind, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+    create_ruleset, add_rule, restrict_self, no_new_privileges = 444, 445, 446, 38
+    execute, read_file, read_dir, everything = 1, 4, 8, (1 << 13) - 1
+    libc = ctypes.CDLL(None, use_errno=True)
+    ruleset = libc.syscall(create_ruleset, struct.pack("=Q", everything), 8, 0)
+    if ruleset < 0:
+        return
+    folders = {sys.prefix, sys.base_prefix, "/usr", "/lib", "/lib64", "/sys/devices", "/proc", *(path for path in sys.path if path)}
+    allowed = [(folder, execute | read_file | read_dir) for folder in folders if os.path.isdir(folder)]
+    allowed += [(os.path.dirname(os.path.abspath(out)), everything), (file, read_file)]
+    allowed += [(device, read_file | 2) for device in ("/dev/null", "/dev/urandom")]
+    for path, rights in allowed:
+        descriptor = os.open(path, os.O_PATH | os.O_CLOEXEC)
+        libc.syscall(add_rule, ruleset, 1, struct.pack("=Qi", rights, descriptor), 0)
+        os.close(descriptor)
+    libc.prctl(no_new_privileges, 1, 0, 0, 0)
+    libc.syscall(restrict_self, ruleset, 0)
+    os.close(ruleset)
 
 
 def _channel_of(reader: Any, wanted: str | None) -> Any:
@@ -123,8 +182,8 @@ def _read(file: str, wanted: str | None) -> tuple[np.ndarray, np.ndarray | None,
 def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *, channel: str | int | None = None) -> list[str]:
     """Writes what `file` holds as HDF5, which appears whole or not at all. Returns remarks. Raises ImportRefusal."""
     file, out = os.fspath(file), os.fspath(out)
-    if not os.path.isfile(file):
-        raise ImportRefusal("does not exist, or is no regular file; check the path")
+    _require_harmless(file)
+    _require_place(file, out)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         heights, positions, attributes, remarks = _read(file, None if channel is None else str(channel))
@@ -178,6 +237,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if os.path.exists(given.out) and not given.overwrite:
             say("error", f"{given.out}: exists; add --overwrite or name another file")
             return 2
+        _require_harmless(given.file)
+        _require_place(given.file, given.out)
+        # What is imported later would write its caches.
+        with contextlib.suppress(ImportError):
+            import h5py  # type: ignore[import-untyped]  # noqa: F401
+            import SurfaceTopography  # noqa: F401
+        _confine(given.file, given.out)
         for remark in import_surface(given.file, given.out, channel=given.channel):
             say("note", f"{given.file}: {remark}")
     except ImportRefusal as refusal:
