@@ -154,12 +154,14 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
     // periodic.
     if (complete.periodic || spectrum->windowed)
       fit = fit_self_affine(*spectrum, reliable_wavelength(arguments, surface));
-    if (!fit.hurst.found())
-      session.note(complete.periodic || spectrum->windowed ? no_hurst
-                                                           : "no Hurst exponent without a window");
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
   const Json answer = summary(arguments, surface, undefined, fit);
+  // Of a smaller grid nobody expects an exponent.
+  constexpr Index expected = 32;
+  if (spectrum && !fit.hurst.found() && std::min(surface.grid.nx, surface.grid.ny) >= expected)
+    session.note(surface.periodic || spectrum->windowed ? no_hurst
+                                                        : "no Hurst exponent without a window");
   if (!spectrum)
     session.note(fmt::format(
         "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",

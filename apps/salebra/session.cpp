@@ -17,9 +17,9 @@
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/printable.hpp"
+#include "io/input.hpp"
 #include "io/input_file.hpp"
 #include "io/sidecar.hpp"
-#include "io/input.hpp"
 #include "option_words.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
@@ -81,7 +81,7 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
   // and one that refuses alone would leave the others waiting.
   if (options_.overwrite && ranks().alone())
     detail::set_input_watcher([this](const std::filesystem::path& file) {
-      if (!output_is_written_) files_.opens(file);
+      if (!may_read_output_) files_.opens(file);
     });
 }
 

@@ -74,8 +74,8 @@ class Session {
   void reads(std::string_view option, const std::filesystem::path& file);
   void writes(std::string_view option, const std::filesystem::path& file,
               std::string_view partner = "");
-  /// From now on the command reads what it has written itself.
-  void output_is_written() { output_is_written_ = true; }
+  /// Whether the command may read its own output from now on: what it has written, or is to continue.
+  void may_read_output(bool may) { may_read_output_ = may; }
   bool quiet() const { return options_.quiet; }
   bool has_plot() const { return !options_.plot.empty(); }
   /// Draws what --plot asked for; nothing where it was not given.
@@ -116,7 +116,7 @@ class Session {
   std::string command_line_;
   ProgressBar bar_;
   NamedFiles files_;
-  bool output_is_written_ = false;
+  bool may_read_output_ = false;
   std::set<std::string> warned_;
 };
 

@@ -155,7 +155,7 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
 }
 
 std::optional<std::string> StudyReport::write() {
-  session_.output_is_written();
+  session_.may_read_output(true);
   if (lacks_assets_)
     session_.note(
         "no report was written: this build carries no plotly.js (scripts/report-assets fetches "
@@ -530,7 +530,10 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       merge ? "needs the --output of the shards" : "needs the --output of the run to continue");
   const std::filesystem::path folder = parts_folder(session);
   const Communicator& ranks = session.ranks();
-  if (resume && is_complete(configuration, folder, session)) {
+  session.may_read_output(resume);
+  const bool complete = resume && is_complete(configuration, folder, session);
+  session.may_read_output(false);
+  if (complete) {
     const StudyFiles files{session.output().string(), page.complete()};
     session.answer(Json{{"files", salebra::to_json(files)}},
                    fmt::format("results: {}, complete already\n", *files.results) +

@@ -52,7 +52,7 @@ _LIKE = {
     "lx": "size_x", "ly": "size_y", "young": "contact_modulus", "pressures": "pressure",
     "window": "pressure", "hardness": "pressure", "initial_pressure": "pressure", "separations": "separation",
     "mean_indentation": "indentation", "lowest": "indentation", "highest": "indentation", "motion_scale": "indentation",
-    "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius", "resolution": "size_x", "noise": "rms_height",
+    "heights": "height", "radius": "contact_radius", "length": "size_x", "amplitude": "rms_height", "tip_radius": "contact_radius", "resolution": "size_x", "shortest_wavelength": "size_x", "noise": "rms_height",
     "resistivity_1": "resistivity", "resistivity_2": "resistivity", "conductivity_1": "conductivity", "conductivity_2": "conductivity",
     "work": "work_of_adhesion", "power": "moment0", "densities": "psd",
     "reference_force": "force", "smallest_force": "force", "first_load": "force",

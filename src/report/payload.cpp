@@ -163,8 +163,8 @@ class Point {
     const std::vector<double> values = required(name);
     // Not a product of numbers of the file, which may be beyond any number of values.
     if (size > 0 && block >= values.size() / size)
-      refuse_damaged(name, fmt::format("has {} values, {} blocks of {} are needed", values.size(),
-                                       block + 1, size));
+      refuse_damaged(name, fmt::format("has {} values, {}{} are needed", values.size(),
+                                       block > 0 ? fmt::format("{} times ", block + 1) : "", size));
     const auto begin = values.begin() + std::ptrdiff_t(block * size);
     return {begin, begin + std::ptrdiff_t(size)};
   }

@@ -47,7 +47,8 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
     CHECK(number(flowed, "first_loading", "first_loading_pressure") > 2.001e7);
     const json& premise = flowed["premises"]["plasticity"];
     CHECK(premise["verdict"] == "holds");
-    CHECK(premise["value"] < 1);
+    // Judged at the deepest point, which the first loading has reached.
+    CHECK(premise["value"] <= 1.001);
     CHECK(premise["value"] > 0.9);
     CHECK(plain["premises"]["plasticity"]["verdict"] == "unknown");
     for (json* answer : {&same, &plain, &flowed}) {
