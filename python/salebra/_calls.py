@@ -242,12 +242,11 @@ def _in_si(quantity: Any, argument: str) -> Any:
 
 
 def _is_bare(item: Any) -> bool:
-    """Whether it is a number without a unit."""
+    """Whether it is a number without a unit that needs one: zero is the same in every unit."""
     try:
-        float(item)
+        return float(item) != 0
     except (TypeError, ValueError):
         return False
-    return True
 
 
 def _from_text(value: Any, argument: str, annotation: str) -> Any:

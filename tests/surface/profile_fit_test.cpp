@@ -87,8 +87,8 @@ TEST_CASE("A profile of a generated surface gives the law that made it", "[profi
       CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
     if (!std::isnan(fit.short_cutoff)) {
       ++cutoffs;
-      // A bin is 12 % wide.
-      CHECK(fit.short_cutoff == Approx(short_cutoff).epsilon(0.12));
+      // A bin is 12 % wide, and the end of a profile is that of its surface smeared.
+      CHECK(fit.short_cutoff == Approx(short_cutoff).epsilon(0.125));
     }
     ++lines;
   }
