@@ -18,15 +18,22 @@ namespace salebra::detail {
 
 class InputFile;
 
+/// What the reader of a file did not understand, unless the user settles it.
+struct OpenQuestion {
+  std::string text;
+  bool size = false, heights = false;  ///< settled by sizes, by the unit of the heights
+};
+
 struct LoadedSurface {
   Field heights;                 ///< in `unit`
   std::optional<Index> rows;     ///< of the surface, where `heights` has those of one process
   std::optional<double> size_x;  ///< m
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;
-  std::string unit;                       ///< of the heights; empty where the file names none
-  bool lateral_unit_open = false;         ///< the sizes are in a unit that the file does not name
-  bool is_profile = false;                ///< one row
+  std::string unit;                ///< of the heights; empty where the file names none
+  bool lateral_unit_open = false;  ///< the sizes are in a unit that the file does not name
+  bool is_profile = false;         ///< one row
+  std::vector<OpenQuestion> questions = {};
   std::vector<std::string> remarks = {};  ///< on what it says and the reader did not use
 };
 

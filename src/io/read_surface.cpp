@@ -208,9 +208,10 @@ void scale_sizes(const std::filesystem::path& file, const ReadOptions& options,
     for (auto* size : {&loaded.size_x, &loaded.size_y})
       if (*size) **size *= *metres;
   } else if (options.remarks) {
-    options.remarks->push_back(
-        file.string() + ": `lateral_unit` " + options.lateral_unit + " was not used: " +
-        (loaded.size_x ? "the file states its size with a unit" : "the file holds no coordinates"));
+    options.remarks->push_back(file.string() + ": `lateral_unit` " + options.lateral_unit +
+                               " was not used: " +
+                               (loaded.size_x ? "the size in the file has a unit or is in metres"
+                                              : "the file states no size"));
   }
 }
 
@@ -234,8 +235,32 @@ void complete_profile(const std::filesystem::path& file, const ReadOptions& opti
 
 }  // namespace
 
+namespace {
+
+/// Refuses what the options do not settle.
+void answer_questions(const std::filesystem::path& file, const ReadOptions& options,
+                      LoadedSurface& loaded) {
+  const bool size = options.pixel_size ||
+                    (options.size_x && (options.size_y || loaded.is_profile)) ||
+                    (loaded.lateral_unit_open && !options.lateral_unit.empty());
+  const bool heights = !loaded.unit.empty() || !options.height_unit.empty();
+  for (const OpenQuestion& question : loaded.questions) {
+    if ((question.size && !size) || (question.heights && !heights)) refuse(file, question.text);
+    loaded.remarks.push_back(question.text.substr(0, question.text.rfind(';')));
+  }
+  if (options.height_unit.empty() || loaded.unit.empty()) return;
+  const auto given = metres_in(options.height_unit), stated = metres_in(loaded.unit);
+  require(given && stated && std::abs(*given / *stated - 1) < 1e-9, "height_unit",
+          options.height_unit,
+          "was given, and " + file.string() + " states the unit of its heights, '" + loaded.unit +
+              "'; leave it out");
+}
+
+}  // namespace
+
 ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
                       const ReadOptions& options) {
+  answer_questions(file, options, loaded);
   ReadSurface read{
       .names_unit = !loaded.unit.empty(),
       .names_lateral_unit = !loaded.lateral_unit_open || !options.lateral_unit.empty()};
@@ -317,9 +342,12 @@ void doubt(const std::filesystem::path& file, const detail::ReadSurface& read,
     options.remarks->push_back(file.string() + ": " + text);
   };
   const Grid2D& grid = read.surface.grid;
-  if (!read.names_lateral_unit && std::max(grid.lx, grid.ly) > 1)
-    remark(fmt::format("is {} long, its coordinates being in metres; see `lateral_unit`",
-                       format_quantity(std::max(grid.lx, grid.ly), Dimension::length)));
+  const double longest = std::max(grid.lx, grid.ly);
+  if (longest > 1)
+    remark(fmt::format("is {} long{}", format_quantity(longest, Dimension::length),
+                       read.names_lateral_unit
+                           ? ", more than instruments measure; check the unit of its size"
+                           : ", its coordinates being in metres; see `lateral_unit`"));
   if (const auto slope = doubt_of_heights(read.surface, read.metres_per_unit))
     remark(*slope + (read.names_unit ? "" : "; see `height_unit`"));
 }

@@ -1,343 +1,727 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Header of a text with heights: keys of Gwyddion and of instruments, units beside column names.
+// Lines of a text beside its numbers: keys with values, and names of columns with units.
 #include "text_header.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
+#include <span>
 #include <utility>
-#include <vector>
 
+#include "header_tokens.hpp"
 #include "loaded_surface.hpp"
 #include "text_numbers.hpp"
 
 namespace salebra::detail {
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& symbol : result)
-    if (symbol >= 'A' && symbol <= 'Z') symbol = static_cast<char>(symbol - 'A' + 'a');
-  return result;
+using Kind = HeaderToken::Kind;
+using Tokens = std::span<const HeaderToken>;
+
+bool is_unit(const HeaderToken& token) {
+  return token.kind == Kind::length || token.kind == Kind::other || token.kind == Kind::ratio;
 }
 
-bool is_digit(char symbol) { return symbol >= '0' && symbol <= '9'; }
-
-/// Of a word; every byte of a letter beyond ASCII.
-bool is_letter(char symbol) {
-  return (symbol >= 'a' && symbol <= 'z') || (symbol >= 'A' && symbol <= 'Z') ||
-         static_cast<unsigned char>(symbol) >= 0x80;
+bool has(Tokens tokens, Kind kind) {
+  return std::ranges::find(tokens, kind, &HeaderToken::kind) != tokens.end();
 }
 
-bool is_length(std::string_view unit) {
-  // "Z in nm" has no inches.
-  return !unit.empty() && is_letter(unit.front()) && unit != "in" && metres_in(std::string(unit));
+/// A word that is a unit of length wherever it stands. "um" is a German word, "m" stands for much,
+/// "pm" and "am" for a time.
+bool is_plain_unit(const HeaderToken& token) {
+  const std::string word = plain_word(token.text);
+  return token.kind == Kind::word && token.text.size() > 1 && word != "um" && word != "pm" &&
+         word != "am" && word != "in" && is_length_unit(token.text);
 }
 
-/// The length that a header states, where it has a unit: a bare "width = 256" may well count
-/// points. A comma is decimal, unless it may separate thousands.
-std::optional<double> stated_length(std::string_view text) {
-  std::string number(text.substr(0, text.find('/')));  // of "1.1 µm/pixel"
-  if (const auto comma = number.find(','); comma != std::string::npos) {
-    const auto digits =
-        std::find_if_not(number.begin() + std::ptrdiff_t(comma) + 1, number.end(), is_digit) -
-        (number.begin() + std::ptrdiff_t(comma) + 1);
-    if (digits == 3 || number.find('.') != std::string::npos) return {};
-    number[comma] = '.';
-  }
-  number = trimmed(number);
+bool names_length(Tokens tokens) {
+  return std::ranges::any_of(tokens, [](const HeaderToken& token) {
+    return token.kind == Kind::length || token.kind == Kind::ratio || is_plain_unit(token);
+  });
+}
+
+Meaning meaning_of(Tokens tokens) {
+  Meaning meaning = 0;
+  for (const HeaderToken& token : tokens)
+    if (token.kind == Kind::word) meaning |= detail::meaning_of(token.text);
+  return meaning;
+}
+
+struct WrittenNumber {
   double value;
-  const auto [end, status] = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (status != std::errc{} || end == number.data() + number.size()) return {};
-  try {
-    return parse_quantity(number, Dimension::length, "length");
-  } catch (const InvalidInput&) {
-    return {};
+  double half_digit;
+};
+
+/// A number of a header; nothing where its marks can be read in two ways. Three digits behind a
+/// mark may be thousands, unless the numbers of the file show which mark is decimal.
+std::optional<WrittenNumber> parsed(std::string text, const NumberLayout& layout) {
+  std::erase(text, '\'');
+  const auto comma = text.find(','), point = text.find('.');
+  if (comma != text.npos && point != text.npos) {
+    const char decimal = text.rfind(',') > text.rfind('.') ? ',' : '.';
+    if (decimal == ',' ? layout.decimal_points : layout.decimal_commas) return {};
+    std::erase(text, decimal == ',' ? '.' : ',');
+  } else if (comma != text.npos || point != text.npos) {
+    const char mark = comma != text.npos ? ',' : '.';
+    const auto at = std::min(comma, point);
+    if (text.find(mark, at + 1) != text.npos) return {};
+    std::size_t digits = 0;
+    while (at + 1 + digits < text.size() && text[at + 1 + digits] >= '0' &&
+           text[at + 1 + digits] <= '9')
+      ++digits;
+    const auto first = text.find_first_of("0123456789");
+    const bool thousands =
+        digits == 3 && at + 4 == text.size() && at > first && at - first <= 3 && text[first] != '0';
+    const bool known = mark == ',' ? layout.decimal_commas : layout.decimal_points;
+    const bool refuted =
+        mark == ',' ? layout.decimal_points || layout.comma_separates : layout.decimal_commas;
+    // Numbers with points are also written where commas are decimal elsewhere, not the reverse.
+    if (!known && (refuted ? mark == ',' || thousands : thousands && mark == ',')) return {};
   }
+  std::ranges::replace(text, ',', '.');
+  for (char& symbol : text)
+    if (symbol == 'd' || symbol == 'D') symbol = 'e';
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value;
+  const auto [end, status] = std::from_chars(begin, text.data() + text.size(), value);
+  if (status != std::errc{} || !std::isfinite(value)) return {};
+  if (end != text.data() + text.size() && !(*end == '.' && end + 1 == text.data() + text.size()))
+    return {};
+  const auto exponent = std::min(text.find_first_of("eE"), text.size());
+  const auto mark = text.find('.');
+  const double digits =
+      mark < exponent ? static_cast<double>(exponent) - static_cast<double>(mark) - 1 : 0;
+  double power = 0;
+  if (exponent < text.size()) {
+    const char* from = text.data() + exponent + 1 + (text[exponent + 1] == '+' ? 1 : 0);
+    std::from_chars(from, text.data() + text.size(), power);
+  }
+  return WrittenNumber{value, 0.5 * std::pow(10., power - digits)};
 }
 
-std::optional<Index> stated_count(std::string_view text) {
+/// A count may have marks of thousands, which a length may not.
+std::optional<Index> parsed_count(std::string text) {
+  const auto first = text.find_first_not_of("+0123456789.,'");
+  if (first != text.npos) return {};
+  std::string digits;
+  std::ranges::copy_if(text, std::back_inserter(digits),
+                       [](char symbol) { return symbol >= '0' && symbol <= '9'; });
+  const auto mark = text.find_first_of(".,'");
+  if (mark != text.npos) {
+    // "64.0" counts too.
+    if (text.find_first_not_of("0", mark + 1) == text.npos)
+      digits = text.substr(0, mark);
+    else if ((text.size() - mark) % 4 != 0)
+      return {};
+  }
   Index count = 0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (status != std::errc{} || end != text.data() + text.size()) return {};
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+  if (status != std::errc{} || end != digits.data() + digits.size()) return {};
   return count;
 }
 
-/// The rest of a name without the first of these words that it holds; nothing where it holds none.
-std::optional<std::string> without(std::string name, std::initializer_list<const char*> words) {
-  for (const std::string_view word : words)
-    if (const auto at = name.find(word); at != std::string::npos)
-      return name.erase(at, word.size());
-  return {};
-}
-
-enum class Axes { none, x, y, plane, z, all };
-
-/// The axes that a word names.
-Axes axes_of(std::string_view word) {
-  constexpr std::pair<std::string_view, Axes> words[]{{"x", Axes::x},
-                                                      {"y", Axes::y},
-                                                      {"xy", Axes::plane},
-                                                      {"lateral", Axes::plane},
-                                                      {"horizontal", Axes::plane},
-                                                      {"z", Axes::z},
-                                                      {"height", Axes::z},
-                                                      {"heights", Axes::z},
-                                                      {"h\u00f6he", Axes::z},
-                                                      {"h\u00f6hen", Axes::z},
-                                                      {"hoehe", Axes::z},
-                                                      {"value", Axes::z},
-                                                      {"values", Axes::z},
-                                                      {"data", Axes::z},
-                                                      {"wert", Axes::z},
-                                                      {"werte", Axes::z},
-                                                      {"topography", Axes::z},
-                                                      {"topographie", Axes::z},
-                                                      {"vertical", Axes::z},
-                                                      {"vertikal", Axes::z},
-                                                      {"", Axes::all}};
-  const auto found = std::ranges::find(words, word, &std::pair<std::string_view, Axes>::first);
-  return found == std::end(words) ? Axes::none : found->second;
-}
-
-void set_unit(TextHeader& header, Axes axes, const std::string& unit) {
-  const bool all = axes == Axes::all, plane = all || axes == Axes::plane;
-  if (plane || axes == Axes::x) header.x_unit = unit;
-  if (plane || axes == Axes::y) header.y_unit = unit;
-  if (all || axes == Axes::z) header.value_unit = unit;
-}
-
-void read_height_factor(const std::filesystem::path& file, std::string_view key,
-                        std::string_view value, TextHeader& header) {
-  double factor;
-  const auto [end, status] = std::from_chars(value.data(), value.data() + value.size(), factor);
-  if (status != std::errc{} || end != value.data() + value.size() || !std::isfinite(factor) ||
-      factor == 0)
-    refuse(file, "has the height conversion factor '" + std::string(value) + "'; correct it");
-  const auto arrow = key.find("-> "), close = key.find(')');
-  if (arrow == std::string::npos || close == std::string::npos || close < arrow + 3)
-    refuse(file, "does not say what its height conversion factor converts to; write '(-> m)'");
-  header.height_factor =
-      factor * metres_per(file, std::string(trimmed(key.substr(arrow + 3, close - arrow - 3))));
-}
-
-/// The unit in brackets at the end of a key, "Pixel size [µm]", which loses it; or empty.
-std::string unit_of(std::string_view& key) {
-  const auto open = key.find_first_of("[(");
-  if (open == std::string_view::npos || (!key.ends_with(']') && !key.ends_with(')'))) return "";
-  const std::string_view unit = trimmed(key.substr(open + 1, key.size() - open - 2));
-  if (!is_length(unit)) return "";
-  key = trimmed(key.substr(0, open));
-  return std::string(unit);
-}
-
-/// Whether something of the entry was used.
-bool read_unit(Axes axes, std::string_view value, TextHeader& header) {
-  std::string unit(value);
-  if (unit.size() > 2 && unit.front() == '[' && unit.back() == ']')
-    unit = trimmed(unit.substr(1, unit.size() - 2));
-  // A unit of an axis that is no length is refused where the axis is scaled.
-  if (axes == Axes::none || (axes == Axes::all && !is_length(unit))) return false;
-  set_unit(header, axes, unit);
-  return true;
-}
-
-bool read_entry(const std::filesystem::path& file, std::string_view key, std::string_view value,
-                TextHeader& header) {
-  key = trimmed(key);
-  value = trimmed(value);
-  const std::string unit_of_key = unit_of(key);
-  const std::string name = lower(key);
-  const auto length = [&](auto... targets) {
-    const std::optional<double> stated = stated_length(std::string(value) + unit_of_key);
-    if (stated) ((*targets = stated), ...);
-    return stated.has_value();
-  };
-  const auto count = [&](std::optional<Index>& target) {
-    target = stated_count(value);
-    return target.has_value();
-  };
-  if (name == "width" || name == "breite") return length(&header.width);
-  if (name == "height" || name == "h\u00f6he") return length(&header.height);
-  if (name == "w") return count(header.columns);
-  if (name == "h") return count(header.rows);
-  if (name == "points") return count(header.points);
-  if (name.starts_with("height conversion factor")) {
-    read_height_factor(file, key, value, header);
-    return true;
-  }
-  std::string letters;
-  std::ranges::copy_if(name, std::back_inserter(letters), is_letter);
-  if (const auto rest = without(letters, {"units", "unit", "einheiten", "einheit"}))
-    return read_unit(axes_of(*rest), value, header);
-  if (const auto of_pixel = without(letters, {"pixel"})) {
-    const auto rest = without(
-        *of_pixel, {"size", "gr\u00f6\u00dfe", "groesse", "spacing", "abstand", "pitch", "weite"});
-    const Axes axes = rest ? axes_of(*rest) : Axes::none;
-    if (axes == Axes::all || axes == Axes::plane) return length(&header.pixel_x, &header.pixel_y);
-    if (axes == Axes::x) return length(&header.pixel_x);
-    if (axes == Axes::y) return length(&header.pixel_y);
-    return false;
-  }
-  if (const auto rest = without(letters, {"size", "gr\u00f6\u00dfe", "groesse", "length",
-                                          "l\u00e4nge", "laenge", "range"})) {
-    const Axes axes = axes_of(*rest);
-    if (axes == Axes::x) return length(&header.width);
-    if (axes == Axes::y) return length(&header.height);
-  }
-  return false;
-}
-
-/// "Key: value", "key=value", several "key=value" separated by blanks, or "Key;value".
-bool read_entries(const std::filesystem::path& file, std::string_view text, TextHeader& header) {
-  auto separator = text.find_first_of(":=");
-  if (separator == std::string_view::npos) {
-    separator = text.find_first_of(";\t");
-    if (separator == std::string_view::npos ||
-        trimmed(text.substr(separator + 1)).find_first_of(";\t") != std::string_view::npos)
-      return false;
-  }
-  const auto second = text.find('=', separator + 1);
-  if (text[separator] != '=' || second == std::string_view::npos)
-    return read_entry(file, text.substr(0, separator), text.substr(separator + 1), header);
-  bool used = false;
-  while (!text.empty()) {
-    text = trimmed(text);
-    const std::string_view word = text.substr(0, text.find_first_of(" \t"));
-    text.remove_prefix(word.size());
-    if (const auto equals = word.find('='); equals != std::string_view::npos)
-      used = read_entry(file, word.substr(0, equals), word.substr(equals + 1), header) || used;
-  }
-  return used;
-}
-
-/// A piece of a line: a word, a word or a unit in brackets, a word after a slash or underscore, or
-/// a separator of columns.
-struct Piece {
-  enum class Kind { word, bracket, slash, separator } kind;
-  std::string_view text;
-  std::string_view behind = {};  ///< it, of a word
+/// A number of a value, with the unit behind it.
+struct Quantity {
+  std::string text;
+  const HeaderToken* unit = nullptr;
 };
 
-std::vector<Piece> pieces_of(std::string_view line) {
-  std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < line.size();) {
-    const char symbol = line[i];
-    const auto closing = symbol == '[' ? ']' : symbol == '(' ? ')' : '\0';
-    const auto close = closing ? line.find(closing, i) : std::string_view::npos;
-    if (close != std::string_view::npos) {
-      std::string_view inner = trimmed(line.substr(i + 1, close - i - 1));
-      if (inner.starts_with("in ")) inner = trimmed(inner.substr(3));
-      pieces.push_back({Piece::Kind::bracket, inner});
-      i = close + 1;
-    } else if (is_letter(symbol) || is_digit(symbol)) {
-      std::size_t end = i;
-      while (end < line.size() && (is_letter(line[end]) || is_digit(line[end]))) ++end;
-      const bool behind = i > 0 && (line[i - 1] == '/' || line[i - 1] == '_');
-      pieces.push_back({behind ? Piece::Kind::slash : Piece::Kind::word, line.substr(i, end - i),
-                        line.substr(end)});
-      i = end;
-    } else {
-      if (symbol == '\t' || symbol == ',' || symbol == ';')
-        pieces.push_back({Piece::Kind::separator, line.substr(i, 1)});
-      ++i;
+/// Titles of columns in one line; empty where the line is none.
+std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns);
+
+class HeaderReader {
+ public:
+  HeaderReader(const std::filesystem::path& file, const NumberLayout& layout)
+      : file_(file), layout_(layout) {}
+
+  void read(const HeaderLine& line) {
+    // A longer line is no line of a header.
+    constexpr std::size_t most_looked_at = 2000;
+    const std::string decoded = utf8(line.text);
+    std::string_view text = trimmed(decoded);
+    while (!text.empty() && (std::string_view("#%!*/'\" \t").find(text.front()) != text.npos ||
+                             text.starts_with("; ")))
+      text.remove_prefix(1);
+    text = trimmed(text);
+    line_ = text;
+    number_ = line.number;
+    const std::vector<HeaderToken> tokens = header_tokens(text.substr(0, most_looked_at));
+    if (tokens.empty()) return;
+    if (!read_line(tokens) || (text.size() > most_looked_at && names_length(tokens))) refuse_line();
+  }
+
+  TextHeader take() {
+    if (!header_.titles.empty()) header_.titles_quote = titles_quote_;
+    return std::move(header_);
+  }
+
+ private:
+  std::string quoted() const {
+    constexpr std::size_t most_quoted = 60;
+    std::string text(line_);
+    if (text.size() > most_quoted) {
+      std::size_t end = most_quoted;
+      while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter
+      text = text.substr(0, end) + "\u2026";
+    }
+    return "line " + std::to_string(number_) + ", '" + text + "'";
+  }
+
+  void refuse_line() { header_.unaccounted.push_back(quoted()); }
+
+  /// Whether every token of the line is accounted for.
+  bool read_line(Tokens tokens) {
+    if (!has(tokens, Kind::assign)) return read_words(tokens);
+    // Each key is the words before a colon or an equals sign.
+    std::size_t begin = 0;
+    bool all = true;
+    while (begin < tokens.size()) {
+      std::size_t assign = begin;
+      while (assign < tokens.size() && tokens[assign].kind != Kind::assign) ++assign;
+      const Tokens key = tokens.subspan(begin, assign - begin);
+      std::size_t end = std::min(assign + 1, tokens.size());
+      std::size_t next = end;
+      while (next < tokens.size() && tokens[next].kind != Kind::assign) ++next;
+      if (next == tokens.size()) {
+        end = next;
+      } else {
+        // The next key begins behind the last number, unit in no bracket, date or separator.
+        end = next;
+        while (end > assign + 1 && (tokens[end - 1].kind == Kind::word || tokens[end - 1].bracket))
+          --end;
+        // A colon within a text, or behind nothing but a value.
+        if (end == assign + 1 || end == next) end = tokens.size();
+      }
+      all = read_entry(
+                key, tokens.subspan(std::min(assign + 1, end), end - std::min(assign + 1, end))) &&
+            all;
+      begin = end;
+    }
+    return all;
+  }
+
+  /// A line without a colon or equals sign: titles of columns, units, a key with its value, or
+  /// text.
+  bool read_words(Tokens tokens) {
+    const auto number = std::ranges::find(tokens, Kind::number, &HeaderToken::kind);
+    const bool free_number = std::ranges::any_of(tokens, [](const HeaderToken& token) {
+      return token.kind == Kind::number && !token.bracket;
+    });
+    if (!free_number) {
+      if (read_titles(tokens)) return true;
+      if (read_unit_line(tokens)) return true;
+      // Names of columns that do not fit the columns.
+      constexpr Index most_titled = 8;
+      const Meaning axes = meaning::x | meaning::y | meaning::plane | meaning::z | meaning::height |
+                           meaning::ordinate | meaning::position;
+      if (layout_.titled_columns > 1 && layout_.titled_columns <= most_titled &&
+          std::ranges::count_if(tokens, [&](const HeaderToken& token) {
+            return token.kind == Kind::word && (detail::meaning_of(token.text) & axes);
+          }) > 1)
+        return false;
+    }
+    if (number != tokens.end()) {
+      const auto before = static_cast<std::size_t>(number - tokens.begin());
+      return read_entry(tokens.first(before), tokens.subspan(before));
+    }
+    // "Einheit Höhe;µm"
+    if (tokens.size() > 1 && (meaning_of(tokens.first(tokens.size() - 1)) & meaning::unit))
+      return read_entry(tokens.first(tokens.size() - 1), tokens.last(1));
+    return !names_length(tokens);
+  }
+
+  bool read_titles(Tokens tokens) {
+    const std::vector<ColumnTitle> titles = titles_of(tokens, layout_.titled_columns);
+    if (titles.empty()) return false;
+    const bool units_alone = std::ranges::all_of(
+        titles, [](const ColumnTitle& title) { return title.meaning == 0 && !title.unit.empty(); });
+    const auto columns = static_cast<std::size_t>(layout_.titled_columns);
+    if (titles.size() == columns || titles.size() + 1 == columns) {
+      if (units_alone && header_.titles.size() == titles.size()) {
+        for (std::size_t i = 0; i < titles.size(); ++i) {
+          if (!header_.titles[i].unit.empty()) return header_.titles[i].unit == titles[i].unit;
+          header_.titles[i].unit = titles[i].unit;
+        }
+        return true;
+      }
+      if (units_alone && titles.size() != columns) return false;
+      if (!header_.titles.empty() && std::ranges::any_of(header_.titles, [](const auto& title) {
+            return !title.unit.empty();
+          }))
+        return false;
+      header_.titles = titles;
+      titles_quote_ = quoted();
+      return true;
+    }
+    // Units of the axes of a matrix.
+    constexpr Index most_titled = 3;
+    if (layout_.titled_columns <= most_titled && layout_.titled_columns > 1 && titles.size() > 1)
+      return false;
+    const Meaning axes = meaning::x | meaning::y | meaning::z | meaning::height |
+                         meaning::ordinate | meaning::values;
+    const bool named = std::ranges::all_of(titles, [&](const ColumnTitle& title) {
+      return (title.meaning & axes) && !(title.meaning & (meaning::unknown | meaning::other));
+    });
+    const bool units =
+        std::ranges::any_of(titles, [](const auto& title) { return !title.unit.empty(); });
+    if (!named || !units) return false;
+    for (const ColumnTitle& title : titles) {
+      if (title.unit.empty()) continue;
+      if (title.meaning & meaning::x)
+        set_unit(header_.x_unit, title.unit);
+      else if (title.meaning & meaning::y)
+        set_unit(header_.y_unit, title.unit);
+      else
+        set_unit(header_.value_unit, title.unit);
+    }
+    return true;
+  }
+
+  /// A line of nothing but a unit, for the heights.
+  bool read_unit_line(Tokens tokens) {
+    if (tokens.size() != 1 || !(is_unit(tokens[0]) || is_length_unit(tokens[0].text))) return false;
+    if (layout_.titled_columns == 2 || layout_.titled_columns == 3) return false;
+    set_unit(header_.value_unit, tokens[0].text);
+    return true;
+  }
+
+  void set_unit(std::string& target, const std::string& unit) {
+    if (!target.empty() && target != unit &&
+        metres_in(target).value_or(-1) != metres_in(unit).value_or(-2))
+      refuse(file_,
+             quoted() + ", contradicts the unit '" + target + "' of a line before; correct one");
+    target = unit;
+  }
+
+  void set(std::optional<StatedLength>& target, const StatedLength& length) {
+    if (target && !same(*target, length))
+      refuse(file_, length.quote + ", contradicts " + target->quote + "; correct one");
+    const auto precision = [](const StatedLength& stated) {
+      return stated.half_digit / std::abs(stated.number);
+    };
+    if (!target || precision(length) < precision(*target)) target = length;
+  }
+
+  static bool same(const StatedLength& a, const StatedLength& b) {
+    if (a.metres.has_value() != b.metres.has_value()) return false;
+    const double unit_a = a.metres ? *a.metres / a.number : 1,
+                 unit_b = b.metres ? *b.metres / b.number : 1;
+    // A number of one digit is as a rule not rounded to it.
+    constexpr double most = 0.01;
+    const double tolerance =
+        std::min(a.half_digit * std::abs(unit_a) + b.half_digit * std::abs(unit_b),
+                 most * std::abs(a.number * unit_a));
+    return std::abs(a.metres.value_or(a.number) - b.metres.value_or(b.number)) <=
+           tolerance * (1 + 1e-9);
+  }
+
+  bool read_entry(Tokens key, Tokens value) {
+    if (key.empty()) return value.empty() || (!has(value, Kind::number) && !names_length(value));
+    if (value.empty()) return read_words(key);
+    while (!value.empty() && value.back().kind == Kind::separator)
+      value = value.first(value.size() - 1);
+    while (!value.empty() && value.front().kind == Kind::separator) value = value.subspan(1);
+    while (key.back().kind == Kind::separator && key.size() > 1) key = key.first(key.size() - 1);
+    Meaning meaning = meaning_of(key);
+    // "No data" is no negation.
+    std::string joined;
+    for (const HeaderToken& token : key) joined += plain_word(token.text);
+    if (joined.find("nodata") != joined.npos) meaning = meaning::missing;
+    if (has(key, Kind::number) || has(key, Kind::ratio)) return false;
+    if (has(value, Kind::number)) return read_numbers(key, meaning, value);
+    if (has(value, Kind::date)) return true;
+    return read_text(key, meaning, value);
+  }
+
+  // A value without numbers.
+  bool read_text(Tokens key, Meaning meaning, Tokens value) {
+    using namespace meaning;
+    const bool one = value.size() == 1 && !has(key, Kind::length);
+    const bool is_length = one && (value[0].kind == Kind::length || is_length_unit(value[0].text));
+    const bool is_other = one && (value[0].kind == Kind::other || is_other_unit(value[0].text));
+    if ((meaning & unit) && !one && !(meaning & (unknown | harmless | other))) return false;
+    if ((meaning & unit) && one) {
+      const bool known =
+          !(meaning & (unknown | harmless | other | index | points | columns | rows));
+      if (!known) return !is_length;
+      std::string name = value[0].text;
+      if (meaning & (z | height | ordinate | values)) {
+        if (meaning & (x | y | plane)) return false;
+        set_unit(header_.value_unit, name);
+      } else if (meaning & (x | y | plane | position | length | width | size | pixel | step)) {
+        if (!is_length) return false;
+        if (!(meaning & y) || (meaning & x)) set_unit(header_.x_unit, name);
+        if (!(meaning & x) || (meaning & y)) set_unit(header_.y_unit, name);
+      } else {
+        if (!is_length) return false;
+        set_unit(header_.common_unit, name);
+      }
+      return true;
+    }
+    if (is_length || (is_other && (meaning & (z | height)))) {
+      // "Z: nm"
+      if (meaning & (unknown | harmless | size | pixel | step | factor | alters)) return false;
+      if (meaning & (z | height | ordinate | values))
+        set_unit(header_.value_unit, value[0].text);
+      else if (meaning & (x | plane))
+        set_unit(header_.x_unit, value[0].text);
+      else if (!(meaning & y))
+        return false;
+      if (meaning & (y | plane)) set_unit(header_.y_unit, value[0].text);
+      return true;
+    }
+    if (meaning & (alters | mask)) {
+      const Meaning said = meaning_of(value);
+      return (said & no) && !(said & unknown);
+    }
+    if ((has(value, Kind::length) || has(value, Kind::other)) && read_titles(value)) return true;
+    // A channel that is no height.
+    const Meaning said = meaning_of(value);
+    const bool channel = std::ranges::any_of(key, [](const HeaderToken& token) {
+      const std::string word = plain_word(token.text);
+      return word == "channel" || word == "kanal" || word == "canal" || word == "chaneru";
+    });
+    if (channel && (said & (other | mask)) && !(said & (z | height))) return false;
+    return !names_length(value) && !names_length(key);
+  }
+
+  /// A value with numbers.
+  bool read_numbers(Tokens key, Meaning meaning, Tokens value) {
+    using namespace meaning;
+    const auto unit_of_key = std::ranges::find(key, Kind::length, &HeaderToken::kind);
+    const bool other_key = has(key, Kind::other);
+    std::vector<Quantity> quantities;
+    Meaning said = 0;
+    bool per_pixel = unit_of_key != key.end() && unit_of_key->per_pixel;
+    for (const HeaderToken& token : value) {
+      if (token.kind == Kind::number) {
+        quantities.push_back({token.text});
+      } else if (is_unit(token) ||
+                 (!quantities.empty() && !quantities.back().unit && is_plain_unit(token))) {
+        if (quantities.empty() || quantities.back().unit) return false;
+        quantities.back().unit = &token;
+        per_pixel = per_pixel || token.per_pixel;
+      } else if (token.kind == Kind::word) {
+        said |= detail::meaning_of(token.text);
+      }
+    }
+    const auto kind_of = [&](const Quantity& quantity) {
+      if (quantity.unit)
+        return quantity.unit->kind == Kind::word ? Kind::length : quantity.unit->kind;
+      return unit_of_key != key.end() ? Kind::length : other_key ? Kind::other : Kind::number;
+    };
+    const auto all_are = [&](auto... kinds) {
+      return std::ranges::all_of(quantities, [&](const Quantity& quantity) {
+        return ((kind_of(quantity) == kinds) || ...);
+      });
+    };
+    if (!all_are(Kind::number, Kind::length, Kind::other)) return false;
+    const bool lengths = all_are(Kind::length), numbers = all_are(Kind::number);
+
+    if (line_.find("->") != line_.npos && (meaning & factor)) return read_height_factor(quantities);
+    if (meaning & missing) {
+      if (meaning & (points | count | pixel)) return numbers && !(meaning & unknown);
+      if (quantities.size() != 1 || !numbers || said) return false;
+      const auto mark = parsed(quantities[0].text, layout_);
+      if (mark) header_.missing.push_back(mark->value);
+      return mark.has_value();
+    }
+    const Meaning heights = z | height | ordinate | values;
+    if (meaning & harmless) {
+      if (said & (carrying & ~(x | y | points | factor | values))) return false;
+      if (all_are(Kind::other)) return !(meaning & (heights | factor));
+      if (per_pixel) return false;
+      return !(meaning & carrying & ~points);
+    }
+    if (all_are(Kind::other)) return !(meaning & (carrying | ordinate));
+    if (has_other(quantities, kind_of)) return false;
+    if (meaning & (unknown | mask | no)) return false;
+    const bool about_plane = meaning & (x | y | plane | pixel | width | columns | rows | step);
+    if ((meaning & (result)) && !about_plane && !(meaning & (unit | factor | points)) &&
+        (!(meaning & size) || (meaning & heights)))
+      return said == 0;
+    if ((meaning & (z | height | ordinate)) && (meaning & resolution) && !about_plane)
+      return said == 0;
+    if ((meaning & z) && (meaning & (size | length)) && !about_plane) return said == 0;
+    if (meaning & factor) {
+      const auto one = quantities.size() == 1 ? parsed(quantities[0].text, layout_) : std::nullopt;
+      return numbers && one && one->value == 1;
+    }
+    if (meaning & alters) {
+      if ((meaning & (x | y | plane)) && !(meaning & heights)) return true;
+      return std::ranges::all_of(quantities, [&](const Quantity& quantity) {
+        const auto number = parsed(quantity.text, layout_);
+        return number && number->value == 0;
+      });
+    }
+    if (meaning & (unit | index | values | ordinate | z)) return false;
+    if (said & ~(neutral | points | pixel | columns | rows | x | y | position)) return false;
+    if (numbers && read_counts(meaning, quantities, key)) return true;
+    if (said & (x | y | position)) return false;
+    if (numbers && (said & (points | pixel | columns | rows))) return false;
+    if (!lengths && !numbers) {
+      // "10 x 10 µm"
+      if (quantities.size() != 2 || !quantities[1].unit) return false;
+      quantities[0].unit = quantities[1].unit;
+    }
+    return read_lengths(meaning, quantities, unit_of_key != key.end() ? &*unit_of_key : nullptr,
+                        per_pixel);
+  }
+
+  template <typename KindOf>
+  static bool has_other(const std::vector<Quantity>& quantities, const KindOf& kind_of) {
+    return std::ranges::any_of(
+        quantities, [&](const Quantity& quantity) { return kind_of(quantity) == Kind::other; });
+  }
+
+  bool read_height_factor(const std::vector<Quantity>& quantities) {
+    const auto arrow = line_.find("->"), close = line_.find(')');
+    const auto number = quantities.size() == 1 && !quantities[0].unit
+                            ? parsed(quantities[0].text, layout_)
+                            : std::nullopt;
+    if (!number || number->value == 0)
+      refuse(file_, quoted() + ", states no height conversion factor; correct it");
+    if (close == line_.npos || close < arrow + 2)
+      refuse(file_, quoted() +
+                        ", does not say what its height conversion factor converts to; write "
+                        "'(-> m)'");
+    header_.height_factor =
+        number->value *
+        metres_per(file_, std::string(trimmed(line_.substr(arrow + 2, close - arrow - 2))));
+    return true;
+  }
+
+  /// Whether the entry states numbers of points.
+  bool read_counts(Meaning meaning, const std::vector<Quantity>& quantities, Tokens key) {
+    using namespace meaning;
+    const Meaning counting = columns | rows | points | count | pixel | resolution;
+    if (meaning & (step | length | height)) return false;
+    if (!(meaning & (counting | width | size | x | y))) return false;
+    std::vector<StatedCount> counts;
+    for (const Quantity& quantity : quantities) {
+      const auto number = parsed_count(quantity.text);
+      if (!number) return false;
+      counts.push_back({*number, quoted()});
+    }
+    if (counts.size() == 2) {
+      if (meaning & (x | y | width)) return false;
+      const bool certain = meaning & counting && !(meaning & (pixel | size) && !(meaning & count));
+      const bool fits = counts[0].count == layout_.columns && counts[1].count == layout_.rows;
+      if (!certain && !fits) return false;
+      header_.columns.push_back(counts[0]);
+      header_.rows.push_back(counts[1]);
+      return true;
+    }
+    if (counts.size() != 1) return false;
+    const bool per_line = (meaning & points) && (meaning & rows) &&
+                          std::ranges::any_of(key, [](const HeaderToken& token) {
+                            const std::string word = plain_word(token.text);
+                            return word == "per" || word == "pro" || word == "par";
+                          });
+    const bool along_x = (meaning & (columns | x | width)) || per_line,
+               along_y = !per_line && (meaning & (rows | y));
+    if (along_x && along_y) return false;
+    // A bare number behind "Width" or "Pixel size" is a count where it is that of the file.
+    const bool certain =
+        (meaning & (columns | rows | points | count | resolution)) && !(meaning & (size | width));
+    const Index found = along_x ? layout_.columns : along_y ? layout_.rows : -1;
+    if (!certain && (counts[0].count != found || (meaning & pixel && meaning & size))) return false;
+    auto& target = along_x ? header_.columns : along_y ? header_.rows : header_.points;
+    target.push_back(counts[0]);
+    return true;
+  }
+
+  bool read_lengths(Meaning meaning, const std::vector<Quantity>& quantities,
+                    const HeaderToken* unit_of_key, bool per_pixel) {
+    using namespace meaning;
+    if (quantities.empty() || quantities.size() > 2) return false;
+    std::vector<StatedLength> lengths;
+    for (const Quantity& quantity : quantities) {
+      const auto number = parsed(quantity.text, layout_);
+      if (!number) return false;
+      StatedLength& length =
+          lengths.emplace_back(StatedLength{number->value, number->half_digit, {}, quoted()});
+      const HeaderToken* unit = quantity.unit ? quantity.unit : unit_of_key;
+      if (unit) length.metres = metres_of(quantity.text, number->value, unit->text);
+    }
+    const bool distances = (meaning & (pixel | step)) || ((meaning & resolution) && per_pixel);
+    if (per_pixel && !distances) return false;
+    if ((meaning & resolution) && !distances) return false;
+    const Meaning counted = columns | rows | points | count;
+    if ((meaning & counted) && !(meaning & step)) return false;
+    if ((meaning & count) ||
+        ((meaning & height) && (meaning & (step | size)) && !(meaning & pixel)))
+      return false;
+    if (!(meaning & (pixel | step | width | height | size | length))) return false;
+    if (distances && (meaning & pixel) == 0 && (meaning & (width | height | length))) return false;
+    if (distances && !(meaning & step) &&
+        !(meaning & (size | width | height | length | resolution)) && !per_pixel &&
+        !(meaning & (x | y | plane)))
+      return false;  // "Pixel: 1.1 mm" may be anything
+    const bool along_x = meaning & (x | width | columns), along_y = meaning & (y | height | rows);
+    if (along_x && along_y) return false;
+    auto& first = distances ? header_.pixel_x : header_.width;
+    auto& second = distances ? header_.pixel_y : header_.height;
+    if (lengths.size() == 2) {
+      if (along_x || along_y || (meaning & length)) return false;
+      set(first, lengths[0]);
+      set(second, lengths[1]);
+      return true;
+    }
+    if ((meaning & length) && !along_x && !along_y && !distances) {
+      set(header_.length, lengths[0]);
+      return true;
+    }
+    // One size of a scan is that of both axes where the points say so.
+    if (!along_x && !along_y && !distances && !(meaning & plane) && layout_.columns != layout_.rows)
+      return false;
+    if (!along_y) set(first, lengths[0]);
+    if (!along_x) set(second, lengths[0]);
+    return true;
+  }
+
+  /// As parse_quantity, which divides by powers of ten that are exact.
+  static double metres_of(const std::string& text, double number, const std::string& unit) {
+    try {
+      return parse_quantity(text + " " + unit, Dimension::length, "length");
+    } catch (const InvalidInput&) {
+      return number * metres_in(unit).value_or(0);
     }
   }
-  return pieces;
+
+  const std::filesystem::path& file_;
+  const NumberLayout& layout_;
+  TextHeader header_;
+  std::string_view line_;
+  int number_ = 0;
+  std::string titles_quote_;
+};
+
+/// The title of one column from its words.
+ColumnTitle title_of(Tokens tokens) {
+  ColumnTitle title;
+  for (const HeaderToken& token : tokens) {
+    if (!title.text.empty()) title.text += ' ';
+    title.text += token.text;
+    const bool behind_name =
+        title.meaning != 0 && is_length_unit(token.text) && &token == &tokens.back();
+    if (is_unit(token) || (token.kind == Kind::word && behind_name)) {
+      // Two units of one column: one of them is something else.
+      if (!title.unit.empty()) title.meaning |= meaning::unknown;
+      title.unit = token.text;
+    } else if (token.kind == Kind::word) {
+      title.meaning |= detail::meaning_of(token.text);
+    }
+  }
+  if (tokens.size() == 1 && title.unit.empty() && tokens[0].kind == Kind::word &&
+      (is_length_unit(tokens[0].text) || is_other_unit(tokens[0].text)) &&
+      !(title.meaning & ~meaning::unknown))
+    title = {0, tokens[0].text, tokens[0].text};
+  return title;
 }
 
-/// "X [µm]  Y [µm]  Z [nm]", or a line of units alone for x, y and z or for z. Whether it was one.
-bool read_column_units(const std::vector<Piece>& pieces, TextHeader& header) {
-  bool used = false;
-  Axes axis = Axes::none;
-  bool beside = false;  // nothing but "in" has come since its name
-  std::vector<std::string> units;
-  bool units_alone = true;
-  for (const auto& [kind, text, behind] : pieces) {
-    if (kind == Piece::Kind::separator) {
-      axis = Axes::none;
+constexpr Meaning naming = meaning::x | meaning::y | meaning::plane | meaning::z | meaning::height |
+                           meaning::ordinate | meaning::values | meaning::position |
+                           meaning::index | meaning::other | meaning::mask | meaning::width |
+                           meaning::length | meaning::step | meaning::harmless | meaning::unknown;
+
+/// Columns of words without separators: a unit ends a column, and a name begins one, unless it says
+/// more of the same: "Position X", "Z height".
+std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
+  std::vector<std::vector<HeaderToken>> groups(1);
+  const auto units = std::ranges::count_if(tokens, is_unit);
+  const bool by_units = units == columns && is_unit(tokens.back());
+  Meaning meaning = 0;
+  bool closed = false;
+  for (const HeaderToken& token : tokens) {
+    const bool unit = is_unit(token) || (token.kind == Kind::word && meaning != 0 && !closed &&
+                                         !by_units && is_plain_unit(token));
+    if (closed) {
+      groups.emplace_back();
+      meaning = 0;
+      closed = false;
+    }
+    if (unit) {
+      groups.back().push_back(token);
+      closed = true;
       continue;
     }
-    const bool unit = is_length(text);
-    if (unit) units.emplace_back(text);
-    units_alone = units_alone && unit;
-    const Axes named = axes_of(lower(text));
-    if (unit && axis != Axes::none && (beside || kind == Piece::Kind::bracket)) {
-      set_unit(header, axis, std::string(text));
-      used = true;
-      axis = Axes::none;
-    } else if (kind != Piece::Kind::bracket && named != Axes::none && named != Axes::plane) {
-      axis = named;
-      beside = true;
-    } else if (lower(text) != "in") {
-      beside = false;
+    const Meaning here = detail::meaning_of(token.text) & naming;
+    const Meaning axes = meaning::x | meaning::y | meaning::plane;
+    const Meaning heights = meaning::z | meaning::height | meaning::ordinate | meaning::values;
+    const bool axis_alone = (meaning & ~(axes | meaning::z)) == 0 && meaning != 0;
+    const bool more =
+        (axis_alone && here == meaning::position) ||
+        ((here & meaning & heights) == 0 &&
+         (((here & ~heights) == 0 && (meaning & ~heights) == 0) ||
+          ((meaning & meaning::position) && !(meaning & axes) && (here & (axes | meaning::z)))));
+    if (!by_units && here && meaning && !more) {
+      groups.emplace_back();
+      meaning = 0;
     }
+    groups.back().push_back(token);
+    meaning |= here;
   }
-  if (!units_alone || used || (units.size() != 1 && units.size() != 3)) return used;
-  if (units.size() == 3) {
-    header.x_unit = units[0];
-    header.y_unit = units[1];
-  }
-  header.value_unit = units.back();
-  return true;
+  if (groups.back().empty()) groups.pop_back();
+  return groups;
 }
 
-/// Whether the pieces name a length: a unit behind a number, in brackets or unmistakable alone.
-bool name_length(const std::vector<Piece>& pieces, bool in_bracket = false) {
-  bool behind_number = false;
-  for (const auto& [kind, text, behind] : pieces) {
-    if (kind == Piece::Kind::bracket && !in_bracket && name_length(pieces_of(text), true))
-      return true;
-    const auto letters = text.substr(std::min(text.find_first_not_of("0123456789"), text.size()));
-    const bool number = letters.empty() && !text.empty();
-    // "um" is a German word, "m" stands for much, "pm" for a time.
-    const bool alone = letters.size() > 1 && letters != "um";
-    const bool rate = behind.starts_with("/s") || behind.starts_with("/min");
-    if (is_length(letters) && letters != "pm" && !rate &&
-        (behind_number || letters.size() < text.size() || kind == Piece::Kind::bracket || alone))
-      return true;
-    behind_number = number;
+/// expand   a name of x and y alike stands for two columns
+std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns, bool expand) {
+  std::vector<ColumnTitle> titles;
+  const auto add = [&](Tokens group) {
+    ColumnTitle title = title_of(group);
+    if (expand && (title.meaning & meaning::plane) &&
+        !(title.meaning & (meaning::x | meaning::y))) {
+      title.meaning = (title.meaning & ~meaning::plane) | meaning::x;
+      titles.push_back(title);
+      title.meaning = (title.meaning & ~meaning::x) | meaning::y;
+    }
+    titles.push_back(std::move(title));
+  };
+  if (has(tokens, Kind::separator)) {
+    std::size_t begin = 0;
+    while (begin <= tokens.size()) {
+      std::size_t end = begin;
+      while (end < tokens.size() && tokens[end].kind != Kind::separator) ++end;
+      add(tokens.subspan(begin, end - begin));
+      begin = end + 1;
+    }
+    while (titles.size() > static_cast<std::size_t>(columns) && titles.back().text.empty())
+      titles.pop_back();
+    return titles;
   }
-  return false;
+  for (const auto& group : groups_of(tokens, columns)) add(group);
+  // A text is no row of titles, unless it has as many words as there are columns.
+  if (titles.size() != static_cast<std::size_t>(columns) &&
+      std::ranges::any_of(titles, [](const ColumnTitle& title) {
+        const bool named = (title.meaning & naming & ~(meaning::unknown | meaning::harmless)) != 0;
+        return !named && title.unit.empty();
+      }))
+    return {};
+  return titles;
+}
+
+std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns) {
+  std::vector<ColumnTitle> titles = titles_of(tokens, columns, false);
+  const auto count = static_cast<std::size_t>(columns);
+  if (titles.size() == count || titles.size() + 1 == count) {
+    const bool plane = std::ranges::any_of(
+        titles, [](const auto& title) { return title.meaning & meaning::plane; });
+    if (titles.size() == count || !plane) return titles;
+  }
+  return titles_of(tokens, columns, true);
 }
 
 }  // namespace
 
-std::string TextHeader::remark() const {
-  if (unused == 0) return "";
-  constexpr std::size_t most_quoted = 60;
-  std::string text = unused_line;
-  if (text.size() > most_quoted) {
-    std::size_t end = most_quoted;
-    while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter
-    text = text.substr(0, end) + "\u2026";
-  }
-  const std::string are = unused == 1
-                              ? " names a length and is"
-                              : fmt::format(" and {} more name lengths and are", unused - 1);
-  return fmt::format(
-      "line {}, '{}',{} not used; `size_x`, `size_y` and `height_unit` take what it says",
-      first_unused, text, are);
-}
-
-void read_header_line(const std::filesystem::path& file, std::string_view line, int number,
-                      TextHeader& header) {
-  const std::string decoded = utf8(line);
-  std::string_view text = trimmed(decoded);
-  while (!text.empty() && (text.front() == '#' || text.front() == '%')) text.remove_prefix(1);
-  text = trimmed(text);
-  if (read_entries(file, text, header)) return;
-  // A longer line is no title of columns.
-  constexpr std::size_t most_looked_at = 1000;
-  const std::vector<Piece> pieces = pieces_of(text.substr(0, most_looked_at));
-  if (read_column_units(pieces, header)) return;
-  if (!name_length(pieces) || header.unused++ > 0) return;
-  header.first_unused = number;
-  header.unused_line = text;
+TextHeader read_header(const std::filesystem::path& file, const std::vector<HeaderLine>& lines,
+                       const NumberLayout& layout) {
+  HeaderReader reader(file, layout);
+  for (const HeaderLine& line : lines) reader.read(line);
+  return reader.take();
 }
 
 }  // namespace salebra::detail

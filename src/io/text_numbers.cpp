@@ -53,12 +53,28 @@ std::string excerpt(const char* at, const char* end, std::string_view stops = ""
   return text;
 }
 
-/// from_chars that also takes a plus sign and numbers below the least double; null if there is no
-/// number.
+/// The end of the exponent of Fortran, "D-03", at a place; null where there is none.
+const char* fortran_exponent(const char* at, const char* end) {
+  if (at == end || (*at != 'D' && *at != 'd')) return nullptr;
+  if (++at != end && (*at == '+' || *at == '-')) ++at;
+  const char* const digits = at;
+  while (at != end && *at >= '0' && *at <= '9') ++at;
+  return at == digits ? nullptr : at;
+}
+
+/// from_chars that also takes a plus sign, numbers below the least double and exponents of Fortran;
+/// null if there is no number.
 const char* parse_number(const char* at, const char* end, double& value) {
   if (at != end && *at == '+' && end - at > 1 && at[1] != '-') ++at;
   const auto [stop, status] = std::from_chars(at, end, value);
-  if (status == std::errc{}) return stop;
+  if (status == std::errc{}) {
+    const char* const exponent = fortran_exponent(stop, end);
+    if (!exponent) return stop;
+    std::string digits(at, exponent);
+    digits[static_cast<std::size_t>(stop - at)] = 'e';
+    value = std::strtod(digits.c_str(), nullptr);
+    return exponent;
+  }
   if (status != std::errc::result_out_of_range) return nullptr;
   const std::string digits(at, stop);
   value = std::strtod(digits.c_str(), nullptr);
@@ -93,8 +109,18 @@ const char* parse_mark(const char* at, const char* end) {
     while (stop != end && *stop == symbol) ++stop;
     if (stop - at >= 2 && closed(stop)) return stop;
   }
+  // NaN as Microsoft's library prints it; infinity is refused as what it is.
+  const char* const digits = at != end && *at == '-' ? at + 1 : at;
+  for (const std::string_view kind : {"1.#IND", "1.#QNAN", "1.#SNAN", "1.#NAN"})
+    if (std::string_view(digits, static_cast<std::size_t>(end - digits)).starts_with(kind)) {
+      const char* stop = digits + kind.size();
+      while (stop != end && *stop == '0') ++stop;
+      if (closed(stop)) return stop;
+    }
   const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
-  for (const std::string_view word : {"no data", "nodata", "bad", "n/a", "na"}) {
+  for (const std::string_view word :
+       {"no data", "nodata", "bad", "n/a", "#n/a", "na", "null", "none", "invalid", "masked", "#nv",
+        "nan(ind)", "-nan(ind)"}) {
     const auto size = static_cast<std::ptrdiff_t>(word.size());
     if (end - at >= size &&
         std::equal(word.begin(), word.end(), at, [&](char b, char a) { return same(a, b); }) &&
@@ -124,6 +150,21 @@ bool is_row(std::string_view line) {
     at = stop;
   }
   return values > 1 && dashes < values;
+}
+
+/// A line whose values are in quotation marks without these. A comma within them is decimal, hence
+/// commas between them become semicolons.
+std::string without_quotes(std::string_view line) {
+  const bool tabs = line.find('\t') != line.npos;
+  std::string result;
+  bool quoted = false;
+  for (const char symbol : line) {
+    if (symbol == '"')
+      quoted = !quoted;
+    else
+      result += symbol == ',' && !quoted && !tabs ? ';' : symbol;
+  }
+  return result;
 }
 
 bool is_utf8(std::string_view text) {
@@ -236,8 +277,14 @@ std::string utf8(std::string_view text) {
 bool starts_with_number(std::string_view line) {
   line = trimmed(line);
   if (line.empty()) return false;
+  if (line.front() == '"') {
+    const std::string plain = without_quotes(line);
+    return is_row(plain) ||
+           (plain.find_first_of(" \t;,") == plain.npos && starts_with_number(plain));
+  }
   double value;
   const char *at = line.data(), *end = at + line.size();
+  if (const char* mark = parse_mark(at, end); mark && *at != '-' && *at != '*') return is_row(line);
   if (const char* stop = parse_number(at, end, value)) return stop == end || is_separator(*stop);
   const bool empty = *at == ',' || *at == ';';
   return (empty || parse_mark(at, end)) && is_row(line);
@@ -328,7 +375,15 @@ const char* NumberReader::read(const char* at, const char* end, int number, std:
   }
   const char* stop =
       style_.decimal_comma ? parse_comma_number(at, end, value) : parse_number(at, end, value);
-  if (!stop) stop = parse_mark(at, end);
+  if (stop && stop != end && *stop == '#') {
+    if (std::string_view(stop, static_cast<std::size_t>(end - stop)).starts_with("#INF"))
+      refuse_line(number, "holds an infinite value; correct it");
+    stop = nullptr;
+  }
+  if (!stop) {
+    stop = parse_mark(at, end);
+    value = std::numeric_limits<double>::quiet_NaN();
+  }
   if (!stop) return nullptr;
   if (std::isinf(value)) refuse_line(number, "holds an infinite value; correct it");
   if (last) {
@@ -341,6 +396,10 @@ const char* NumberReader::read(const char* at, const char* end, int number, std:
 }
 
 void NumberReader::append(std::string_view line, int number, std::vector<double>& values) {
+  if (line.find('"') != line.npos) {
+    append(without_quotes(line), number, values);
+    return;
+  }
   const bool settled = has_separator_ && has_decimal_point_;
   if (!settled) settle(trimmed(line), number);
   const std::string_view content = content_of(line);

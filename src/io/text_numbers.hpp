@@ -68,7 +68,8 @@ class NumberReader {
 
   /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
   /// The marks of undefined points are NaN: "***" and "---" of two characters or more, "NA", "N/A",
-  /// "BAD" and "No Data".
+  /// "BAD", "No Data", "null", "1.#IND" and the like. Values may be in quotation marks, and have
+  /// the exponents of Fortran, "1.0D-03".
   /// throws   InvalidInput naming the line and what was found in it; where the line can be read in
   ///          two ways; and where it contradicts the lines before
   /// Cost: one pass, no allocation but values'.
@@ -78,6 +79,9 @@ class NumberReader {
   bool started() const { return started_; }
   /// Between values that may be empty; nothing where blanks separate them.
   std::optional<char> symbol() const;
+  /// Whether the lines so far have shown which mark is decimal.
+  bool has_decimal_points() const { return has_decimal_point_; }
+  bool has_decimal_commas() const { return style_.decimal_comma; }
   /// Whether the line ends with such a separator: a value that is empty, or nothing.
   bool ends_with_separator(std::string_view line) const;
 

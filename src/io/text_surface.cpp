@@ -1,145 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reader of a surface from text: a matrix, or points.
+// Reader of a surface from text: a matrix, points or a profile.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
+#include <salebra/base/error.hpp>
+#include <span>
 
-#include "base/memory.hpp"
 #include "loaded_surface.hpp"
 #include "surface_importer.hpp"
+#include "text_columns.hpp"
 #include "text_header.hpp"
 #include "text_numbers.hpp"
+#include "text_rows.hpp"
 #include "xyz.hpp"
 
 namespace salebra::detail {
 namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr Index enough_rows = 1024;  // to say how long all are
-
-struct TextMatrix {
-  std::vector<double> values;  ///< row after row
-  Index columns = 0, rows = 0;
-
-  /// For all values, of which there is a share: a vector that grows copies them, each time into
-  /// pages that the system has to clear.
-  void make_room(double share) {
-    constexpr double longer = 1.02;
-    const double wanted = longer * static_cast<double>(values.size()) / share;
-    if (fits_into_memory(wanted * sizeof(double))) values.reserve(static_cast<std::size_t>(wanted));
-  }
-
-  /// One to the rows but for the last, which has it already and is not counted yet.
-  void append_undefined_column() {
-    const Index wider = columns + 1;
-    const auto end_of = [&](Index row, Index width, Index count) {
-      return values.begin() + row * width + count;
-    };
-    values.resize(static_cast<std::size_t>((rows + 1) * wider));
-    std::copy_backward(end_of(rows, columns, 0), end_of(rows, columns, wider),
-                       end_of(rows, wider, wider));
-    for (Index row = rows - 1; row >= 0; --row) {
-      std::copy_backward(end_of(row, columns, 0), end_of(row, columns, columns),
-                         end_of(row, wider, columns));
-      *end_of(row, wider, columns) = undefined;
-    }
-    columns = wider;
-  }
-};
-
-/// tabs: each separates two values, of which one may be empty; else any blanks do.
-TextMatrix read_rows(const std::filesystem::path& file, const Text& text, TextHeader& header,
-                     bool tabs = false) {
-  TextMatrix matrix;
-  NumberReader reader(file, tabs);
-  bool all_open = false;  // every row so far ends with a separator
-  Lines lines(text);
-  for (std::string_view line; lines.next(line);) {
-    const std::string_view content = trimmed(line);
-    if (content.empty()) continue;
-    const bool comment = content.front() == '#' || content.front() == '%';
-    if (comment || (matrix.rows == 0 && !starts_with_number(content))) {
-      if (matrix.rows == 0) read_header_line(file, content, lines.number(), header);
-      continue;
-    }
-    const std::size_t before = matrix.values.size();
-    reader.append(line, lines.number(), matrix.values);
-    auto columns = static_cast<Index>(matrix.values.size() - before);
-    const bool open = reader.ends_with_separator(line);
-    if (matrix.rows == 0) {
-      matrix.columns = columns;
-      all_open = open;
-    }
-    // A separator behind the last value of every row says nothing. Where other rows end without
-    // one, it stands before a point that is undefined.
-    if (all_open && !open && columns == matrix.columns + 1) {
-      matrix.append_undefined_column();
-    } else if (!all_open && open && columns == matrix.columns - 1) {
-      matrix.values.push_back(undefined);
-      ++columns;
-    }
-    all_open = all_open && open;
-    if (columns != matrix.columns) {
-      // Where tabs separate values, blanks hide those that are empty.
-      if (!tabs && !reader.symbol() && text.holds('\t')) {
-        header = {};
-        return read_rows(file, text, header, true);
-      }
-      refuse_unknown(file, "line " + std::to_string(lines.number()) + " holds " +
-                               std::to_string(columns) + " values where the first row holds " +
-                               std::to_string(matrix.columns) +
-                               "; the file is truncated or no matrix");
-    }
-    ++matrix.rows;
-    if (matrix.rows == enough_rows) matrix.make_room(lines.share());
-  }
-  if (matrix.rows == 0)
-    refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");
-  const auto check = [&](const std::optional<Index>& declared, Index found, const char* what) {
-    if (declared && *declared != found)
-      refuse(file, "declares " + std::to_string(*declared) + what + " but holds " +
-                       std::to_string(found) + "; it is truncated or its header is wrong");
-  };
-  check(header.columns, matrix.columns, " columns");
-  check(header.rows, matrix.rows, " rows");
-  return matrix;
-}
-
-/// Whether the numbers are a line profile: heights alone, or behind positions that increase.
-bool is_profile(const TextMatrix& matrix, const TextHeader& header) {
-  constexpr Index least = 4;
-  if (matrix.rows < least || matrix.columns > 2 || header.height) return false;
-  if (matrix.columns == 1) return true;
-  for (Index row = 1; row < matrix.rows; ++row)
-    if (!(matrix.values[std::size_t(2 * row)] > matrix.values[std::size_t(2 * row - 2)]))
-      return false;
-  return !header.width && !header.pixel_x;
-}
-
-LoadedSurface profile_of_text(const std::filesystem::path& file, const TextMatrix& matrix,
-                              const TextHeader& header) {
-  LoadedSurface profile;
-  if (matrix.columns == 1) {
-    profile.is_profile = true;
-    profile.heights = Eigen::Map<const Field>(matrix.values.data(), matrix.rows, 1);
-    if (header.pixel_x) profile.size_x = *header.pixel_x * static_cast<double>(matrix.rows);
-    if (header.width) profile.size_x = header.width;
-  } else {
-    std::vector<double> positions, heights;
-    for (Index row = 0; row < matrix.rows; ++row) {
-      positions.push_back(matrix.values[std::size_t(2 * row)]);
-      heights.push_back(matrix.values[std::size_t(2 * row + 1)]);
-    }
-    profile = profile_of(file, positions, heights);
-    profile.lateral_unit_open = header.x_unit.empty();
-    if (!header.x_unit.empty()) *profile.size_x *= metres_per(file, header.x_unit);
-  }
-  return profile;
-}
 
 /// x along the rows. By blocks: where a row is a power of two long, the numbers of a column share
 /// few lines of the cache.
-Field transposed(const TextMatrix& matrix) {
+Field transposed(const TextRows& matrix) {
   const Eigen::Map<const Field> rows(matrix.values.data(), matrix.rows, matrix.columns);
   Field heights(matrix.columns, matrix.rows);
   constexpr Index block = 16;
@@ -153,49 +38,466 @@ Field transposed(const TextMatrix& matrix) {
   return heights;
 }
 
-LoadedSurface surface_of_text(const std::filesystem::path& file, const Text& text) {
-  TextHeader header;
-  const TextMatrix matrix = read_rows(file, text, header);
-  const bool of_line = is_profile(matrix, header);
-  const bool are_points = matrix.columns == 3 && !header.width && !header.pixel_x;
-  if (const Index found = matrix.rows * (are_points ? 1 : matrix.columns);
-      header.points && *header.points != found)
-    refuse(file, "declares " + std::to_string(*header.points) + " points but holds " +
-                     std::to_string(found) + "; it is truncated or its header is wrong");
-  LoadedSurface surface;
-  if (of_line) {
-    surface = profile_of_text(file, matrix, header);
-  } else if (are_points) {
-    surface = grid_of_points(file, matrix.values);
-    surface.lateral_unit_open = header.x_unit.empty() && header.y_unit.empty();
-    if (!header.x_unit.empty()) *surface.size_x *= metres_per(file, header.x_unit);
-    if (!header.y_unit.empty()) *surface.size_y *= metres_per(file, header.y_unit);
-  } else {
-    surface.heights = transposed(matrix);
-  }
-  if (header.height_factor)
-    surface.heights *= *header.height_factor;
-  else
-    surface.unit = header.value_unit;
-  if (!of_line && header.pixel_x)
-    surface.size_x = *header.pixel_x * static_cast<double>(matrix.columns);
-  if (!of_line && header.pixel_y)
-    surface.size_y = *header.pixel_y * static_cast<double>(matrix.rows);
-  if (header.width) surface.size_x = header.width;
-  if (header.height) surface.size_y = header.height;
-  if (const std::string remark = header.remark(); !remark.empty())
-    surface.remarks.push_back(remark);
-  return surface;
+std::vector<double> column_of(const TextRows& rows, Index column) {
+  std::vector<double> values(static_cast<std::size_t>(rows.rows));
+  for (Index row = 0; row < rows.rows; ++row)
+    values[static_cast<std::size_t>(row)] = rows(row, column);
+  return values;
 }
+
+/// Declared marks of undefined points become NaN; so do values that instruments use as marks, where
+/// they stand apart from all others by more than these span.
+void remove_marks(const std::filesystem::path& file, const TextHeader& header,
+                  LoadedSurface& surface) {
+  const auto remove = [&](double mark) {
+    Index count = 0;
+    for (double& height : surface.heights.reshaped())
+      if (height == mark || std::abs(height - mark) <= 1e-6 * std::abs(mark)) {
+        height = undefined;
+        ++count;
+      }
+    return count;
+  };
+  for (const double mark : header.missing)
+    if (const Index count = remove(mark); mark == 0 && count > 0)
+      surface.remarks.push_back(
+          fmt::format("{} heights of 0, which the file names as its mark, are undefined", count));
+  for (;;) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const double height : surface.heights.reshaped()) {
+      least = std::min(least, height == height ? height : least);
+      most = std::max(most, height == height ? height : most);
+    }
+    if (!(most > least)) return;
+    const auto is_mark = [](double value) {
+      const double size = std::abs(value);
+      for (const double mark : {999., 9999., 99999., 999999., 32767., 32768., 65535., 2147483647.,
+                                2147483648., 999.9, 9999.99, 999.99, 99.99e3})
+        if (size == mark) return true;
+      return size >= 1e9 && size < 1e60;
+    };
+    const double mark = is_mark(least) ? least : is_mark(most) ? most : 0;
+    if (mark == 0) return;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    Index others = 0;
+    for (const double height : surface.heights.reshaped())
+      if (height == height && height != mark) {
+        low = std::min(low, height);
+        high = std::max(high, height);
+        ++others;
+      }
+    const double gap = mark == least ? low - mark : mark - high;
+    const bool apart = gap > high - low;
+    if (!apart || others < 3) {
+      if (gap > 0.25 * (high - low) && std::abs(mark) < 1e9)
+        refuse(file, fmt::format("holds heights of {}, which may mark undefined points; write nan "
+                                 "for these, or correct them",
+                                 mark));
+      return;
+    }
+    const Index count = remove(mark);
+    surface.remarks.push_back(
+        fmt::format("{} of {}, far from all other heights, taken for undefined",
+                    count == 1 ? "a height" : fmt::format("{} heights", count), mark));
+  }
+}
+
+/// In the unit of its axis, where it has none of its own.
+std::optional<double> metres_of(const std::filesystem::path& file, const StatedLength& length,
+                                const std::string& unit) {
+  if (length.metres) return length.metres;
+  if (unit.empty()) return {};
+  return length.number * metres_per(file, unit);
+}
+
+/// What a text says of one axis.
+struct Axis {
+  const char* name;
+  Index points;
+  std::optional<StatedLength> size, pixel;
+  std::string unit;
+};
+
+/// The size along an axis of a matrix. A size may be that from the first to the last point. open:
+/// set where it is in no unit.
+std::optional<double> size_of(const std::filesystem::path& file, const Axis& axis,
+                              LoadedSurface& loaded) {
+  const auto in_metres = [&](const std::optional<StatedLength>& length) -> std::optional<double> {
+    if (!length) return {};
+    if (const auto metres = metres_of(file, *length, axis.unit)) return metres;
+    loaded.lateral_unit_open = true;
+    loaded.questions.push_back(
+        {length->quote + ", states no unit; give `lateral_unit`", true, false});
+    return length->number;
+  };
+  const std::optional<double> size = in_metres(axis.size), pixel = in_metres(axis.pixel);
+  if (!size || !pixel)
+    return size ? size : pixel ? std::optional(*pixel * static_cast<double>(axis.points)) : pixel;
+  const auto tolerance = [](const StatedLength& length, double metres) {
+    constexpr double most = 0.01;
+    return std::min(length.half_digit / std::abs(length.number), most) * std::abs(metres) *
+               (1 + 1e-9) +
+           1e-9 * std::abs(metres);
+  };
+  const auto fits = [&](double count) {
+    return std::abs(*size - count * *pixel) <=
+           tolerance(*axis.size, *size) + count * tolerance(*axis.pixel, *pixel);
+  };
+  const auto count = static_cast<double>(axis.points);
+  if (fits(count)) {
+    const bool by_pixel = axis.pixel->half_digit * std::abs(axis.size->number) <
+                          axis.size->half_digit * std::abs(axis.pixel->number);
+    return by_pixel ? *pixel * count : size;
+  }
+  if (fits(count - 1)) return *pixel * count;
+  refuse(file, axis.size->quote + ", contradicts " + axis.pixel->quote +
+                   fmt::format(" with {} points along {}; correct one, or remove it", axis.points,
+                               axis.name));
+}
+
+/// Size and step of coordinates or positions against what the header states; the metres in one unit
+/// of the coordinates where only the header shows them.
+void check_size(const std::filesystem::path& file, const Axis& axis, bool open, double& size,
+                bool& closed) {
+  const auto count = static_cast<double>(axis.points);
+  for (const auto* stated : {&axis.size, &axis.pixel}) {
+    if (!*stated) continue;
+    const StatedLength& length = **stated;
+    const double whole = stated == &axis.pixel ? size / count : size;
+    const double span = stated == &axis.pixel ? whole : size * (count - 1) / count;
+    const auto metres = metres_of(file, length, axis.unit);
+    const double value = metres.value_or(length.number);
+    const double tolerance =
+        std::abs(value) * std::min(length.half_digit / std::abs(length.number) + 2e-3, 0.01);
+    bool fits = false;
+    for (const double unit : {1., 1e-3, 1e-6, 1e-9}) {
+      if (unit != 1 && !(open && !closed && metres)) break;
+      if (std::abs(whole * unit - value) > tolerance && std::abs(span * unit - value) > tolerance)
+        continue;
+      size *= unit;
+      closed = closed || metres.has_value();
+      fits = true;
+      break;
+    }
+    if (!fits)
+      refuse(file, length.quote +
+                       fmt::format(", contradicts the {} in the columns; correct one, or remove it",
+                                   axis.name));
+  }
+}
+
+class TextReader {
+ public:
+  TextReader(const std::filesystem::path& file, const Text& text)
+      : file_(file), rows_(read_rows(file, text)) {}
+
+  LoadedSurface read() {
+    const Margins margins = margins_of(file_, rows_);
+    header_ = read_header(
+        file_, rows_.lines,
+        {rows_.columns, rows_.rows, rows_.columns - margins.column, rows_.rows - margins.row,
+         rows_.decimal_points, rows_.decimal_commas, rows_.comma_separates});
+    remove_count();
+    const std::optional<Columns> columns = columns_of(file_, rows_, header_);
+    if (columns)
+      read_columns(*columns);
+    else
+      read_untitled(margins);
+    check_leading();
+    for (const std::string& line : header_.unaccounted)
+      loaded_.questions.push_back({line + ", has a unit or a number that is not understood; remove "
+                                          "the line, or give the sizes and `height_unit`",
+                                   true, true});
+    scale_heights();
+    return std::move(loaded_);
+  }
+
+ private:
+  std::string unit_or_common(const std::string& of_title, const std::string& of_axis) const {
+    if (!of_title.empty() && !of_axis.empty() && of_title != of_axis &&
+        metres_in(of_title).value_or(-1) != metres_in(of_axis).value_or(-2))
+      refuse(file_, header_.titles_quote + ", contradicts the unit '" + of_axis +
+                        "' of another line; correct one");
+    return !of_title.empty() ? of_title : !of_axis.empty() ? of_axis : header_.common_unit;
+  }
+
+  /// A number of lines before the numbers of a single column is no height.
+  void remove_count() {
+    constexpr Index least = 5;
+    if (rows_.columns != 1 || rows_.rows < least) return;
+    const double first = rows_(0, 0), second = rows_(1, 0);
+    if (first != std::floor(first)) return;
+    const auto [low, high] = std::ranges::minmax(std::span(rows_.values).subspan(1));
+    const bool apart = first < low || first > high;
+    const double behind = static_cast<double>(rows_.rows - 1);
+    if (first == behind) {
+      if (!apart)
+        refuse(file_, "begins with the number of its lines, which may be a height; remove it");
+      loaded_.remarks.emplace_back("its first line counts those behind it and is no height");
+      rows_.remove_first_row();
+    } else if ((first >= 2 && second == std::floor(second) && first * second == behind - 1) ||
+               (apart && first > 4 &&
+                (first == behind - 1 || first == behind - 2 || first == behind + 1))) {
+      refuse(
+          file_,
+          fmt::format(
+              "begins with {}, which seems to count the lines behind it; remove what is no height",
+              first));
+    }
+  }
+
+  void read_columns(const Columns& columns) {
+    loaded_.remarks.insert(loaded_.remarks.end(), columns.remarks.begin(), columns.remarks.end());
+    z_unit_ = columns.z_unit;
+    if (!columns.x) {
+      read_heights(column_of(rows_, *columns.z));
+    } else if (!columns.y) {
+      read_profile(column_of(rows_, *columns.x), column_of(rows_, *columns.z),
+                   unit_or_common(columns.x_unit, header_.x_unit));
+    } else {
+      std::vector<double> xyz;
+      xyz.reserve(3 * static_cast<std::size_t>(rows_.rows));
+      for (Index row = 0; row < rows_.rows; ++row)
+        for (const Index column : {*columns.x, *columns.y, *columns.z})
+          xyz.push_back(rows_(row, column));
+      read_points(grid_of_points(file_, xyz), unit_or_common(columns.x_unit, header_.x_unit),
+                  unit_or_common(columns.y_unit, header_.y_unit));
+    }
+  }
+
+  void read_untitled(const Margins& margins) {
+    const std::string x_unit = unit_or_common("", header_.x_unit),
+                      y_unit = unit_or_common("", header_.y_unit);
+    if (rows_.columns == 2 && rows_.rows >= 4 && !header_.height && !header_.width &&
+        !header_.pixel_x) {
+      if (const auto x = column_of(rows_, 0); std::ranges::is_sorted(x, std::less_equal<>()) ||
+                                              std::ranges::is_sorted(x, std::greater_equal<>())) {
+        read_profile(x, column_of(rows_, 1), x_unit);
+        return;
+      }
+    }
+    if (rows_.columns == 1 && rows_.rows >= 4 && !header_.height) {
+      read_heights(column_of(rows_, 0));
+      return;
+    }
+    const bool sized = header_.width || header_.pixel_x;
+    if (rows_.columns == 3 && !margins.column) {
+      if (!sized) {
+        read_points(grid_of_points(file_, rows_.values), x_unit, y_unit);
+        return;
+      }
+      if (auto grid = points_of(rows_.values)) {
+        read_points(std::move(*grid), x_unit, y_unit);
+        return;
+      }
+    }
+    if (margins.row) rows_.remove_first_row();
+    if (margins.column) rows_.remove_column(0);
+    if ((margins.row || margins.column) && !margins.step_x)
+      loaded_.remarks.emplace_back(
+          fmt::format("its first {} counts and holds no heights", !margins.column ? "row"
+                                                                  : margins.row   ? "row and column"
+                                                                                  : "column"));
+    // x, y, z and more of each point.
+    constexpr Index most_columns = 8;
+    if (rows_.columns >= 3 && rows_.columns <= most_columns && rows_.rows >= 4 &&
+        !(rows_.columns == 3 && !margins.column)) {
+      std::vector<double> xyz;
+      for (Index row = 0; row < rows_.rows; ++row)
+        for (Index column = 0; column < 3; ++column) xyz.push_back(rows_(row, column));
+      if (auto grid = points_of(xyz)) {
+        if (rows_.columns > 3)
+          loaded_.remarks.emplace_back(fmt::format(
+              "columns x, y and z were read; {} behind them were not used", rows_.columns - 3));
+        read_points(std::move(*grid), x_unit, y_unit);
+        return;
+      }
+      if (rows_.columns == 3 && !sized)
+        refuse(file_, "has numbered lines whose columns are not understood; name them");
+    }
+    if (margins.column && rows_.columns == 2) {
+      read_profile(column_of(rows_, 0), column_of(rows_, 1), x_unit);
+      return;
+    }
+    read_matrix(margins, x_unit, y_unit);
+  }
+
+  /// The grid of points that fill one; nothing for other numbers.
+  std::optional<LoadedSurface> points_of(const std::vector<double>& xyz) const {
+    try {
+      LoadedSurface grid = grid_of_points(file_, xyz);
+      if (rows_.rows >= 4 && static_cast<Index>(xyz.size() / 3) == grid.heights.size()) return grid;
+    } catch (const InvalidInput&) {
+    }
+    return {};
+  }
+
+  void read_matrix(const Margins& margins, const std::string& x_unit, const std::string& y_unit) {
+    check_counts(rows_.columns, rows_.rows, rows_.columns * rows_.rows);
+    loaded_.heights = transposed(rows_);
+    const Axis x{"x", rows_.columns, header_.width, header_.pixel_x, x_unit},
+        y{"y", rows_.rows, header_.height, header_.pixel_y, y_unit};
+    if (margins.step_x) {
+      loaded_.remarks.emplace_back("its first row and column are coordinates");
+      read_coordinates(x, *margins.step_x * static_cast<double>(x.points), y,
+                       *margins.step_y * static_cast<double>(y.points));
+      return;
+    }
+    if (header_.length && !header_.width)
+      question(header_.length->quote + ", is a length of no axis");
+    loaded_.size_x = size_of(file_, x, loaded_);
+    loaded_.size_y = size_of(file_, y, loaded_);
+  }
+
+  void read_coordinates(const Axis& x, double size_x, const Axis& y, double size_y) {
+    const bool open_x = x.unit.empty(), open_y = y.unit.empty();
+    bool closed_x = !open_x, closed_y = !open_y;
+    if (!open_x) size_x *= metres_per(file_, x.unit);
+    if (!open_y) size_y *= metres_per(file_, y.unit);
+    check_size(file_, x, open_x, size_x, closed_x);
+    check_size(file_, y, open_y, size_y, closed_y);
+    if (closed_x != closed_y) refuse(file_, "states the unit of one of x and y only; state both");
+    loaded_.size_x = size_x;
+    loaded_.size_y = size_y;
+    loaded_.lateral_unit_open = !closed_x;
+    require_both_units(closed_x);
+  }
+
+  void require_both_units(bool lateral) {
+    const bool of_heights =
+        header_.height_factor || !unit_or_common(z_unit_, header_.value_unit).empty();
+    if (lateral && !of_heights)
+      loaded_.questions.push_back(
+          {"states the unit of its positions and none of its heights; give `height_unit`", false,
+           true});
+    if (!lateral && of_heights && !header_.height_factor)
+      loaded_.questions.push_back(
+          {"states the unit of its heights and none of its positions; give `lateral_unit`", true,
+           false});
+  }
+
+  void read_points(LoadedSurface grid, const std::string& x_unit, const std::string& y_unit) {
+    grid.remarks.insert(grid.remarks.begin(), loaded_.remarks.begin(), loaded_.remarks.end());
+    grid.questions = std::move(loaded_.questions);
+    loaded_ = std::move(grid);
+    check_counts(loaded_.heights.rows(), loaded_.heights.cols(), rows_.rows);
+    read_coordinates(
+        {"x", loaded_.heights.rows(), header_.width, header_.pixel_x, x_unit}, *loaded_.size_x,
+        {"y", loaded_.heights.cols(), header_.height, header_.pixel_y, y_unit}, *loaded_.size_y);
+  }
+
+  void read_heights(const std::vector<double>& heights) {
+    check_counts(rows_.rows, rows_.rows, rows_.rows);
+    loaded_.is_profile = true;
+    loaded_.heights = Eigen::Map<const Field>(heights.data(), rows_.rows, 1);
+    if (header_.width && header_.length)
+      question(header_.length->quote + ", is stated beside a size");
+    loaded_.size_x = size_of(file_,
+                             {"x", rows_.rows, header_.width ? header_.width : header_.length,
+                              header_.pixel_x, unit_or_common("", header_.x_unit)},
+                             loaded_);
+  }
+
+  void read_profile(std::vector<double> positions, std::vector<double> heights,
+                    const std::string& unit) {
+    check_counts(rows_.rows, rows_.rows, rows_.rows);
+    if (header_.height)
+      question(header_.height->quote + ", states a size that a profile does not have");
+    if (positions.size() > 1 && positions.back() < positions.front()) {
+      std::ranges::reverse(positions);
+      std::ranges::reverse(heights);
+    }
+    LoadedSurface profile = profile_of(file_, positions, heights);
+    profile.remarks.insert(profile.remarks.begin(), loaded_.remarks.begin(), loaded_.remarks.end());
+    profile.questions = std::move(loaded_.questions);
+    loaded_ = std::move(profile);
+    double size = *loaded_.size_x;
+    bool closed = !unit.empty();
+    if (closed) size *= metres_per(file_, unit);
+    for (const auto& stated : {header_.width, header_.length})
+      check_size(file_, {"positions", rows_.rows, stated, header_.pixel_x, unit}, unit.empty(),
+                 size, closed);
+    loaded_.size_x = size;
+    loaded_.lateral_unit_open = !closed;
+    require_both_units(closed);
+  }
+
+  void question(const std::string& what) {
+    loaded_.questions.push_back(
+        {what + "; remove it, or give the sizes and `height_unit`", true, true});
+  }
+
+  void check_counts(Index columns, Index rows, Index points) {
+    const auto check = [&](const std::vector<StatedCount>& declared, const char* what, Index found,
+                           bool more, Index other) {
+      for (const StatedCount& count : declared)
+        if (count.count != found && !(more && count.count == other))
+          refuse(file_,
+                 fmt::format(
+                     "declares {} {} but holds {} ({}); it is truncated or its header is wrong",
+                     count.count, what, found, count.quote));
+    };
+    const bool of_points = points != columns * rows || columns == rows;
+    check(header_.columns, "columns", columns, of_points, rows_.columns);
+    check(header_.rows, "rows", rows, of_points, rows_.rows);
+    check(header_.points, "points", points, columns == rows, columns);
+  }
+
+  /// Numbers before the rows count columns, rows or points.
+  void check_leading() {
+    for (const HeaderLine& line : rows_.leading) {
+      std::vector<double> counts;
+      NumberReader reader(file_);
+      reader.append(line.text, line.number, counts);
+      const auto columns = static_cast<double>(rows_.columns),
+                 rows = static_cast<double>(rows_.rows);
+      const auto nx = static_cast<double>(loaded_.heights.rows()),
+                 ny = static_cast<double>(loaded_.heights.cols());
+      const auto is = [](double count, std::initializer_list<double> found) {
+        return std::ranges::find(found, count) != found.end();
+      };
+      const bool known = counts.size() == 1 ? is(counts[0], {columns, rows, nx, ny, rows * columns})
+                         : counts.size() == 2
+                             ? (is(counts[0], {nx, columns}) && is(counts[1], {ny, rows})) ||
+                                   (is(counts[1], {nx, columns}) && is(counts[0], {ny, rows}))
+                             : false;
+      if (!known)
+        refuse_unknown(file_, fmt::format("line {} holds {} values where the rows hold {}; the "
+                                          "file is truncated or no matrix",
+                                          line.number, counts.size(), rows_.columns));
+    }
+  }
+
+  void scale_heights() {
+    remove_marks(file_, header_, loaded_);
+    const std::string unit = unit_or_common(z_unit_, header_.value_unit);
+    if (header_.height_factor) {
+      if (const auto metres = metres_in(unit);
+          metres && std::abs(*metres / *header_.height_factor - 1) > 1e-6)
+        refuse(file_, "states a height conversion factor and the unit '" + unit +
+                          "', which differ; remove one");
+      loaded_.heights *= *header_.height_factor;
+      loaded_.unit = "m";
+    } else {
+      loaded_.unit = unit;
+    }
+  }
+
+  const std::filesystem::path& file_;
+  TextRows rows_;
+  TextHeader header_;
+  LoadedSurface loaded_;
+  std::string z_unit_;
+};
 
 }  // namespace
 
 LoadedSurface read_text(const std::filesystem::path& file, std::string_view content) {
-  return surface_of_text(file, {require_text(file, content)});
+  return TextReader(file, {require_text(file, content)}).read();
 }
 
 LoadedSurface read_text(const InputFile& input) {
-  return surface_of_text(input.path(), {{}, &input});
+  return TextReader(input.path(), {{}, &input}).read();
 }
 
 }  // namespace salebra::detail

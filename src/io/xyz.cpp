@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <salebra/base/error.hpp>
 
 #include "atomic_file.hpp"
@@ -57,6 +58,34 @@ std::vector<double> different(const std::filesystem::path& file, const std::vect
   return values;
 }
 
+/// The axis of coordinates that scatter about the lines of a grid: gaps within a line are less than
+/// a quarter of those between lines. Every line must be there.
+std::optional<XyzAxis> axis_of_clusters(const std::vector<double>& coordinates) {
+  double widest = 0;
+  for (std::size_t i = 1; i < coordinates.size(); ++i)
+    widest = std::max(widest, coordinates[i] - coordinates[i - 1]);
+  // The line through the coordinates over the numbers of their lines.
+  double line = 0, sum_line = 0, sum = 0, squares = 0, products = 0;
+  std::vector<double> lines;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (i > 0 && coordinates[i] - coordinates[i - 1] > widest / 2) ++line;
+    lines.push_back(line);
+    sum_line += line;
+    sum += coordinates[i];
+  }
+  if (line < 1) return {};
+  const auto count = static_cast<double>(coordinates.size());
+  const double mean_line = sum_line / count, mean = sum / count;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    squares += (lines[i] - mean_line) * (lines[i] - mean_line);
+    products += (lines[i] - mean_line) * (coordinates[i] - mean);
+  }
+  const double step = products / squares, first = mean - step * mean_line;
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    if (!(std::abs(coordinates[i] - first - lines[i] * step) <= 0.1 * step)) return {};
+  return XyzAxis{first, step, static_cast<Index>(line) + 1};
+}
+
 /// Equally spaced values among the different coordinates, from the least to the greatest.
 XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& coordinates,
                   const char* name) {
@@ -84,9 +113,11 @@ XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& 
   if (!on_grid(coordinates, span / intervals) &&
       std::round(span / least_gap) * (1 - most_missing) <= intervals)
     intervals = std::round(span / least_gap);
-  if (!on_grid(coordinates, span / intervals))
+  if (!on_grid(coordinates, span / intervals)) {
+    if (const auto axis = axis_of_clusters(coordinates)) return *axis;
     refuse_unknown(file, std::string("has three columns, but as XYZ points their ") + name +
                              " is not equally spaced; resample them on a regular grid");
+  }
   return {coordinates.front(), span / intervals, static_cast<Index>(intervals) + 1};
 }
 

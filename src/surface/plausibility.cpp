@@ -87,7 +87,15 @@ std::optional<std::string> doubt_of_heights(const Surface& surface, double unit)
     total.x.add(block.x);
     total.y.add(block.y);
   }
-  return doubt_of_slope(std::sqrt(total.x.variance(grid.dx()) + total.y.variance(grid.dy())), unit);
+  // A profile has neighbours along one axis.
+  const auto variance = [](const Differences& differences, double step) {
+    return differences.count > 0 ? differences.variance(step) : 0;
+  };
+  const bool profile = grid.nx == 1 || grid.ny == 1;
+  return doubt_of_slope(profile
+                            ? std::sqrt(variance(total.x, grid.dx()) + variance(total.y, grid.dy()))
+                            : std::sqrt(total.x.variance(grid.dx()) + total.y.variance(grid.dy())),
+                        unit);
 }
 
 }  // namespace salebra

@@ -16,8 +16,8 @@ namespace salebra {
 std::optional<std::string> doubt_of_slope(double rms_slope, double unit = 1);
 
 /// doubt_of_slope() of the heights less their mean plane, by differences of neighbouring points.
-/// Undefined points take no part; nothing is said of a surface without pairs of neighbours along
-/// both axes. Cost: one pass. Collective of a surface that is spread over processes.
+/// Undefined points take no part; nothing is said of a map without pairs of neighbours along both
+/// axes. A profile has one. Cost: one pass. Collective of a surface that is spread over processes.
 std::optional<std::string> doubt_of_heights(const Surface& surface, double unit = 1);
 
 }  // namespace salebra

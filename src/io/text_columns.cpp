@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meaning of the columns of a text, by their numbers and by their titles.
+#include "text_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "loaded_surface.hpp"
+
+namespace salebra::detail {
+namespace {
+
+/// Numbers of a row or a column.
+struct Line {
+  const TextRows& rows;
+  bool along_row;
+  Index at;
+  Index first = 0;
+
+  Index size() const { return (along_row ? rows.columns : rows.rows) - first; }
+  double operator[](Index i) const { return along_row ? rows(at, i + first) : rows(i + first, at); }
+};
+
+/// The step of equally spaced numbers, of which there are enough not to be so by chance.
+std::optional<double> step_of(const Line& line, Index least) {
+  const Index count = line.size();
+  if (count < least) return {};
+  const double step = (line[count - 1] - line[0]) / static_cast<double>(count - 1);
+  if (step == 0 || !std::isfinite(step)) return {};
+  // Coordinates are written with few digits.
+  constexpr double rounding = 1e-3;
+  for (Index i = 1; i < count; ++i)
+    if (!(std::abs(line[i] - line[0] - static_cast<double>(i) * step) <= rounding * std::abs(step)))
+      return {};
+  return step;
+}
+
+bool counts(const Line& line, std::optional<double> step) {
+  return step == 1. && (line[0] == 0 || line[0] == 1);
+}
+
+bool rises(const TextRows& rows, Index column) {
+  for (Index row = 1; row < rows.rows; ++row)
+    if (!(rows(row, column) > rows(row - 1, column))) return false;
+  return true;
+}
+
+bool is_monotone(const TextRows& rows, Index column) {
+  if (rows.rows < 2) return false;
+  const bool up = rows(1, column) > rows(0, column);
+  for (Index row = 1; row < rows.rows; ++row) {
+    const double change = rows(row, column) - rows(row - 1, column);
+    if (!(up ? change > 0 : change < 0)) return false;
+  }
+  return true;
+}
+
+std::string quoted(const ColumnTitle& title) { return "'" + title.text + "'"; }
+
+using namespace meaning;
+
+constexpr Meaning heights = z | height | ordinate | values;
+constexpr Meaning along = position | plane | length | step | width;
+
+bool is_length(const std::string& unit) { return metres_in(unit).has_value(); }
+
+enum class Role { x, y, position, height, skipped, index, unknown };
+
+Role role_of(const ColumnTitle& title, bool of_profile) {
+  const Meaning said = title.meaning;
+  if (title.text.size() == 1 && of_profile)
+    if (const std::string letter = plain_word(title.text.substr(0, 1));
+        letter == "r" || letter == "p" || letter == "w")
+      return Role::height;
+  if (of_profile && !title.unit.empty() && title.text.size() > 2 && title.text[1] == ' ')
+    if (const std::string letter = plain_word(title.text.substr(0, 1));
+        letter == "r" || letter == "p" || letter == "w")
+      return Role::height;
+  if (said & unknown) return Role::unknown;
+  const bool on_x = said & x, on_y = said & y;
+  if ((said & heights) && !(said & (x | y | other | length | width | size | factor | alters)))
+    return Role::height;
+  if (on_x != on_y && !(said & (heights | other | harmless | factor | alters | size)))
+    return on_x ? Role::x : Role::y;
+  if (said & (other | harmless)) return Role::skipped;
+  if ((said & along) && !(said & (heights | x | y | alters | factor))) return Role::position;
+  if ((said & (index | points | rows | columns | count)) && title.unit.empty() &&
+      !(said & (heights | along | x | y)))
+    return Role::index;
+  return Role::unknown;
+}
+
+}  // namespace
+
+Margins margins_of(const std::filesystem::path& file, const TextRows& rows) {
+  constexpr Index least = 4, certain = 8;
+  Margins margins;
+  if (rows.columns < 3 || rows.rows < 3) return margins;
+  const Line row{rows, true, 0}, column{rows, false, 0};
+  const Line row_behind{rows, true, 0, 1}, column_behind{rows, false, 0, 1};
+  const bool no_corner = std::isnan(rows(0, 0));
+  const auto along_x = step_of(row_behind, no_corner ? 2 : least),
+             along_y = step_of(column_behind, no_corner ? 2 : least);
+  const auto inner_x = step_of(Line{rows, true, 1, 1}, 2),
+             inner_y = step_of(Line{rows, false, 1, 1}, 2);
+  // Coordinates or numbers above and beside the heights.
+  if (along_x && along_y && (no_corner || (!inner_x && !inner_y && rows.columns > 3))) {
+    margins.row = margins.column = true;
+    if (!counts(row_behind, along_x) || !counts(column_behind, along_y)) {
+      if (*along_x < 0 || *along_y < 0)
+        refuse(file, "has falling coordinates in its first row or column; turn the matrix over");
+      margins.step_x = along_x;
+      margins.step_y = along_y;
+    }
+    return margins;
+  }
+  if (no_corner && (along_x || along_y))
+    refuse(file,
+           "has no number in the corner of an equally spaced row or column, which is no line of "
+           "heights; remove that line");
+  // Numbers of the rows alone, or of the columns.
+  constexpr Index least_numbers = 5;
+  const auto down = step_of(column, least_numbers);
+  const auto next_down = step_of(Line{rows, false, 1}, least);
+  const bool numbered_profile = rows.columns == 3 && rises(rows, 1) && !is_monotone(rows, 2) &&
+                                counts(column, down) &&
+                                !counts(Line{rows, false, 1}, step_of(Line{rows, false, 1}, least));
+  if (down && (!next_down || numbered_profile)) {
+    if (!counts(column, down)) {
+      if (rows.rows < certain || rows.columns < least) return margins;
+      refuse(file,
+             "has a first column of equally spaced numbers, which are no heights; remove it, or "
+             "name its columns");
+    }
+    margins.column = true;
+  }
+  const Line titles = margins.column ? row_behind : row;
+  const auto across = step_of(titles, least_numbers);
+  if (across && !step_of(Line{rows, true, 1, titles.first}, least)) {
+    if (!counts(titles, across)) {
+      if (titles.size() < certain) return margins;
+      refuse(file, "has a first row of equally spaced numbers, which are no heights; remove it");
+    }
+    margins.row = true;
+  }
+  return margins;
+}
+
+std::optional<Columns> columns_of(const std::filesystem::path& file, const TextRows& rows,
+                                  const TextHeader& header) {
+  std::vector<ColumnTitle> titles = header.titles;
+  constexpr std::size_t most = 12;
+  const auto count = static_cast<std::size_t>(rows.columns);
+  if (titles.empty()) return {};
+  const std::string& quote = header.titles_quote;
+  const auto numbers_of_rows = [&] {
+    const Line column{rows, false, 0};
+    return column.size() > 1 && counts(column, step_of(column, 2));
+  };
+  if (titles.size() + 1 == count) {
+    if (!numbers_of_rows())
+      refuse(file, quote + ", names fewer columns than there are; name each or none");
+    titles.insert(titles.begin(), ColumnTitle{index, "", "index"});
+  }
+  if (titles.front().text.empty() && count > 1 && numbers_of_rows())
+    titles.front() = ColumnTitle{index, "", "index"};
+  const bool silent = std::ranges::all_of(titles, [](const ColumnTitle& title) {
+    return title.unit.empty() && (title.text.empty() || (title.meaning & unknown));
+  });
+  if (silent && (count > 3 || count == 1)) return {};
+  constexpr Index least_of_profile = 4;
+  if (count == 2 && rows.rows < least_of_profile &&
+      std::ranges::all_of(titles, [](const auto& title) { return title.unit.empty(); }))
+    return {};
+  if (count > most) {
+    if (std::ranges::all_of(titles, [](const auto& title) { return title.unit.empty(); }))
+      return {};
+    refuse(file, quote + ", names units of columns that are not understood; name them for all");
+  }
+  std::vector<Role> roles;
+  std::vector<Index> kept;
+  Columns result;
+  Index usable = 0;
+  for (const ColumnTitle& title : titles) {
+    const Role role = role_of(title, false);
+    if (role != Role::index && role != Role::skipped) ++usable;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    if (titles[i].meaning & mask)
+      refuse(file, quote + ", names a mask, " + quoted(titles[i]) +
+                       "; write nan where points are undefined, and remove it");
+    roles.push_back(role_of(titles[i], usable <= 2));
+    if (roles[i] == Role::skipped)
+      result.remarks.push_back("the column " + quoted(titles[i]) + " was not used");
+    if (roles[i] != Role::skipped && roles[i] != Role::index) kept.push_back(static_cast<Index>(i));
+  }
+  const auto role = [&](Index i) { return roles[static_cast<std::size_t>(i)]; };
+  const auto title = [&](Index i) -> const ColumnTitle& {
+    return titles[static_cast<std::size_t>(i)];
+  };
+  const auto not_understood = [&](Index i) {
+    refuse(file, quote + ", names the column " + quoted(title(i)) +
+                     ", which is not understood; name the columns x, y and z");
+  };
+  const auto several = [&](Index a, Index b) {
+    refuse(file, quote + ", names several columns of heights, " + quoted(title(a)) + " and " +
+                     quoted(title(b)) + "; keep one of them");
+  };
+  if (kept.empty()) refuse(file, quote + ", names no column of heights; name one z");
+  if (kept.size() == 1) {
+    const Role only = role(kept[0]);
+    if (only == Role::x || only == Role::y || only == Role::position)
+      refuse(file, quote + ", names no column of heights; name one z");
+    result.z = kept[0];
+  } else if (kept.size() == 2) {
+    const auto is_position = [&](Index i) {
+      return role(i) == Role::x || role(i) == Role::y || role(i) == Role::position;
+    };
+    const Index a = kept[0], b = kept[1];
+    if (role(a) == Role::height && role(b) == Role::height) several(a, b);
+    if (role(a) == Role::height || role(b) == Role::height) {
+      result.z = role(a) == Role::height ? a : b;
+    } else if (is_position(a) && is_position(b)) {
+      // x and y of a plot.
+      if (role(a) == Role::y || role(b) != Role::y) not_understood(b);
+      result.z = b;
+    } else if (is_position(a) || is_position(b)) {
+      result.z = is_position(a) ? b : a;
+    } else {
+      if (is_monotone(rows, a) == is_monotone(rows, b)) {
+        if (silent) return {};
+        not_understood(a);
+      }
+      result.z = is_monotone(rows, a) ? b : a;
+    }
+    result.x = *result.z == a ? b : a;
+    if (!is_monotone(rows, *result.x))
+      refuse(file, quote + ", names positions, " + quoted(title(*result.x)) +
+                       ", which neither rise nor fall from line to line; sort the lines");
+  } else {
+    std::vector<Index> unclear;
+    for (const Index i : kept) {
+      auto& target = role(i) == Role::x ? result.x : role(i) == Role::y ? result.y : result.z;
+      if (role(i) == Role::unknown || role(i) == Role::position) {
+        unclear.push_back(i);
+      } else if (target) {
+        if (role(i) == Role::height) several(*target, i);
+        not_understood(i);
+      } else {
+        target = i;
+      }
+    }
+    const int known = result.x.has_value() + result.y.has_value() + result.z.has_value();
+    if (known == 2 && unclear.size() == 1) {
+      auto& target = !result.x ? result.x : !result.y ? result.y : result.z;
+      if (role(unclear[0]) == Role::position && &target == &result.z) not_understood(unclear[0]);
+      target = unclear[0];
+      unclear.clear();
+    } else if (known < 3) {
+      not_understood(unclear.empty() ? kept[0] : unclear[0]);
+    }
+    for (const Index i : unclear) {
+      // Zeros and ones may say which points are valid.
+      bool both = true, zero = false, one = false;
+      for (Index row = 0; row < rows.rows && both; ++row) {
+        zero = zero || rows(row, i) == 0;
+        one = one || rows(row, i) == 1;
+        both = rows(row, i) == 0 || rows(row, i) == 1;
+      }
+      if (is_length(title(i).unit) || (both && zero && one)) not_understood(i);
+      result.remarks.push_back("the column " + quoted(title(i)) + " was not used");
+    }
+  }
+  const auto unit_of = [&](std::optional<Index> column) {
+    return column ? title(*column).unit : std::string();
+  };
+  result.x_unit = unit_of(result.x);
+  result.y_unit = unit_of(result.y);
+  result.z_unit = unit_of(result.z);
+  constexpr Meaning downwards = ordinate;
+  if ((title(*result.z).meaning & downwards)) {
+    const std::string name = plain_word(title(*result.z).text);
+    for (const char* depth : {"depth", "tiefe", "profondeur", "fukasa"})
+      if (name.find(depth) != name.npos)
+        result.remarks.push_back("the column " + quoted(title(*result.z)) +
+                                 " is read as heights, positive out of the material");
+  }
+  return result;
+}
+
+}  // namespace salebra::detail
