@@ -9,6 +9,17 @@
 #include "loaded_surface.hpp"
 
 namespace salebra::detail {
+
+bool is_monotone(const TextRows& rows, Index column) {
+  if (rows.rows < 2) return false;
+  const bool up = rows(1, column) > rows(0, column);
+  for (Index row = 1; row < rows.rows; ++row) {
+    const double change = rows(row, column) - rows(row - 1, column);
+    if (!(up ? change > 0 : change < 0)) return false;
+  }
+  return true;
+}
+
 namespace {
 
 /// Numbers of a row or a column.
@@ -43,16 +54,6 @@ bool counts(const Line& line, std::optional<double> step) {
 bool rises(const TextRows& rows, Index column) {
   for (Index row = 1; row < rows.rows; ++row)
     if (!(rows(row, column) > rows(row - 1, column))) return false;
-  return true;
-}
-
-bool is_monotone(const TextRows& rows, Index column) {
-  if (rows.rows < 2) return false;
-  const bool up = rows(1, column) > rows(0, column);
-  for (Index row = 1; row < rows.rows; ++row) {
-    const double change = rows(row, column) - rows(row - 1, column);
-    if (!(up ? change > 0 : change < 0)) return false;
-  }
   return true;
 }
 
@@ -159,6 +160,9 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     return column.size() > 1 && counts(column, step_of(column, 2));
   };
   if (titles.size() + 1 == count) {
+    const bool plain =
+        std::ranges::all_of(titles, [](const auto& title) { return title.unit.empty(); });
+    if (!numbers_of_rows() && plain && count > 3) return {};
     if (!numbers_of_rows())
       refuse(file, quote + ", names fewer columns than there are; name each or none");
     titles.insert(titles.begin(), ColumnTitle{index, "", "index"});

@@ -22,6 +22,9 @@ struct Margins {
 /// InvalidInput where one of them is equally spaced and may be either.
 Margins margins_of(const std::filesystem::path& file, const TextRows& rows);
 
+/// Whether a column rises from row to row, or falls.
+bool is_monotone(const TextRows& rows, Index column);
+
 /// The columns that hold what a surface or a profile needs, by the titles.
 struct Columns {
   std::optional<Index> x, y, z;  ///< of a profile x and z

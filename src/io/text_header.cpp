@@ -209,7 +209,7 @@ class HeaderReader {
     const bool free_number = std::ranges::any_of(tokens, [](const HeaderToken& token) {
       return token.kind == Kind::number && !token.bracket;
     });
-    if (!free_number) {
+    if (!free_number && !has(tokens, Kind::date)) {
       if (read_titles(tokens)) return true;
       if (read_unit_line(tokens)) return true;
       // Names of columns that do not fit the columns.
@@ -435,7 +435,7 @@ class HeaderReader {
       if (per_pixel) return false;
       return !(meaning & carrying & ~points);
     }
-    if (all_are(Kind::other)) return !(meaning & (carrying | ordinate));
+    if (all_are(Kind::other)) return !(meaning & ((carrying & ~size) | ordinate));
     if (has_other(quantities, kind_of)) return false;
     if (meaning & (unknown | mask | no)) return false;
     const bool about_plane = meaning & (x | y | plane | pixel | width | columns | rows | step);
@@ -653,7 +653,7 @@ std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
     const Meaning heights = meaning::z | meaning::height | meaning::ordinate | meaning::values;
     const bool axis_alone = (meaning & ~(axes | meaning::z)) == 0 && meaning != 0;
     const bool more =
-        (axis_alone && here == meaning::position) ||
+        (axis_alone && here == meaning::position) || (here & meaning & meaning::index) ||
         ((here & meaning & heights) == 0 &&
          (((here & ~heights) == 0 && (meaning & ~heights) == 0) ||
           ((meaning & meaning::position) && !(meaning & axes) && (here & (axes | meaning::z)))));

@@ -49,9 +49,11 @@ std::vector<double> column_of(const TextRows& rows, Index column) {
 /// they stand apart from all others by more than these span.
 void remove_marks(const std::filesystem::path& file, const TextHeader& header,
                   LoadedSurface& surface) {
+  const std::span<double> heights(surface.heights.data(),
+                                  static_cast<std::size_t>(surface.heights.size()));
   const auto remove = [&](double mark) {
     Index count = 0;
-    for (double& height : surface.heights.reshaped())
+    for (double& height : heights)
       if (height == mark || std::abs(height - mark) <= 1e-6 * std::abs(mark)) {
         height = undefined;
         ++count;
@@ -64,7 +66,7 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
           fmt::format("{} heights of 0, which the file names as its mark, are undefined", count));
   for (;;) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (const double height : surface.heights.reshaped()) {
+    for (const double height : heights) {
       least = std::min(least, height == height ? height : least);
       most = std::max(most, height == height ? height : most);
     }
@@ -80,7 +82,7 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
     if (mark == 0) return;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     Index others = 0;
-    for (const double height : surface.heights.reshaped())
+    for (const double height : heights)
       if (height == height && height != mark) {
         low = std::min(low, height);
         high = std::max(high, height);
@@ -270,9 +272,8 @@ class TextReader {
                       y_unit = unit_or_common("", header_.y_unit);
     if (rows_.columns == 2 && rows_.rows >= 4 && !header_.height && !header_.width &&
         !header_.pixel_x) {
-      if (const auto x = column_of(rows_, 0); std::ranges::is_sorted(x, std::less_equal<>()) ||
-                                              std::ranges::is_sorted(x, std::greater_equal<>())) {
-        read_profile(x, column_of(rows_, 1), x_unit);
+      if (is_monotone(rows_, 0)) {
+        read_profile(column_of(rows_, 0), column_of(rows_, 1), x_unit);
         return;
       }
     }
@@ -316,6 +317,8 @@ class TextReader {
         refuse(file_, "has numbered lines whose columns are not understood; name them");
     }
     if (margins.column && rows_.columns == 2) {
+      if (!is_monotone(rows_, 0))
+        refuse(file_, "has numbered lines whose columns are not understood; name them");
       read_profile(column_of(rows_, 0), column_of(rows_, 1), x_unit);
       return;
     }

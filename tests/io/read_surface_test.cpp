@@ -183,7 +183,7 @@ TEST_CASE("Text that can be read in two ways, or not at all, is refused with its
   CHECK_THAT(message(std::string("1\0 2\0", 6)), Contains("NUL"));
   CHECK_THAT(message("\xff\xfe" + header), Contains("UTF-16"));
   CHECK_THAT(message(header + "# Value units: \x1b[2J\tm\n1 2 3\n"),
-             Contains("'Value units: ?[2J?m'"));
+             Contains("'Value units: \\x1b[2J\\x09m'"));
   CHECK_THAT(message(""), Contains("empty"));
   CHECK_THAT(message("# Width: 3 um\n# Height: 2 um\n"), Contains("no numbers"));
 }
@@ -510,7 +510,7 @@ TEST_CASE("A line of the header that names a length and is not used is quoted", 
     CHECK(remarks_of(line).empty());
   }
   // What a remark quotes cannot command a terminal.
-  CHECK_THAT(remarks_of("\x1b[31m 5 um").at(0), Contains("'?[31m 5 um'"));
+  CHECK_THAT(remarks_of("\x1b[31m 5 um").at(0), Contains("'\\x1b[31m 5 um'"));
 }
 
 TEST_CASE("An empty last field is an undefined point", "[read]") {
