@@ -241,7 +241,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _require_place(given.file, given.out)
         # What is imported later would write its caches.
         with contextlib.suppress(ImportError):
-            import h5py  # type: ignore[import-untyped]  # noqa: F401
+            import h5py  # noqa: F401
             import SurfaceTopography  # noqa: F401
         _confine(given.file, given.out)
         for remark in import_surface(given.file, given.out, channel=given.channel):

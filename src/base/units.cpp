@@ -380,16 +380,13 @@ std::vector<std::string_view> split_at(std::string_view text, char separator) {
 /// keyboards is 1.5 MPa.
 void require_units_at_all_or_none(std::string_view text, const std::vector<Written>& list,
                                   Dimension dimension, std::string_view field) {
-  // Zero is the same in every unit.
-  const auto bare = [](const Written& written) {
-    return written.unit.empty() && written.number != 0;
-  };
-  const auto first =
-      std::ranges::find_if(list, [](const Written& written) { return !written.unit.empty(); });
+  // Zero counts as well, although it is the same in every unit: 0,5um may be half a micrometre.
+  const auto bare = [](const Written& written) { return written.unit.empty(); };
+  const auto first = std::ranges::find_if_not(list, bare);
   if (first == list.end() || std::ranges::none_of(list, bare)) return;
   std::string with_units, without;
   for (const Written& written : list) {
-    const std::string_view unit = written.unit.empty() ? first->unit : written.unit;
+    const std::string_view unit = bare(written) ? first->unit : written.unit;
     const char* comma = &written == &list.front() ? "" : ",";
     with_units += fmt::format("{}{}{}", comma, written.number, unit);
     without += fmt::format("{}{:.6g}", comma,
