@@ -69,7 +69,14 @@ void follow_file(const DampingArguments& arguments, Session& session) {
               !arguments.of_damper() && !arguments.maps.given(),
           "--trajectory", arguments.trajectory,
           "is the motion; leave out the options of Motion, Use and Maps");
-  const auto columns = read_number_table(arguments.trajectory, 3, 4);
+  const auto columns =
+      read_number_table(arguments.trajectory,
+                        {{"time", Dimension::time, {"t"}},
+                         {"indentation", Dimension::length, {"delta", "\u03b4", "z", "normal"}},
+                         {"displacement", Dimension::length, {"tangential", "x"}},
+                         {"transverse", Dimension::length, {"y"}}},
+                        3)
+          .columns;
   PathQuestion question{.contact = arguments.law.question_of_law(arguments.material),
                         .path = {columns[0], columns[1], columns[2]},
                         .facts = arguments.premises.facts(arguments.material)};

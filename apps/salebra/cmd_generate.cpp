@@ -162,7 +162,13 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
 Surface surface_of_file(const GenerateArguments& arguments, const Grid2D& grid) {
   const double unit = arguments.fourier_unit.value_or(1);
   require_positive(unit, "--fourier-unit");
-  const auto columns = read_number_table(arguments.fourier, 4);
+  const auto [columns, has_units] =
+      read_number_table(arguments.fourier, {{"i", Dimension::dimensionless, {"nx"}},
+                                            {"j", Dimension::dimensionless, {"ny"}},
+                                            {"real", Dimension::length, {"re"}},
+                                            {"imaginary", Dimension::length, {"im", "imag"}}});
+  require(!has_units || !arguments.fourier_unit, "--fourier-unit", unit,
+          "is given for a file whose titles name units; leave it out");
   std::vector<FourierMode> modes;
   for (std::size_t k = 0; k < columns[0].size(); ++k) {
     for (const double wave : {columns[0][k], columns[1][k]})

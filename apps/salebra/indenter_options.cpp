@@ -72,7 +72,10 @@ std::shared_ptr<const IndenterProfile> IndenterOptions::indenter() const {
   if (law == "table") {
     require_only({"--table"}, chosen);
     require_that(!table.empty(), "--table", "not given, but --law table needs it");
-    const auto columns = read_number_table(table, 2);
+    const auto columns =
+        read_number_table(table, {{"r", Dimension::length, {"radius", "x"}},
+                                  {"f", Dimension::length, {"profile", "height", "z", "shape"}}})
+            .columns;
     return std::make_shared<const TabulatedProfile>(columns[0], columns[1]);
   }
   switch (*value_of<Shape>(law)) {

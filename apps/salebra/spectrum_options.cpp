@@ -68,7 +68,10 @@ SelfAffineParameters SpectrumOptions::self_affine(double cell) const {
 }
 
 std::shared_ptr<const IsotropicSpectrum> SpectrumOptions::tabulated() const {
-  auto columns = read_number_table(table, 2);
+  // A radial spectrum of Gwyddion is one of a line.
+  const Dimension density =
+      convention == "gwyddion" ? Dimension::length_cubed : Dimension::length_to_the_fourth;
+  auto columns = read_number_table(table, spectrum_columns(density)).columns;
   for (std::size_t k = 0; k < columns[1].size(); ++k) {
     constexpr double turn = 2 * std::numbers::pi;
     if (convention == "surface-topography") columns[1][k] /= turn * turn;

@@ -8,9 +8,11 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
+#include <salebra/results/quantity.hpp>
 
 #include "base/printable.hpp"
 #include "io/loaded_surface.hpp"
+#include "io/number_table.hpp"
 #include "io/text_numbers.hpp"
 
 namespace salebra::detail {
@@ -18,64 +20,25 @@ namespace {
 
 /// A column of the table: what it means and what its values are multiplied by.
 struct Column {
-  double ForceSample::*member = nullptr;
+  double ForceSample::* member = nullptr;
   bool converged = false;
   double factor = 1;
 };
 
-double factor_of(const std::filesystem::path& file, const std::string& unit,
-                 const Quantity& quantity) {
-  if (unit.empty()) return 1;
-  try {
-    return parse_quantity("1 " + unit, quantity.dimension, quantity.name);
-  } catch (const InvalidInput&) {
-    refuse(file, "gives the column " + std::string(quantity.name) + " in '" + unit +
-                     "', which is no unit of it; write " +
-                     std::string(si_unit(quantity.dimension)));
-  }
-}
-
-/// "mean_gap [nm]", "mean_gap (nm)" or "mean_gap".
-Column column_of(const std::filesystem::path& file, std::string_view title) {
-  const auto bracket = title.find_first_of("[(");
-  const std::string_view name = trimmed(title.substr(0, bracket));
-  std::string unit;
-  if (bracket != std::string_view::npos) {
-    const auto close = title.find_last_of("])");
-    if (close == std::string_view::npos || close < bracket)
-      refuse(file, "has a column title '" + std::string(title) + "' without a closing bracket");
-    unit = trimmed(title.substr(bracket + 1, close - bracket - 1));
-  }
-  if (name == "converged") return {.converged = true};
+/// "mean_gap [nm]", "mean_gap (nm)" or "mean_gap". A column that a curve has no use for is passed
+/// over where it bears no unit, or is a quantity that commands write beside a curve.
+Column column_of(const std::filesystem::path& file, std::string_view text, UnitsOfTitles& units) {
+  const ColumnTitle title = column_title(file, text);
+  if (title.name == "converged") return {.converged = true};
   for (const CurveQuantity& known : curve_quantities())
-    if (known.quantity.name == name)
-      return {.member = known.member, .factor = factor_of(file, unit, known.quantity)};
+    if (known.quantity.name == title.name) {
+      units.add(title, known.quantity.dimension);
+      return {.member = known.member, .factor = factor_of(file, title, known.quantity.dimension)};
+    }
+  if (!title.unit.empty() && !is_quantity(title.name))
+    refuse(file, "has a column '" + std::string(text) +
+                     "', which is no quantity of a curve; name it as salebra does, or remove it");
   return {};
-}
-
-/// Splits a line of titles at commas or semicolons, or else at blanks that are not before or within
-/// brackets.
-std::vector<std::string_view> titles_of(std::string_view line) {
-  const bool marked = line.find_first_of(",;") != std::string_view::npos;
-  const auto tabbed = line.find('\t') != std::string_view::npos;
-  std::vector<std::string_view> titles;
-  std::size_t begin = 0, next = 0;  // the character behind blanks, looked for once
-  int depth = 0;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
-    const char symbol = i < line.size() ? line[i] : '\n';
-    if (symbol == '[' || symbol == '(') ++depth;
-    if (symbol == ']' || symbol == ')') --depth;
-    if (next < i) next = std::min(line.find_first_not_of(' ', i), line.size());
-    const bool before_unit = next < line.size() && (line[next] == '[' || line[next] == '(');
-    const bool ends = symbol == '\n' || (depth == 0 && (marked   ? symbol == ',' || symbol == ';'
-                                                        : tabbed ? symbol == '\t'
-                                                                 : symbol == ' ' && !before_unit));
-    if (!ends) continue;
-    const std::string_view title = trimmed(line.substr(begin, i - begin));
-    if (!title.empty() || marked) titles.push_back(title);
-    begin = i + 1;
-  }
-  return titles;
 }
 
 void read_comment(const std::filesystem::path& file, std::string_view line, ForceCurve& curve) {
@@ -102,7 +65,7 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
     if (curve.nominal_area > 0 && std::isnan(sample.pressure))
       sample.pressure = sample.force / curve.nominal_area;
   }
-  const auto has = [&](double ForceSample::*member) {
+  const auto has = [&](double ForceSample::* member) {
     return std::ranges::none_of(
         curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*member); });
   };
@@ -137,8 +100,9 @@ ForceCurve read_text_curve(const std::filesystem::path& file, std::string_view c
       if (!columns.empty())
         refuse(file, "line " + std::to_string(lines.number()) + " holds no numbers");
       if (line.front() == '#') line = trimmed(line.substr(1));
+      UnitsOfTitles units(file);
       for (const std::string_view title : titles_of(line))
-        columns.push_back(column_of(file, title));
+        columns.push_back(column_of(file, title, units));
       continue;
     }
     if (columns.empty())

@@ -152,7 +152,9 @@ SelfAffineParameters read_self_affine(TomlTable& table, const ParameterLists& li
 
 /// Two columns of a file: q in rad/m and C in m⁴.
 SpectrumTable read_psd_table(TomlTable& table, const std::filesystem::path& folder) {
-  const auto columns = read_number_table(folder / *table.text("psd_table"), 2);
+  const auto columns = read_number_table(folder / *table.text("psd_table"),
+                                         spectrum_columns(Dimension::length_to_the_fourth))
+                           .columns;
   SpectrumTable psd{columns[0], columns[1]};
   table.located([&] { TabulatedSpectrum(psd.wavenumber, psd.psd); });
   return psd;

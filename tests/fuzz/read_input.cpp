@@ -113,7 +113,10 @@ const std::map<std::string, Target, std::less<>>& targets() {
         {"table",
          {{},
           [](const std::string& input) {
-            read_through_file(input, [](const auto& file) { read_number_table(file, 2); });
+            read_through_file(input, [](const auto& file) {
+              read_number_table(file,
+                                {{"r", Dimension::length, {"x"}}, {"f", Dimension::length, {"z"}}});
+            });
           }}},
         {"curve",
          {{},

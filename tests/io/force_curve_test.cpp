@@ -95,7 +95,7 @@ TEST_CASE("A curve in a table is read with its units, in the order of rising for
       "(nm);note\r\n2,0;100,0;7\r\n1,0;150,0;\r\n",
       "# nominal_area: 2 mm2\n# pressure [MPa] mean_gap [nm] note\n2 100 7\n\n# a remark\n1 150 "
       "8\n",
-      "# nominal_area: 2 mm2\nmean_gap\tpressure [MPa]\n100e-9\t2\n150e-9\t1\n");
+      "# nominal_area: 2 mm2\nmean_gap/nm\tpressure [MPa]\n100\t2\n150\t1\n");
   INFO(text);
   const ForceCurve curve = read_force_curve(scratch.file("curve.csv", text));
   REQUIRE(curve.samples.size() == 2);
@@ -117,7 +117,9 @@ TEST_CASE("A table that is no curve is refused with the reason", "[curve file]")
   refused("pressure [MPa], mean_gap [nm]\n1\n2\n3,\n", "");
   refused("pressure [MPa], mean_gap [nm]\n1, 2, 3\n", "line 2");
   refused("pressure [MPa], mean_gap [nm]\n1, two\n", "two");
-  refused("pressure [MPa], gap [nm]\n1, 2\n", "mean_gap");
+  refused("pressure [MPa], gap\n1, 2\n", "mean_gap");
+  refused("pressure [MPa], depth [nm], mean_gap [nm]\n1, 2, 3\n", "'depth [nm]'");
+  refused("pressure [MPa], mean_gap\n1, 2\n", "none of mean_gap");
   refused("mean_gap [nm]\n1\n2\n", "pressure or force");
   refused("pressure [MPa], mean_gap [nm\n1, 2\n", "bracket");
   refused("pressure [MPa], mean_gap [nm]\n", "no samples");
