@@ -38,6 +38,7 @@ Number positive_entry(const std::filesystem::path& file, std::string_view key,
 
 LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content) {
   LoadedSurface surface;
+  surface.lateral_unit_open = true;
   Index nx = 0, ny = 0;
   const std::size_t end = content.find('\0');
   if (end == std::string_view::npos) refuse(file, "ends within its header; it is truncated");
@@ -52,6 +53,7 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
     if (key == "XReal") surface.size_x = positive_entry<double>(file, key, value);
     if (key == "YReal") surface.size_y = positive_entry<double>(file, key, value);
     if (key == "ZUnits") surface.unit = value;
+    if (key == "XYUnits" && !value.empty()) surface.lateral_unit_open = false;
     if (key == "XYUnits" && !value.empty() && value != "m")
       refuse(file,
              "has its size in '" + std::string(value.substr(0, 20)) + "', which is not metres");

@@ -237,6 +237,7 @@ LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view conte
   surface.unit = unit_in(file, field, "si_unit_z");
   const std::string plane_unit = unit_in(file, field, "si_unit_xy");
   const double metres = plane_unit.empty() ? 1 : metres_per(file, plane_unit);
+  surface.lateral_unit_open = plane_unit.empty();
   surface.size_x = metres * number_in<double>(file, field, "xreal", 'd');
   surface.size_y = metres * number_in<double>(file, field, "yreal", 'd');
   const auto mask =

@@ -71,6 +71,7 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
     refuse(file, "declares more points than it holds; it is truncated");
 
   LoadedSurface surface;
+  surface.unit = "m";
   const auto length = [&](std::size_t step, std::size_t unit) {
     return header.float32(step) * metres_per(file, header.words(unit));
   };

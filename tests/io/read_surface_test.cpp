@@ -334,6 +334,8 @@ TEST_CASE("A SUR file is refused where it is cut or of another kind", "[read]") 
     CHECK_THROWS_WITH(read_surface(scratch.file("a.sur", changed)), Contains(why));
   };
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, 511))), InvalidInput);
+  CHECK_THROWS_WITH(read_surface(measured / "sur-2.sur", {.height_unit = "um"}),
+                    Contains("states the unit of its heights"));
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, content.size() - 1))),
                   InvalidInput);
   // A private zone of more than 32767 bytes moves the heights beyond the end.

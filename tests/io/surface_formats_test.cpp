@@ -123,6 +123,26 @@ TEST_CASE("A file of Gwyddion without units is in metres, or as the user says", 
   CHECK(read_surface(file, options).heights(2, 1) == Approx(6e-18));
 }
 
+TEST_CASE("Units of a simple field come from it, or from the user where it has none", "[formats]") {
+  const Scratch scratch;
+  const auto field = [&](const std::string& entries) {
+    std::string text =
+        "Gwyddion Simple Field 1.0\nXRes = 2\nYRes = 2\nXReal = 4\nYReal = 4\n" + entries;
+    text.append(4 - text.size() % 4, '\0');
+    for (const float height : {1.f, 2.f, 3.f, 4.f})
+      text.append(reinterpret_cast<const char*>(&height), sizeof height);
+    return scratch.file("field.gsf", text);
+  };
+  const Surface bare = read_surface(field(""), {.lateral_unit = "um", .height_unit = "nm"});
+  CHECK(bare.grid.lx == Approx(4e-6));
+  CHECK(bare.heights(1, 0) == Approx(2e-9));
+  std::vector<std::string> remarks;
+  const auto stated = field("XYUnits = m\nZUnits = m\n");
+  CHECK(read_surface(stated, {.lateral_unit = "um", .remarks = &remarks}).grid.lx == 4);
+  CHECK_THROWS_WITH(read_surface(stated, {.height_unit = "nm"}),
+                    Catch::Contains("states the unit of its heights"));
+}
+
 TEST_CASE("What is written for Gwyddion is a container of its data fields", "[formats]") {
   const Scratch scratch;
   Surface surface{{3, 2, 3e-6, 1e-6}, Field(3, 2), false, "here"};
