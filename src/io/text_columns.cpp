@@ -57,7 +57,7 @@ bool rises(const TextRows& rows, Index column) {
   return true;
 }
 
-std::string quoted(const ColumnTitle& title) { return "'" + title.text + "'"; }
+std::string quoted(const HeaderTitle& title) { return "'" + title.text + "'"; }
 
 using namespace meaning;
 
@@ -68,7 +68,7 @@ bool is_length(const std::string& unit) { return metres_in(unit).has_value(); }
 
 enum class Role { x, y, position, height, skipped, index, unknown };
 
-Role role_of(const ColumnTitle& title, bool of_profile) {
+Role role_of(const HeaderTitle& title, bool of_profile) {
   const Meaning said = title.meaning;
   if (title.text.size() == 1 && of_profile)
     if (const std::string letter = plain_word(title.text.substr(0, 1));
@@ -150,7 +150,7 @@ Margins margins_of(const std::filesystem::path& file, const TextRows& rows) {
 
 std::optional<Columns> columns_of(const std::filesystem::path& file, const TextRows& rows,
                                   const TextHeader& header) {
-  std::vector<ColumnTitle> titles = header.titles;
+  std::vector<HeaderTitle> titles = header.titles;
   constexpr std::size_t most = 12;
   const auto count = static_cast<std::size_t>(rows.columns);
   if (titles.empty()) return {};
@@ -165,11 +165,11 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     if (!numbers_of_rows() && plain && count > 3) return {};
     if (!numbers_of_rows())
       refuse(file, quote + ", names fewer columns than there are; name each or none");
-    titles.insert(titles.begin(), ColumnTitle{index, "", "index"});
+    titles.insert(titles.begin(), HeaderTitle{index, "", "index"});
   }
   if (titles.front().text.empty() && count > 1 && numbers_of_rows())
-    titles.front() = ColumnTitle{index, "", "index"};
-  const bool silent = std::ranges::all_of(titles, [](const ColumnTitle& title) {
+    titles.front() = HeaderTitle{index, "", "index"};
+  const bool silent = std::ranges::all_of(titles, [](const HeaderTitle& title) {
     return title.unit.empty() && (title.text.empty() || (title.meaning & unknown));
   });
   if (silent && (count > 3 || count == 1)) return {};
@@ -186,7 +186,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
   std::vector<Index> kept;
   Columns result;
   Index usable = 0;
-  for (const ColumnTitle& title : titles) {
+  for (const HeaderTitle& title : titles) {
     const Role role = role_of(title, false);
     if (role != Role::index && role != Role::skipped) ++usable;
   }
@@ -200,7 +200,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     if (roles[i] != Role::skipped && roles[i] != Role::index) kept.push_back(static_cast<Index>(i));
   }
   const auto role = [&](Index i) { return roles[static_cast<std::size_t>(i)]; };
-  const auto title = [&](Index i) -> const ColumnTitle& {
+  const auto title = [&](Index i) -> const HeaderTitle& {
     return titles[static_cast<std::size_t>(i)];
   };
   const auto not_understood = [&](Index i) {

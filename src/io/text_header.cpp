@@ -129,7 +129,7 @@ struct Quantity {
 };
 
 /// Titles of columns in one line; empty where the line is none.
-std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns);
+std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns);
 
 class HeaderReader {
  public:
@@ -233,10 +233,10 @@ class HeaderReader {
   }
 
   bool read_titles(Tokens tokens) {
-    const std::vector<ColumnTitle> titles = titles_of(tokens, layout_.titled_columns);
+    const std::vector<HeaderTitle> titles = titles_of(tokens, layout_.titled_columns);
     if (titles.empty()) return false;
     const bool units_alone = std::ranges::all_of(
-        titles, [](const ColumnTitle& title) { return title.meaning == 0 && !title.unit.empty(); });
+        titles, [](const HeaderTitle& title) { return title.meaning == 0 && !title.unit.empty(); });
     const auto columns = static_cast<std::size_t>(layout_.titled_columns);
     if (titles.size() == columns || titles.size() + 1 == columns) {
       if (units_alone && header_.titles.size() == titles.size()) {
@@ -261,13 +261,13 @@ class HeaderReader {
       return false;
     const Meaning axes = meaning::x | meaning::y | meaning::z | meaning::height |
                          meaning::ordinate | meaning::values;
-    const bool named = std::ranges::all_of(titles, [&](const ColumnTitle& title) {
+    const bool named = std::ranges::all_of(titles, [&](const HeaderTitle& title) {
       return (title.meaning & axes) && !(title.meaning & (meaning::unknown | meaning::other));
     });
     const bool units =
         std::ranges::any_of(titles, [](const auto& title) { return !title.unit.empty(); });
     if (!named || !units) return false;
-    for (const ColumnTitle& title : titles) {
+    for (const HeaderTitle& title : titles) {
       if (title.unit.empty()) continue;
       if (title.meaning & meaning::x)
         set_unit(header_.x_unit, title.unit);
@@ -600,8 +600,8 @@ class HeaderReader {
 };
 
 /// The title of one column from its words.
-ColumnTitle title_of(Tokens tokens) {
-  ColumnTitle title;
+HeaderTitle title_of(Tokens tokens) {
+  HeaderTitle title;
   for (const HeaderToken& token : tokens) {
     if (!title.text.empty()) title.text += ' ';
     title.text += token.text;
@@ -669,10 +669,10 @@ std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
 }
 
 /// expand   a name of x and y alike stands for two columns
-std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns, bool expand) {
-  std::vector<ColumnTitle> titles;
+std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns, bool expand) {
+  std::vector<HeaderTitle> titles;
   const auto add = [&](Tokens group) {
-    ColumnTitle title = title_of(group);
+    HeaderTitle title = title_of(group);
     if (expand && (title.meaning & meaning::plane) &&
         !(title.meaning & (meaning::x | meaning::y))) {
       title.meaning = (title.meaning & ~meaning::plane) | meaning::x;
@@ -696,7 +696,7 @@ std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns, bool expand) {
   for (const auto& group : groups_of(tokens, columns)) add(group);
   // A text is no row of titles, unless it has as many words as there are columns.
   if (titles.size() != static_cast<std::size_t>(columns) &&
-      std::ranges::any_of(titles, [](const ColumnTitle& title) {
+      std::ranges::any_of(titles, [](const HeaderTitle& title) {
         const bool named = (title.meaning & naming & ~(meaning::unknown | meaning::harmless)) != 0;
         return !named && title.unit.empty();
       }))
@@ -704,8 +704,8 @@ std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns, bool expand) {
   return titles;
 }
 
-std::vector<ColumnTitle> titles_of(Tokens tokens, Index columns) {
-  std::vector<ColumnTitle> titles = titles_of(tokens, columns, false);
+std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns) {
+  std::vector<HeaderTitle> titles = titles_of(tokens, columns, false);
   const auto count = static_cast<std::size_t>(columns);
   if (titles.size() == count || titles.size() + 1 == count) {
     const bool plane = std::ranges::any_of(

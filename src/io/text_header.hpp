@@ -27,7 +27,7 @@ struct NumberLayout {
 };
 
 /// The name of a column and its unit.
-struct ColumnTitle {
+struct HeaderTitle {
   Meaning meaning = 0;    ///< 0 where the column has no name
   std::string unit = {};  ///< as written; empty where there is none
   std::string text = {};
@@ -58,7 +58,7 @@ struct TextHeader {
   std::vector<double> missing;      ///< values that mark undefined points
   std::string x_unit, y_unit, value_unit;
   std::string common_unit;          ///< of the axes that have none of their own
-  std::vector<ColumnTitle> titles;  ///< one for each column; empty where no line names them
+  std::vector<HeaderTitle> titles;  ///< one for each column; empty where no line names them
   std::string titles_quote;
   /// Lines with a unit or a number that is not understood, quoted.
   std::vector<std::string> unaccounted;
