@@ -8,9 +8,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
+#include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -142,4 +146,53 @@ TEST_CASE("Bytes of an outline are judged before anything is made of them", "[hd
   refused();
   CHECK(detail::from_bytes<bool>("\1", "truth"));
   CHECK_THROWS_WITH(detail::from_bytes<bool>("\2", "truth"), Catch::Contains("damaged"));
+}
+
+TEST_CASE("Attributes of the conventions for climate data make heights of stored numbers",
+          "[hdf5]") {
+  const Scratch scratch;
+  const auto file = scratch / "cf.h5";
+  const auto written = [&](const std::vector<std::pair<const char*, double>>& numbers,
+                           std::optional<std::string> text_named = {}) {
+    const hid_t made = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hsize_t shape[]{2, 2};
+    const hid_t space = H5Screate_simple(2, shape, nullptr), one = H5Screate(H5S_SCALAR);
+    const hid_t heights =
+        H5Dcreate2(made, "heights", H5T_NATIVE_INT16, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const std::int16_t stored[]{1, 2, -9999, 40};
+    H5Dwrite(heights, H5T_NATIVE_INT16, H5S_ALL, H5S_ALL, H5P_DEFAULT, stored);
+    const auto put = [&](const char* name, hid_t type, const void* value) {
+      const hid_t attribute = H5Acreate2(heights, name, type, one, H5P_DEFAULT, H5P_DEFAULT);
+      H5Awrite(attribute, type, value);
+      H5Aclose(attribute);
+    };
+    for (const auto& [name, value] : numbers) put(name, H5T_NATIVE_DOUBLE, &value);
+    const hid_t text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, 2);
+    put("units", text, "nm");
+    if (text_named) put(text_named->c_str(), text, "ab");
+    H5Tclose(text);
+    H5Dclose(heights);
+    H5Sclose(space);
+    H5Sclose(one);
+    H5Fclose(made);
+    return file;
+  };
+  const ReadOptions size{.size_x = 1e-6, .size_y = 1e-6};
+  const Surface scaled = read_surface(
+      written(
+          {{"_FillValue", -9999}, {"scale_factor", 0.5}, {"add_offset", 10}, {"valid_max", 39}}),
+      size);
+  // The unit is a rounded number.
+  CHECK(scaled.heights(0, 0) == Approx(10.5e-9).epsilon(1e-15));
+  CHECK(scaled.heights(0, 1) == Approx(11e-9).epsilon(1e-15));
+  CHECK(std::isnan(scaled.heights(1, 0)));
+  CHECK(std::isnan(scaled.heights(1, 1)));
+  CHECK(std::isnan(read_surface(written({{"missing_value", -9999}}), size).heights(1, 0)));
+  CHECK(read_surface(written({{"serial", 7}}), size).heights(1, 0) == Approx(-9.999e-6));
+  for (const char* name : {"valid_range", "Z_Scale", "gain", "nodata_value", "height_unit"})
+    CHECK_THROWS_WITH(read_surface(written({{name, 2}}), size),
+                      Catch::Contains("has an attribute " + std::string(name)));
+  CHECK_THROWS_WITH(read_surface(written({}, "_FillValue"), size),
+                    Catch::Contains("has an attribute _FillValue that is not one number"));
 }
