@@ -242,7 +242,7 @@ void run(int argc, char** argv, const Launch& launch) {
   require_one_command(join(argc, argv), launch.ranks);
   const std::string name(program_name());
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", name);
-  app.set_version_flag("--version", name + " " + std::string(version()));
+  app.set_version_flag("-V,--version", name + " " + std::string(version()));
   app.require_subcommand(1);
   Program program(join(argc, argv), launch);
 #define SALEBRA_COMMAND(name) add_##name##_command(program);

@@ -152,6 +152,10 @@ void Session::name_files(const std::deque<Option>& options) {
   for (const Option& option : options)
     for (const std::string& file : option.files()) {
       const std::string& name = option.names().back();
+      if (file == "-")
+        throw InvalidInput(name, file,
+                           "is no file, and standard input and output are none; name a file, or "
+                           "write ./- where its name is -");
       if (option.file_use() == FileUse::output) {
         writes(name, file, option.partner());
         if (std::filesystem::path(file).extension() == ".npy")

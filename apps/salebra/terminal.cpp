@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <salebra/base/error.hpp>
@@ -106,7 +107,10 @@ std::string wrapped(std::string_view text, std::size_t width) {
 }
 
 void print_answer(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+    return;
+  // A reader such as head has what it wanted.
+  if (errno != EPIPE)
     throw IoError("standard output: cannot be written; check the disk or the reader of the pipe");
 }
 

@@ -53,6 +53,7 @@ constexpr Synonym synonyms[]{
     {"small_damping_constant", {"small_amplitude_damping_constant"}},
     {"small_work_per_cycle", {"small_amplitude_work"}},
     {"summits", {"model"}},
+    {"velocity", {"drag_velocity", "velocities"}},
 };
 
 /// Of an option, the key of the same name, in lower case.

@@ -179,6 +179,18 @@ TEST_CASE("This installation agrees with the analytic solutions", "[program][ver
   }
 }
 
+TEST_CASE("A reader of the answer that has what it wanted makes no error", "[program]") {
+  // The shell waits until the reader of the pipe has gone.
+  const auto result = ProgramTest().run("help damping", "mkfifo p; : <p & exec >p; wait;");
+  CHECK(result.status == 0);
+  CHECK(result.err.empty());
+}
+
+TEST_CASE("The version has a short option", "[program]") {
+  const ProgramTest test;
+  CHECK(test.run("-V").out == test.run("--version").out);
+}
+
 TEST_CASE("Remarks that cannot be printed stop no work, and an answer that cannot is an error",
           "[program]") {
   const ProgramTest test;
