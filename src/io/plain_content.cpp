@@ -36,8 +36,36 @@ class Inflater {
   z_stream stream_ = {};
 };
 
+/// Bytes of a height in the binary formats, by their first bytes; 0 for text.
+std::size_t bytes_of_height(std::string_view content) {
+  if (content.starts_with("Gwyddion Simple Field")) return 4;
+  if (content.starts_with("GWYP")) return 8;
+  if (content.starts_with("DIGITAL SURF")) return 2;
+  if (!content.starts_with("\x93NUMPY")) return 0;
+  const std::size_t type = content.substr(0, 1024).find("descr");
+  const std::size_t digit =
+      type == content.npos ? type : content.substr(0, 1024).find_first_of("1248", type);
+  return digit == content.npos ? 1 : static_cast<std::size_t>(content[digit] - '0');
+}
+
+/// How many doubles become of the content at most. begin: of what was not counted yet.
+std::uint64_t doubles_of(std::string_view content, std::size_t begin) {
+  if (const std::size_t bytes = bytes_of_height(content)) return (content.size() - begin) / bytes;
+  const auto separates = [](char symbol) {
+    return symbol == ' ' || (symbol >= '\t' && symbol <= '\r') || symbol == ',' || symbol == ';';
+  };
+  std::uint64_t words = 0;
+  for (std::size_t i = std::max<std::size_t>(begin, 1); i < content.size(); ++i)
+    words += static_cast<std::uint64_t>(separates(content[i]) && !separates(content[i - 1]));
+  return words;
+}
+
 std::string unzipped(const std::filesystem::path& file, std::string_view content) {
   const std::uint64_t most = 64 * std::uint64_t(content.size()) + (std::uint64_t{256} << 20);
+  // Each height becomes eight bytes and more. A scan has at least one bit of news in each height,
+  // hence at most eight heights in each packed byte; the first 8 million may have less.
+  const std::uint64_t most_doubles = 8 * std::uint64_t(content.size()) + (std::uint64_t{8} << 20);
+  std::uint64_t doubles = 0;
   constexpr std::size_t piece = std::size_t{1} << 20;
   Inflater inflater;
   std::string out;
@@ -68,8 +96,10 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
     inflater->avail_out = room;
     status = inflate(inflater.get(), Z_NO_FLUSH);
     content.remove_prefix(given - inflater->avail_in);
+    const std::size_t before = filled;
     filled += room - inflater->avail_out;
-    if (filled > most) refuse_size();
+    doubles += doubles_of(std::string_view(out).substr(0, filled), before);
+    if (filled > most || doubles > most_doubles) refuse_size();
     const bool stuck = status == Z_BUF_ERROR && content.empty();
     if (stuck || (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR))
       refuse(file, "is a truncated or damaged gzip file; copy or pack it again");

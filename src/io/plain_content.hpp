@@ -15,7 +15,7 @@ bool is_wrapped(std::string_view content);
 /// each other, and UTF-16 text with a byte order mark, which becomes UTF-8. Nothing for content that
 /// is not wrapped.
 /// Throws InvalidInput where the gzip is damaged or cut, or unpacks to more than 64 times the file
-/// and 256 MB, and for UTF-16 that is cut or not paired. Cost: one pass; memory: what comes out.
+/// and 256 MB, or to more than 8 heights for each byte of the file and 8 million, and for UTF-16 that is cut or not paired. Cost: one pass; memory: what comes out.
 std::optional<std::string> plain_content(const std::filesystem::path& file,
                                          std::string_view content);
 

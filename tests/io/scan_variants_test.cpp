@@ -159,6 +159,20 @@ TEST_CASE("Packed files that are cut, damaged or without end are refused", "[rea
   std::string members;
   for (int k = 0; k < 25; ++k) members += zeros;
   CHECK_THROWS_WITH(read(members), Contains("unpacks to more than"));
+  // 36 million heights of few bytes each become doubles, in 30 to 90 MB of content.
+  const std::string row = "0 0 0\n";
+  std::string text;
+  for (int k = 0; k < 1'000'000; ++k) text += row;
+  const std::string rows = gzip(text);
+  const std::string gsf = gzip("Gwyddion Simple Field 1.0\nXRes = 6000\nYRes = 6000\n\n");
+  std::string header = "{'descr': '|i1', 'fortran_order': False, 'shape': (6000, 6000), }";
+  header += std::string(117 - header.size(), ' ') + "\n";
+  const std::string npy = gzip(std::string("\x93NUMPY\x01\0\x76\0", 10) + header);
+  for (const auto& [head, block] : {std::pair{rows, rows}, {gsf, zeros}, {npy, zeros}}) {
+    std::string bomb = head;
+    for (int k = 0; k < 12; ++k) bomb += block;
+    CHECK_THROWS_WITH(read(bomb), Contains("unpacks to more than"));
+  }
   CHECK_THROWS_WITH(read(std::string("\xff\xfe") + "1\0\xd8"), Contains("truncated"));
   CHECK_THROWS_WITH(read("\xfe\xff\xd8" + std::string(3, '\0')), Contains("no UTF-16"));
 }
