@@ -29,7 +29,15 @@ namespace salebra::cli {
 namespace {
 
 volatile std::sig_atomic_t interrupt_seen = 0;
-extern "C" void note_interrupt(int) { interrupt_seen = 1; }
+extern "C" void note_interrupt(int) {
+  interrupt_seen = 1;
+  // Any second one ends the command, not only one of the same kind.
+  for (const int sign : {SIGINT, SIGTERM, SIGUSR1, SIGHUP}) {
+    struct sigaction now = {};
+    if (sigaction(sign, nullptr, &now) == 0 && now.sa_handler == note_interrupt)
+      std::signal(sign, SIG_DFL);
+  }
+}
 
 /// "one of 64 tasks", as MPI's launchers and Slurm say in the environment; empty: of one. PMIX_RANK
 /// tells the place alone.

@@ -75,6 +75,19 @@ TEST_CASE("A signal ends a helper that never ends", "[hostile]") {
   }
 }
 
+TEST_CASE("A second signal of another kind ends the command at once", "[hostile]") {
+  const ProgramTest test;
+  test.write("noise.bin", noise());
+  lay_helper(test, "bin", "sleep 20\n");
+  // The first one ends it in order within some 20 ms: the second may come too late, but not always.
+  int status = 0;
+  for (int k = 0; k < 20 && status != -15; ++k)
+    status = test.run("statistics noise.bin",
+                      first + " me=$$; (sleep 0.2; kill -INT $me; sleep 0.003; kill -TERM $me) 2>/dev/null &")
+                 .status;
+  CHECK(status == -15);
+}
+
 TEST_CASE("Only absolute folders of PATH are searched for the helper", "[hostile]") {
   const ProgramTest test;
   test.write("noise.bin", noise());
