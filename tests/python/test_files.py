@@ -123,6 +123,27 @@ def test_the_helper_writes_what_salebra_reads_and_refuses_in_one_line(
     assert sorted(os.listdir(tmp_path)) == ["noise.bin", "out.h5", "scan.sdf"]
 
 
+def test_the_helper_refuses_hdf5_what_is_no_file_and_its_own_input_as_output(tmp_path: Path) -> None:
+    scan, link, pipe = tmp_path / "scan.sdf", tmp_path / "link.sdf", tmp_path / "pipe"
+    scan.write_text(SDF)
+    link.symlink_to(scan)
+    os.mkfifo(pipe)
+    for place in (0, 512, 4096):
+        (tmp_path / "hidden.bin").write_bytes(bytes(place) + b"\x89HDF\r\n\x1a\n" + bytes(100))
+        with pytest.raises(_importing.ImportRefusal, match="is HDF5"):
+            _importing.import_surface(tmp_path / "hidden.bin", tmp_path / "new.h5")
+    for file in (pipe, "/dev/zero", tmp_path):
+        with pytest.raises(_importing.ImportRefusal, match="is no regular file"):
+            _importing.import_surface(file, tmp_path / "new.h5")
+    for out in (pipe, "/dev/null", tmp_path):
+        with pytest.raises(_importing.ImportRefusal, match="is no regular file"):
+            _importing.import_surface(scan, out)
+    for out in (scan, link):
+        with pytest.raises(_importing.ImportRefusal, match="is the file to write too"):
+            _importing.import_surface(scan, out)
+    assert scan.read_text() == SDF
+
+
 def _slope(seed: int) -> float:
     return float(generated(32, seed).moments.rms_slope)
 
