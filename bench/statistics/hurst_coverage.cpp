@@ -2,7 +2,7 @@
 // How often the 95 % intervals of Hurst exponents hold the truth on surfaces and profiles that the
 // library's generators did not make: exact fractional Brownian ones, read by points, by pixels, and
 // by a tip.
-//   hurst_coverage [each [points of profiles [points of surfaces]]]
+//   hurst_coverage [each [points of profiles [points of surfaces [first seed]]]]
 // One line for each kind: with an interval, covered, bias, scatter and half-width.
 #include <cmath>
 #include <cstdio>
@@ -24,12 +24,14 @@ struct Total {
   int cases = 0, found = 0, covered = 0;
 } all;
 
+unsigned first_seed = 0;
+
 void measure(const char* name, double truth, int cases,
              const std::function<IntervalEstimate(unsigned)>& estimate) {
   int found = 0, covered = 0;
   double sum = 0, square = 0, width = 0;
   for (int seed = 0; seed < cases; ++seed) {
-    const IntervalEstimate hurst = estimate(static_cast<unsigned>(seed));
+    const IntervalEstimate hurst = estimate(first_seed + static_cast<unsigned>(seed));
     if (!hurst.found()) continue;
     const double off = hurst.value - truth;
     ++found;
@@ -63,6 +65,7 @@ int main(int argc, char** argv) {
   const int each = argc > 1 ? std::atoi(argv[1]) : 20;
   const Index line = argc > 2 ? std::atoi(argv[2]) : 4000;
   const Index side = argc > 3 ? std::atoi(argv[3]) : 192;
+  if (argc > 4) first_seed = static_cast<unsigned>(std::atoi(argv[4]));
   for (const double hurst : {0.2, 0.5, 0.8}) {
     measure("profile, points", hurst, each, [&](unsigned seed) {
       return fit_profile(surface_of(FractionalBrownian(seed).profile(line, hurst))).hurst;

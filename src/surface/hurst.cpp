@@ -226,7 +226,7 @@ detail::SelfAffineDensity windowed_density(const Grid2D& grid) {
   const double step_x = 2 * pi / grid.lx, step_y = 2 * pi / grid.ly;
   return [=](double q, double hurst, double q_rolloff) {
     const auto at = [&](double qx, double qy) {
-      return std::pow(std::max(detail::length_of(qx, qy), q_rolloff), -2 - 2 * hurst);
+      return std::pow(std::max(qx * qx + qy * qy, q_rolloff * q_rolloff), -1 - hurst);
     };
     // Beyond some waves it makes less of a difference than the bins can show.
     if (q > 16 * std::max(step_x, step_y)) return at(q, 0);

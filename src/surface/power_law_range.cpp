@@ -58,7 +58,13 @@ class LawInRange {
       shapes(best.at, shape);
       // ln E = ln A + ln shape: the column of ln A is 1.
       Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(Index(bins_.size()), Index(parameters));
-      for (std::size_t p = 0; p < parameters; ++p) {
+      for (std::size_t k = 0; k < bins_.size(); ++k) {
+        const double share = bins_[k].wavenumber / bins_.back().wavenumber;
+        const double law = shape[k] - best.at[floor_share];
+        slopes(Index(k), Index(attenuation)) = -share * share * law / shape[k];
+        slopes(Index(k), Index(floor_share)) = 1 / shape[k];
+      }
+      for (const Parameter p : {hurst, rolloff}) {
         if (held[p]) continue;
         Numbers moved = best.at;
         const double step = moved[p] + 1e-5 > greatest_[p] ? -1e-5 : 1e-5;
