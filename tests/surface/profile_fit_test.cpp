@@ -100,6 +100,21 @@ TEST_CASE("A profile of a generated surface gives the law that made it", "[profi
   CHECK(std::sqrt(slope / lines) == Approx(0.1).epsilon(0.05));
 }
 
+TEST_CASE("A profile of sixty roll-offs shows where its plateau ends", "[profile]") {
+  const double rolloff = 100e-6;
+  const Surface surface = rough(0.8, rolloff, 8e-6, 1);
+  int lines = 0, rolloffs = 0;
+  for (Index iy = 0; iy < 128; iy += 12) {
+    const ProfileFit fit = fit_profile(line(surface, iy, 6000));
+    ++lines;
+    if (std::isnan(fit.rolloff)) continue;
+    ++rolloffs;
+    CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
+  }
+  // Ten of eleven are seen. Neighbouring lines are alike, so that only most of them are asked for.
+  CHECK(rolloffs > lines / 2);
+}
+
 TEST_CASE("What a profile does not show is not found in it", "[profile]") {
   // Rolled off far beyond the profile, and sampled coarser than its shortest wave.
   const Surface surface = rough(0.7, 8000e-6, 2e-6, 3);
