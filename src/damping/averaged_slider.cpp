@@ -10,6 +10,7 @@
 #include <salebra/base/error.hpp>
 
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 
 namespace salebra::detail {
 
@@ -17,9 +18,11 @@ MeanFriction::MeanFriction(const SliderContact& contact, double friction_coeffic
   constexpr int pieces = 128;
   const NormalOscillation normal{contact.normal_amplitude, contact.angular_frequency};
   std::vector<double> velocities{1};
-  const AtIndentation position{contact.indentation};
-  const SteadySliding any =
-      steady_sliding(contact.law, position, normal, velocities, friction_coefficient).front();
+  const auto sliding = [&] {
+    return steady_sliding_about(contact.law, contact.indentation, normal, velocities,
+                                friction_coefficient);
+  };
+  const SteadySliding any = sliding().front();
   critical_velocity_ = any.critical_velocity;
   values_.push_back(any.static_friction_coefficient * any.mean_force);
   slopes_.push_back(0);
@@ -27,8 +30,7 @@ MeanFriction::MeanFriction(const SliderContact& contact, double friction_coeffic
   velocities.clear();
   for (int i = 1; i <= pieces; ++i)
     velocities.push_back(critical_velocity_ * std::pow(static_cast<double>(i) / pieces, 2));
-  for (const SteadySliding& one :
-       steady_sliding(contact.law, position, normal, velocities, friction_coefficient)) {
+  for (const SteadySliding& one : sliding()) {
     const double root = static_cast<double>(values_.size()) / pieces;
     values_.push_back(one.mean_tangential_force);
     slopes_.push_back(one.sliding_damping * 2 * critical_velocity_ * root);

@@ -237,7 +237,7 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
       const auto* at = std::get_if<AtForce>(&position);
       return indentation_at_mean_force(law, at ? at->force : law.force(settled), one);
     };
-    detail::require_possible(law, settled, amplitude, middle_at, mean_force);
+    detail::require_possible(law, settled, amplitude, middle_at, options.hold);
     set_finite(result, law, middle_at(amplitude), kernel, options.tolerance);
   }
   result.small_amplitude_work = small_factor * kernel.square_velocity;

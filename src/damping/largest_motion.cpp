@@ -68,16 +68,16 @@ double possible_amplitude(const ContactLaw& law, double rest) {
 }
 
 void require_possible(const ContactLaw& law, double rest, double amplitude,
-                      const std::function<double(double)>& middle_at, bool mean_force) {
+                      const std::function<double(double)>& middle_at, std::optional<Hold> hold) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
     return require_possible(*indenter, rest, amplitude, middle_at);
-  const double most = mean_force ? infinity : possible_amplitude(law, rest);
+  const double most = hold == Hold::force ? infinity : possible_amplitude(law, rest);
   require(amplitude <= most, "normal_amplitude", amplitude,
           fmt::format("m takes the force to {:.2g} times that at rest, and an exponential law "
-                      "holds up to {:g} times; at most {} here; hold the mean force, or give a "
-                      "`curve` that covers the motion",
+                      "holds up to {:g} times; at most {} here; {}give a `curve` that "
+                      "covers the motion",
                       std::exp(amplitude / most * std::log(most_force_ratio)), most_force_ratio,
-                      in_words(most, Dimension::length)));
+                      in_words(most, Dimension::length), hold ? "hold the mean force, or " : ""));
 }
 
 }  // namespace salebra::detail

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/steady_sliding.hpp>
+#include <span>
+#include <vector>
 
 namespace salebra::detail {
 
@@ -20,13 +24,21 @@ double possible_amplitude(const ContactLaw& law, double rest);
 /// that rests at `rest` to pressures that no elastic contact has: an indenter to a mean pressure
 /// above E*, an exponential law to most_force_ratio times its force. A table has an end of its own.
 /// middle_at   mean indentation under an amplitude
-/// mean_force  the force at rest is held in the mean: an exponential law then has no limit
+/// hold        what stays under an amplitude: under a held force an exponential law has no limit;
+///             without a value the caller has no choice
 void require_possible(const ContactLaw& law, double rest, double amplitude,
-                      const std::function<double(double)>& middle_at, bool mean_force = false);
+                      const std::function<double(double)>& middle_at,
+                      std::optional<Hold> hold = {});
 
 /// As relaxation_damping(), of a mean indentation at which the contact does not rest: one that
 /// holds its mean force, or is searched over amplitudes.
 DampingResult damping_about(const ContactLaw& law, double mean_indentation, const Motion& motion,
                             double tolerance);
+
+/// As steady_sliding(), of such a mean indentation.
+std::vector<SteadySliding> steady_sliding_about(const ContactLaw& law, double mean_indentation,
+                                                const NormalOscillation& normal,
+                                                std::span<const double> velocities,
+                                                double friction_coefficient);
 
 }  // namespace salebra::detail

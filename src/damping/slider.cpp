@@ -15,6 +15,7 @@
 
 #include "averaged_slider.hpp"
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 #include "slider_equation.hpp"
 
 namespace salebra {
@@ -411,10 +412,12 @@ double damping_error(const Case& at, const Slider& slider, double friction_coeff
   const double more = damping * (-2 * std::log(std::cos(angle)) / (angle * angle) - 1);
   const double yielding =
       std::min(sliding_stiffness(at.contact) / (slider.mass * omega * omega), 0.999);
+  const double velocities[] = {slider.velocity / (1 - yielding)};
   const double faster =
-      steady_sliding(at.contact.law, AtIndentation{at.contact.indentation},
-                     Drag{at.contact.normal_amplitude, slider.velocity / (1 - yielding), omega},
-                     friction_coefficient)
+      detail::steady_sliding_about(at.contact.law, at.contact.indentation,
+                                   {at.contact.normal_amplitude, omega}, velocities,
+                                   friction_coefficient)
+          .front()
           .sliding_damping;
   const double slow = natural_frequency(slider) / omega;
   // A tenth for what is of higher order.

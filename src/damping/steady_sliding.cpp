@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "largest_motion.hpp"
 #include "mean_rise.hpp"
 #include "sweep_breaks.hpp"
 
@@ -245,25 +246,18 @@ Force force_above_least(const HalfPeriod& half, const Shares& shares, double tol
           force.converged};
 }
 
-}  // namespace
-
-double detail::mean_rise(double velocity_ratio) { return Period(velocity_ratio).mean_rise(); }
-
-std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
-                                          const NormalOscillation& normal,
-                                          std::span<const double> velocities,
-                                          double friction_coefficient,
-                                          const DampingOptions& options) {
+void check(std::span<const double> velocities, double friction_coefficient) {
   require(std::isfinite(friction_coefficient) && friction_coefficient >= 0, "friction_coefficient",
           friction_coefficient, "must be finite and >= 0");
   for (const double velocity : velocities) require_positive(velocity, "drag_velocity");
-  if (velocities.empty()) return {};
-  const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
-  DampingOptions exact = options;
-  exact.amplitude = Amplitude::finite;
-  const DampingResult stuck =
-      relaxation_damping(law, position, Drag{amplitude, velocities.front(), omega}, exact);
+}
 
+// stuck: the cycle in which nothing slips.
+std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactLaw& law,
+                                      const NormalOscillation& normal,
+                                      std::span<const double> velocities,
+                                      double friction_coefficient, double tolerance) {
+  const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
   const double low = stuck.indentation - amplitude;
   const double stiffness_ratio = law.stiffness_ratio(stuck.indentation);
   SteadySliding common;
@@ -291,7 +285,7 @@ std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position&
     } else {
       if (!half) half.emplace(law, low, amplitude);
       const Force force = force_above_least(
-          *half, {period, friction_coefficient * amplitude, velocity, omega}, options.tolerance);
+          *half, {period, friction_coefficient * amplitude, velocity, omega}, tolerance);
       result.mean_tangential_force = least_friction + force.value;
       result.sliding_damping = force.damping;
       result.error_estimate = force.error;
@@ -305,6 +299,38 @@ std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position&
     result.friction_coefficient = result.mean_tangential_force / result.mean_force;
   }
   return all;
+}
+
+}  // namespace
+
+double detail::mean_rise(double velocity_ratio) { return Period(velocity_ratio).mean_rise(); }
+
+std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
+                                          const NormalOscillation& normal,
+                                          std::span<const double> velocities,
+                                          double friction_coefficient,
+                                          const DampingOptions& options) {
+  check(velocities, friction_coefficient);
+  if (velocities.empty()) return {};
+  DampingOptions exact = options;
+  exact.amplitude = Amplitude::finite;
+  const DampingResult stuck = relaxation_damping(
+      law, position, Drag{normal.normal_amplitude, velocities.front(), normal.angular_frequency},
+      exact);
+  return sliding_of(stuck, law, normal, velocities, friction_coefficient, options.tolerance);
+}
+
+std::vector<SteadySliding> detail::steady_sliding_about(const ContactLaw& law,
+                                                        double mean_indentation,
+                                                        const NormalOscillation& normal,
+                                                        std::span<const double> velocities,
+                                                        double friction_coefficient) {
+  check(velocities, friction_coefficient);
+  if (velocities.empty()) return {};
+  const double tolerance = DampingOptions{}.tolerance;
+  const Drag first{normal.normal_amplitude, velocities.front(), normal.angular_frequency};
+  const DampingResult stuck = damping_about(law, mean_indentation, first, tolerance);
+  return sliding_of(stuck, law, normal, velocities, friction_coefficient, tolerance);
 }
 
 SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,

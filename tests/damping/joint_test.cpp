@@ -190,6 +190,11 @@ TEST_CASE("Joints that cannot be are refused", "[joint]") {
   CHECK_THROWS_WITH(at(TangentialForce{-1}, 0.3), Catch::Contains("tangential_force"));
   CHECK_THROWS_WITH(at(TangentialForce{0.1}, 0), Catch::Contains("friction_coefficient"));
   CHECK_THROWS_AS(joint_loss(law, AtForce{2}, {TangentialForce{0.1}, -1e-9, 0}, 0.3), InvalidInput);
+  // A joint holds its mean indentation: nothing else is proposed.
+  CHECK_THROWS_WITH(joint_loss(law, AtForce{2}, {TangentialForce{0.1}, 2e-6, 0}, 0.3),
+                    Catch::Contains("normal_amplitude") &&
+                        Catch::EndsWith("at most 1.84 µm here; give a `curve` that covers the "
+                                        "motion"));
 }
 
 TEST_CASE("A joint that slides as a whole has no exponent", "[joint]") {

@@ -313,6 +313,22 @@ TEST_CASE("A slider on a tabulated contact with its own K_t slides as its averag
             .epsilon(1e-4));
 }
 
+TEST_CASE("A slider that holds its mean force has no largest oscillation", "[slider]") {
+  // l ln 10⁴ = 276 nm is the largest one about an indentation that is held.
+  const Slider slider{.mass = 0.01, .spring_stiffness = 1000, .velocity = 5e-5, .falling_slope = 1};
+  const NormalOscillation large{300e-9, omega};
+  CHECK_THROWS_WITH(slider_stability(rough, load, large, slider, friction),
+                    Catch::Contains("hold the mean force"));
+  const SliderOptions held{.hold = Hold::force};
+  const SliderStability found = slider_stability(rough, load, large, slider, friction, held);
+  DampingOptions averages;
+  averages.hold = Hold::force;
+  const SteadySliding sliding = steady_sliding(
+      rough, load, Drag{large.normal_amplitude, slider.velocity, omega}, friction, averages);
+  CHECK(found.sliding_damping == sliding.sliding_damping);
+  CHECK(averaged_slider_motion(rough, load, large, slider, friction, held).converged);
+}
+
 TEST_CASE("Bad input of a slider is named", "[slider]") {
   const Slider good{.mass = 0.01, .spring_stiffness = 1000, .velocity = 5e-5, .falling_slope = 1};
   const auto with = [&](double Slider::*member, double value) {
