@@ -5,8 +5,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -64,6 +66,8 @@ void require_one_process(const Launch& launch, std::string_view what) {
 void prepare_process(char** argv) {
   open_standard_streams();
   wait_without_spinning(argv);
+  // Started once more, the process is called after /proc/self/exe.
+  prctl(PR_SET_NAME, program_invocation_short_name);
 }
 
 }  // namespace salebra::cli

@@ -160,6 +160,7 @@ void Session::name_files(const std::deque<Option>& options) {
   for (const Option& option : options)
     for (const std::string& file : option.files()) {
       const std::string& name = option.names().back();
+      require(!file.empty(), name, "''", "names no file");
       if (file == "-")
         throw InvalidInput(name, file,
                            "is no file, and standard input and output are none; name a file, or "

@@ -34,6 +34,11 @@ bool run_and_kill(const ProgramTest& test, bool after_a_part, std::chrono::micro
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   std::this_thread::sleep_for(delay);
+  if (after_a_part) {
+    std::string name;
+    std::ifstream("/proc/" + std::to_string(child) + "/comm") >> name;
+    CHECK(name == "salebra");
+  }
   kill(child, SIGKILL);
   waitpid(child, &status, 0);
   return WIFSIGNALED(status);
