@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Force curves in HDF5 groups and files.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
+#include "base/printable.hpp"
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 #include "io/loaded_surface.hpp"
@@ -91,8 +94,14 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   using Column = std::pair<double ForceSample::*, std::vector<double>>;
   std::vector<Column> columns;
   for (const auto& [quantity, member] : detail::curve_quantities())
-    if (const std::string name(quantity.name); reader.has(group + "/" + name))
+    if (const std::string name(quantity.name); reader.has(group + "/" + name)) {
+      const std::string_view si = si_unit(quantity.dimension);
+      const auto units = reader.text_attribute(group + "/" + name, "units").value_or("");
+      if (!units.empty() && units != si)
+        detail::refuse(reader.file(), fmt::format("has {}/{} in '{}', which must be in {}", group,
+                                                  name, printable_line(units), si));
       columns.emplace_back(member, column(name));
+    }
   if (!length) detail::refuse(reader.file(), "holds no force curve in its group " + group);
   const std::vector<double> converged =
       reader.has(group + "/converged") ? column("converged") : std::vector<double>{1};
