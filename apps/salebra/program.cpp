@@ -12,11 +12,14 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/version.hpp>
+#include <span>
 
 #include "base/printable.hpp"
+#include "base/stop_check.hpp"
 #include "base/suggestion.hpp"
 #include "base/undefined_points.hpp"
 #include "confinement/confinement.hpp"
@@ -147,6 +150,12 @@ void declare(CLI::App& app, Command& command) {
 
 /// What several processes compute together; the rest is for one.
 constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "study"};
+/// What keeps its state or what is finished when it is interrupted, and asks at its own places.
+constexpr std::string_view keeping_commands[] = {"compare", "contact", "oscillate", "study"};
+
+bool is_one_of(std::string_view name, std::span<const std::string_view> names) {
+  return std::ranges::find(names, name) != names.end();
+}
 
 }  // namespace
 
@@ -158,8 +167,10 @@ Command& Program::add_command(const std::string& name, const std::string& what,
       name, what, examples,
       [this, common, name, action = std::move(action), line = command_line_, check,
        &launch = launch_] {
-        if (std::ranges::find(spread_commands, name) == std::end(spread_commands))
-          require_one_process(launch, name);
+        if (!is_one_of(name, spread_commands)) require_one_process(launch, name);
+        // One of several processes that stopped alone would leave the others waiting.
+        std::optional<detail::StopCheck> stops;
+        if (launch.ranks.alone() && !is_one_of(name, keeping_commands)) stops.emplace(interrupted);
         const int threads = std::min(common->threads, parallel::most_threads());
         parallel::set_threads(threads);
         Session session(*common, line, check, launch);

@@ -222,6 +222,21 @@ TEST_CASE("What is printed never goes into an output file", "[program]") {
   test.done("statistics surface.npy");
 }
 
+TEST_CASE("SIGINT stops work that reports no progress", "[program]") {
+  const ProgramTest test;
+  test.done(
+      "generate --points 2048 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 2um "
+      "--rms-height 1um -o surface.h5");
+  // Its tables take more than a second, and were printed with status 0.
+  const auto result = test.run(
+      "statistics surface.h5 --all -o out.h5 --quiet --threads 1",
+      "(until grep -q '^SigCgt:.*[2367abef]$' /proc/$$/status; do sleep 0.01; done; sleep 0.2; kill "
+      "-INT $$) &");
+  CHECK(result.status == 130);
+  CHECK(result.out.empty());
+  CHECK(test.files() == words("surface.h5"));
+}
+
 TEST_CASE("SIGINT stops every command that computes for long, and nothing is written",
           "[program]") {
   const ProgramTest test;
