@@ -13,7 +13,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_height = std::numeric_limits<double>::quiet_NaN();
 constexpr Index enough_rows = 1024;  // to say how long all are
 
 /// For all values, of which there is a share: a vector that grows copies them, each time into
@@ -39,7 +39,7 @@ void append_undefined_column(TextRows& matrix) {
   for (Index row = rows - 1; row >= 0; --row) {
     std::copy_backward(end_of(row, columns, 0), end_of(row, columns, columns),
                        end_of(row, wider, columns));
-    *end_of(row, wider, columns) = undefined;
+    *end_of(row, wider, columns) = no_height;
   }
   matrix.columns = wider;
 }
@@ -140,7 +140,7 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
     if (all_open && !open && columns == matrix.columns + 1) {
       append_undefined_column(matrix);
     } else if (!all_open && open && columns == matrix.columns - 1) {
-      matrix.values.push_back(undefined);
+      matrix.values.push_back(no_height);
       ++columns;
     }
     all_open = all_open && open;
