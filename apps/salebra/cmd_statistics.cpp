@@ -157,7 +157,7 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
     if (all) tables = spectra(complete, *spectrum, window, convention);
   }
   const Json answer = summary(arguments, surface, undefined, fit);
-  // Of a smaller grid nobody expects an exponent.
+  // A smaller grid has too few wavelengths for an exponent, so that nobody misses it.
   constexpr Index expected = 32;
   if (spectrum && !fit.hurst.found() && std::min(surface.grid.nx, surface.grid.ny) >= expected)
     session.note(surface.periodic || spectrum->windowed ? no_hurst

@@ -9,6 +9,7 @@
 #include <salebra/damping/viscoelastic_damping.hpp>  // the loss of rubber has one face
 #include <salebra/questions/contact.hpp>
 
+#include "damping/phase_quadrature.hpp"
 #include "figures.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
@@ -134,9 +135,8 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   for (const Oscillation& motion : arguments.motion.motions())
     premises.cases.push_back(premises_of(
         law, indentation, motion,
-        at_state(
-            known, law, nullptr, indentation,
-            indentation + std::visit([](const auto& m) { return m.normal_amplitude; }, motion))));
+        at_state(known, law, nullptr, indentation,
+                 indentation + detail::normal_amplitude(motion))));
 
   Json answer = json_of(state_of(*any_law, indentation));
   answer.add(json_of(prony));

@@ -66,7 +66,7 @@ void require_one_process(const Launch& launch, std::string_view what) {
 void prepare_process(char** argv) {
   open_standard_streams();
   wait_without_spinning(argv);
-  // Started once more, the process is called after /proc/self/exe.
+  // A process that has started itself once more is called "exe", after /proc/self/exe.
   prctl(PR_SET_NAME, program_invocation_short_name);
 }
 

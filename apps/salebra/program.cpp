@@ -150,7 +150,7 @@ void declare(CLI::App& app, Command& command) {
 
 /// What several processes compute together; the rest is for one.
 constexpr std::string_view spread_commands[] = {"contact", "generate", "statistics", "study"};
-/// What keeps its state or what is finished when it is interrupted, and asks at its own places.
+/// Commands that keep what is finished when they are interrupted: they ask themselves whether to stop.
 constexpr std::string_view keeping_commands[] = {"compare", "contact", "oscillate", "study"};
 
 bool is_one_of(std::string_view name, std::span<const std::string_view> names) {

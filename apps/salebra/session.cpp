@@ -163,8 +163,8 @@ void Session::name_files(const std::deque<Option>& options) {
       require(!file.empty(), name, "''", "names no file");
       if (file == "-")
         throw InvalidInput(name, file,
-                           "is no file, and standard input and output are none; name a file, or "
-                           "write ./- where its name is -");
+                           "is no file: standard input and output are not read or written in place of "
+                           "one; name a file, or write ./- for a file of that name");
       if (option.file_use() == FileUse::output) {
         writes(name, file, option.partner());
         if (std::filesystem::path(file).extension() == ".npy")

@@ -14,6 +14,7 @@
 #include "base/quiet_gsl.hpp"
 #include "contact/quadrature.hpp"
 #include "largest_motion.hpp"
+#include "phase_quadrature.hpp"
 
 namespace salebra::closed_form {
 namespace {
@@ -61,10 +62,6 @@ double drag_integral_asymptotic_scaled(double k) {
     if (term < 1e-17 * sum) break;
   }
   return sum;
-}
-
-double normal_amplitude(const Oscillation& motion) {
-  return std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
 }
 
 double exponential_ratio_scaled(const Oscillation& motion, double k) {
@@ -157,7 +154,7 @@ double damping_constant(double work, const Oscillation& motion) {
 
 double work_per_cycle_exponential(double modulus_ratio, double reference_force, double decay_length,
                                   const Oscillation& motion) {
-  const double amplitude = std::abs(normal_amplitude(motion)), k = amplitude / decay_length;
+  const double amplitude = std::abs(detail::normal_amplitude(motion)), k = amplitude / decay_length;
   require(
       !(amplitude > detail::possible_amplitude(decay_length)), "normal_amplitude", amplitude,
       fmt::format("m takes the force beyond {:g} times that at rest, up to which an exponential "
@@ -170,7 +167,7 @@ double work_per_cycle_exponential(double modulus_ratio, double reference_force, 
 
 double work_per_cycle_exponential_held_force(double modulus_ratio, double mean_force,
                                              double decay_length, const Oscillation& motion) {
-  const double k = std::abs(normal_amplitude(motion)) / decay_length;
+  const double k = std::abs(detail::normal_amplitude(motion)) / decay_length;
   const double ratio = exponential_ratio_scaled(motion, k) / mean_force_ratio_scaled(k);
   return work_at(modulus_ratio, mean_force / square(decay_length), motion) * ratio;
 }

@@ -245,7 +245,7 @@ SurfaceDamping damping_about(double pressure, const EqualFrequency& motion, cons
 
 // A quantity over the steps of a simulated cycle, of which the last is the first of the next.
 struct Swing {
-  Swing(const CycleResult& cycle, double CycleSample::* quantity)
+  Swing(const CycleResult& cycle, double CycleSample::*quantity)
       : values(static_cast<Index>(cycle.samples.size()) - 1) {
     for (Index i = 0; i < values.size(); ++i)
       values[i] = cycle.samples[static_cast<std::size_t>(i) + 1].*quantity;

@@ -457,8 +457,8 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   const std::size_t own = options.coarsen ? 1 : 0;  // place of the cells as they are
   const std::size_t at = options.keep_cells ? std::min(own, values.size() - 1) : values.size() - 1;
   const GridValue& value = values[at];
-  // K_t grows with the indentation, so that no cycle has a negative loss: contacts that give one say
-  // nothing of it. (A loss with slip that is not asked for is NaN.)
+  // K_t grows with the indentation, so that no cycle has a negative loss: where the contacts give
+  // one, they did not resolve it. (A loss with slip that is not asked for is NaN.)
   if (value.work < 0 || value.with_slip.work < 0) return result;
   result.converged = true;
   result.work_per_cycle = value.work;

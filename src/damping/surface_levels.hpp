@@ -203,9 +203,9 @@ class Levels {
     return state;
   }
 
-  /// Takes what the tolerance left in the contact out of its force: where G(p − p*) is the gap u,
-  /// Σ(p − p*) = Σqu, since Gq = 1. What then is left of the force is round-off, so that forces of
-  /// contacts of any distance may be subtracted.
+  /// Corrects the force of a contact for the gaps that the solver's tolerance left in it. With the
+  /// exact pressures p*, the gap is u = G(p − p*), and Gq = 1 gives Σ(p − p*) = Σqu. The error that
+  /// remains is round-off, so that forces of contacts at any distance may be subtracted.
   void correct_force(StiffnessSample& sample, const Field& punch_pressure) {
     const double sum = parallel::sum_blocks(
         surface_.share(),

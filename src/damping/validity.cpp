@@ -110,7 +110,8 @@ Condition condition_of(const PremiseName& name, std::span<const Premises> cases,
 /// Slow motions alone have a number of normal cycles in their excursion.
 bool is_slow_motion(const Premises& premises) { return !std::isnan(premises.slow_motion.value); }
 
-/// That of a contact that slides as a whole: the loss is right, but no damping constant.
+/// The condition that a contact which slides as a whole breaks: its loss is right, but its γ is no
+/// damping constant.
 Condition no_damper(std::span<const Premises> cases, std::span<const double> pressures) {
   Condition one{.name = "regime",
                 .verdict = Verdict::broken,

@@ -32,8 +32,8 @@ struct ChildRun {
 };
 
 /// Runs words[0], found by found_on_path(), with these arguments and this text as its standard input,
-/// and waits for its end, within the limits; it leaves no core file. Its streams are files in memory: it neither blocks on a full pipe nor leaves
-/// anything behind. Throws IoError where the system has no room for them, Interrupted where it was
+/// and waits for its end, within the limits; it leaves no core file. Its streams are files in
+/// memory: it neither blocks on a full pipe nor leaves anything behind. Throws IoError where the system has no room for them, Interrupted where it was
 /// stopped.
 ChildRun run_child(std::vector<std::string> words, std::string_view input = "",
                    const ChildLimits& limits = {});

@@ -12,6 +12,7 @@
 #include <salebra/surface/moments.hpp>
 #include <utility>
 
+#include "damping/phase_quadrature.hpp"
 #include "stoppable_law.hpp"
 
 namespace salebra {
@@ -232,9 +233,9 @@ ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation, dou
 
 Premises ContactAnswer::premises_beside_slip(double indentation, const Oscillation& motion,
                                              const ContactFacts& known) const {
-  const double amplitude = std::visit([](const auto& m) { return m.normal_amplitude; }, motion);
+  const double deepest = indentation + detail::normal_amplitude(motion);
   Premises premises =
-      premises_of(*law, indentation, motion, facts_at(known, indentation, indentation + amplitude));
+      premises_of(*law, indentation, motion, facts_at(known, indentation, deepest));
   // What slides on does not turn back, and the loss is that at its amplitude.
   for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
                              &Premises::slow_motion, &Premises::amplitude})

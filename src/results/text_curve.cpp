@@ -20,7 +20,7 @@ namespace {
 
 /// A column of the table: what it means and what its values are multiplied by.
 struct Column {
-  double ForceSample::* member = nullptr;
+  double ForceSample::*member = nullptr;
   bool converged = false;
   double factor = 1;
 };
@@ -65,7 +65,7 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
     if (curve.nominal_area > 0 && std::isnan(sample.pressure))
       sample.pressure = sample.force / curve.nominal_area;
   }
-  const auto has = [&](double ForceSample::* member) {
+  const auto has = [&](double ForceSample::*member) {
     return std::ranges::none_of(
         curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*member); });
   };

@@ -327,7 +327,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
   for (std::size_t k = 0; k < stiffness.size(); ++k) {
     const double thermal = thermal_conductance(1 / area, modulus, 50, 400),
                  electrical = electrical_conductance(1 / area, modulus, 2e-8, 2e-8);
-    for (double EnsembleMean::* part :
+    for (double EnsembleMean::*part :
          {&EnsembleMean::mean, &EnsembleMean::low, &EnsembleMean::high}) {
       CHECK(answer.thermal_conductance[k].*part == Approx(thermal * stiffness[k].*part));
       CHECK(answer.electrical_conductance[k].*part == Approx(electrical * stiffness[k].*part));

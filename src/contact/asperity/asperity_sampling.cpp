@@ -90,7 +90,7 @@ MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material
   const double count = options.realisations;
   for (std::size_t i = 0; i < descending.size(); ++i) {
     AsperityContact mean, deviation;
-    for_each_member<AsperityContact>([&]<class Member>(Member AsperityContact::* sum) {
+    for_each_member<AsperityContact>([&]<class Member>(Member AsperityContact::*sum) {
       if constexpr (std::is_same_v<Member, double>) {
         for (const auto& contact : contacts) mean.*sum += contact[i].*sum / count;
         for (const auto& contact : contacts) {

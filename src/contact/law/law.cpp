@@ -155,7 +155,7 @@ std::vector<Column> usable_samples(const ForceCurve& curve) {
   return columns;
 }
 
-bool known(const std::vector<Column>& columns, double Column::* quantity) {
+bool known(const std::vector<Column>& columns, double Column::*quantity) {
   return std::ranges::all_of(columns, [&](const Column& column) {
     return std::isfinite(column.*quantity) && column.*quantity > 0;
   });

@@ -337,9 +337,9 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   ladder_share_ = limits.ladder_share;
   auto [level, residual] =
       dense_gap(run, false, run.load_given() && !limits.expected_level.has_value());
-  // A start that meets the tolerance is iterated once as well: of a row of contacts, of which each
-  // starts where the others lead, differences would else be those of the starts. Float does not
-  // tell how far from the solution it is.
+  // A start that meets the tolerance is iterated once as well. Otherwise, where each of several
+  // contacts starts from the one before, their differences would measure the starts. Single
+  // precision does not show how far a start is from the solution.
   if (limits.exact && residual < std::max(exact_below, limits.tolerance)) {
     const ContactResidual exact = dense_gap(run, true, true);
     level = exact.level;
