@@ -134,14 +134,16 @@ std::string preparation(const MeasuredSurface& surface) {
         fmt::format("pixel_size = [{}, {}]\n", toml_length(step->first), toml_length(step->second));
   if (!surface.lateral_unit.empty())
     lines += fmt::format("lateral_unit = {}\n", toml_string(surface.lateral_unit));
+  if (!surface.channel.empty())
+    lines += fmt::format("channel = {}\n", toml_string(surface.channel));
   if (surface.despike) lines += fmt::format("despike = {}\n", *surface.despike);
   if (const auto& part = surface.crop)
     lines += fmt::format("crop = [{}, {}, {}, {}]\n", toml_length(part->x0), toml_length(part->y0),
                          toml_length(part->x1), toml_length(part->y1));
   if (surface.fill) lines += "fill = true\n";
   return lines.empty()
-             ? "# transpose, pixel_size, lateral_unit, despike, crop, fill: as the options "
-               "of that name\n"
+             ? "# transpose, pixel_size, lateral_unit, channel, despike, crop, fill: as the "
+               "options of that name\n"
              : lines;
 }
 

@@ -27,7 +27,7 @@ std::vector<std::string> lines_of(const std::string& kind, const std::string& te
 }
 
 std::vector<std::string> import_surface(const std::filesystem::path& from,
-                                        const std::filesystem::path& to,
+                                        const std::filesystem::path& to, const std::string& channel,
                                         const UnknownFormat& refusal) {
   if (detail::found_on_path(helper).empty())
     throw InvalidInput(
@@ -40,7 +40,9 @@ std::vector<std::string> import_surface(const std::filesystem::path& from,
       .time = std::chrono::seconds(60 + std::filesystem::file_size(from) / 1'000'000),
       .memory = (std::uint64_t{1} << 30) + 64 * std::uint64_t(std::filesystem::file_size(from)),
       .stopped = interrupted};
-  const detail::ChildRun run = detail::run_child({helper, file, to.string()}, "", limits);
+  std::vector<std::string> command{helper, file, to.string()};
+  if (!channel.empty()) command.push_back("--channel=" + channel);
+  const detail::ChildRun run = detail::run_child(command, "", limits);
   if (run.start_error != 0)
     throw IoError(std::string(helper) + ": cannot be started (" + std::strerror(run.start_error) +
                   ")");

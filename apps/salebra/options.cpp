@@ -196,6 +196,9 @@ void SurfaceOptions::add_to(Command& app, bool needed, const std::string& field)
   app.add_option("--height-unit", height_unit,
                  "such as nm, for files that do not name one; default m")
       ->type_name("UNIT");
+  app.add_option("--channel", channel,
+                 "of a file with several surfaces; default: the first whose unit is a length")
+      ->type_name("NAME|NUMBER");
   app.add_flag("--transpose", transpose, "exchange x and y of the file, before anything else");
   add_quantity(app, "--despike", despike, Dimension::dimensionless,
                "make single points undefined that are so many robust standard deviations from "
@@ -225,8 +228,8 @@ namespace {
 StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& ranks) {
   require_that(options.file.empty() && !options.size_x && !options.size_y &&
                    options.height_unit.empty() && options.pixel_size.empty() &&
-                   options.lateral_unit.empty() && options.crop.empty() && !options.despike &&
-                   !options.fill && !options.transpose,
+                   options.lateral_unit.empty() && options.channel.empty() &&
+                   options.crop.empty() && !options.despike && !options.fill && !options.transpose,
                "--recipe", "given together with a file or with options of files; give one of them");
   StudyConfiguration study;
   collectively(ranks, [&] { study = read_study_configuration(options.recipe); });
@@ -247,6 +250,7 @@ MeasuredSurface SurfaceOptions::measured() const {
   surface.detrend = value_of<Detrend>(detrend);
   surface.height_unit = height_unit;
   surface.lateral_unit = lateral_unit;
+  surface.channel = channel;
   surface.transpose = transpose;
   surface.despike = despike;
   surface.fill = fill;

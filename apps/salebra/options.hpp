@@ -107,7 +107,7 @@ struct SurfaceOutline {
 struct SurfaceOptions {
   std::string file;
   std::optional<double> size_x, size_y;
-  std::string detrend, height_unit, lateral_unit;
+  std::string detrend, height_unit, lateral_unit, channel;
   std::vector<double> pixel_size, crop;
   std::optional<double> despike;
   bool fill = false, transpose = false;

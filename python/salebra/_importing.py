@@ -165,7 +165,7 @@ def _read(file: str, wanted: str | None) -> tuple[np.ndarray, np.ndarray | None,
         # As SurfaceTopography's scaled heights times the unit.
         heights = heights * factor if factor != 1.0 else heights
         positions = positions * factor if positions is not None else None
-        attributes["units"] = "m"
+        attributes["units"], attributes["source_units"] = "m", str(unit)
     sizes = topography.physical_sizes
     if "physical_sizes" not in missing:
         if factor is None:
@@ -206,10 +206,10 @@ def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *,
     return remarks
 
 
-def imported(file: str, out: str) -> list[str]:
+def imported(file: str, out: str, channel: str = "") -> list[str]:
     """import_surface() for the extension, which takes a ValueError for a refusal."""
     try:
-        return import_surface(file, out)
+        return import_surface(file, out, channel=channel or None)
     except ImportRefusal as refusal:
         raise ValueError(str(refusal)) from None
     except Exception as error:

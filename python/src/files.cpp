@@ -22,12 +22,12 @@ namespace {
 
 /// What salebra-import does, without a process.
 std::vector<std::string> import_here(const std::filesystem::path& from,
-                                     const std::filesystem::path& to,
+                                     const std::filesystem::path& to, const std::string& channel,
                                      const UnknownFormat& refusal) {
   const nb::gil_scoped_acquire held;
   try {
     return nb::cast<std::vector<std::string>>(
-        nb::module_::import_("salebra._importing").attr("imported")(from, to));
+        nb::module_::import_("salebra._importing").attr("imported")(from, to, channel));
   } catch (nb::python_error& error) {
     if (!error.matches(PyExc_ValueError)) throw;
     throw InvalidInput(from.string(),
@@ -45,7 +45,7 @@ void bind_files(nb::module_& m) {
          std::optional<double> size_y, std::optional<bool> periodic, const std::string& height_unit,
          bool transpose, const PixelSize& pixel_size, const std::string& lateral_unit,
          std::optional<double> despike, const std::optional<std::vector<double>>& crop, bool fill,
-         bool profiles, const ProcessesArgument& comm) {
+         bool profiles, const std::string& channel, const ProcessesArgument& comm) {
         const Communicator ranks = comm.ranks();
         std::vector<std::string> remarks;
         ReadOptions options;
@@ -56,6 +56,7 @@ void bind_files(nb::module_& m) {
         options.transpose = transpose;
         options.pixel_size = pixel_size_of(pixel_size);
         options.lateral_unit = lateral_unit;
+        options.channel = channel;
         options.despike = despike;
         options.crop = rectangle_of(crop);
         if (fill) options.undefined = Undefined::fill;
@@ -69,7 +70,8 @@ void bind_files(nb::module_& m) {
       nb::arg("size_y") = nb::none(), nb::arg("periodic") = nb::none(), nb::arg("height_unit") = "",
       nb::arg("transpose") = false, nb::arg("pixel_size") = nb::none(),
       nb::arg("lateral_unit") = "", nb::arg("despike") = nb::none(), nb::arg("crop") = nb::none(),
-      nb::arg("fill") = false, nb::arg("profiles") = false, nb::arg("comm") = nb::none(),
+      nb::arg("fill") = false, nb::arg("profiles") = false, nb::arg("channel") = "",
+      nb::arg("comm") = nb::none(),
       R"(Reads the heights of a surface.
 
 What the file is follows from its first bytes, not from its name: HDF5, NPY, X3P, GWY, GSF, SUR,
@@ -99,6 +101,8 @@ fill : bool
     Fill undefined points at last, see :meth:`Surface.filled`.
 profiles : bool
     Read a line profile too, as a surface of one row, for :func:`fit_profile`.
+channel : str
+    Number or name of one of several surfaces in a file of GWY, HDF5 (a dataset) or an instrument; empty: the first whose unit is a length.
 comm : mpi4py.MPI.Intracomm, optional
     Processes over which the surface is spread, as in :func:`filtered_noise`. Of an HDF5 file each reads its rows; any other is read whole by
     the first one.
@@ -112,7 +116,8 @@ InvalidInput
 Warns
 -----
 UserWarning
-    Where a size differs from the file's, the slopes are those of heights in another unit, or single points stand alone.
+    Where a size differs from the file's, the slopes are those of heights in another unit, or single points stand alone, or
+    one of several channels was taken.
 )");
   m.def(
       "write_surface",

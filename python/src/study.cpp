@@ -65,7 +65,8 @@ InvalidInput
              std::optional<double> size_x, std::optional<double> size_y,
              const std::string& height_unit, bool transpose, const PixelSize& pixel_size,
              const std::string& lateral_unit, std::optional<double> despike,
-             const std::optional<std::vector<double>>& crop, bool fill) {
+             const std::optional<std::vector<double>>& crop, bool fill,
+             const std::string& channel) {
             return with_surface(self, {file,
                                        size_x,
                                        size_y,
@@ -76,12 +77,14 @@ InvalidInput
                                        lateral_unit,
                                        despike,
                                        rectangle_of(crop),
-                                       fill});
+                                       fill,
+                                       channel});
           },
           nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),
           nb::arg("size_y") = nb::none(), nb::arg("height_unit") = "", nb::arg("transpose") = false,
           nb::arg("pixel_size") = nb::none(), nb::arg("lateral_unit") = "",
           nb::arg("despike") = nb::none(), nb::arg("crop") = nb::none(), nb::arg("fill") = false,
+          nb::arg("channel") = "",
           "`file` in place of the surfaces of the configuration, which keeps everything else. The "
           "others are those of :func:`read_surface`; few undefined points are filled without "
           "`fill`.");

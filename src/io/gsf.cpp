@@ -2,12 +2,15 @@
 // Reader and writer of Gwyddion Simple Field (.gsf).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 
 #include "atomic_file.hpp"
+#include "header_words.hpp"
 #include "loaded_surface.hpp"
 #include "stored_number.hpp"
 #include "surface_writers.hpp"
@@ -36,7 +39,8 @@ Number positive_entry(const std::filesystem::path& file, std::string_view key,
 
 }  // namespace
 
-LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view content,
+                       const std::string&) {
   LoadedSurface surface;
   surface.lateral_unit_open = true;
   Index nx = 0, ny = 0;
@@ -48,6 +52,11 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
     if (equals == std::string_view::npos) continue;
     const std::string_view key = trimmed(line.substr(0, equals));
     const std::string_view value = trimmed(line.substr(equals + 1));
+    constexpr std::array known{"XRes",   "YRes",  "XReal",   "YReal",  "XYUnits",
+                               "ZUnits", "Title", "XOffset", "YOffset"};
+    if (std::ranges::find(known, key) == known.end() && is_about_numbers(key, value))
+      refuse(file, "has the entry '" + std::string(line.substr(0, 60)) +
+                       "' in its header, which is not used; apply it, and remove it");
     if (key == "XRes") nx = positive_entry<Index>(file, key, value);
     if (key == "YRes") ny = positive_entry<Index>(file, key, value);
     if (key == "XReal") surface.size_x = positive_entry<double>(file, key, value);

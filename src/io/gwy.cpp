@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -209,32 +210,31 @@ std::string field_head(std::string_view name, const Grid2D& grid, std::string_vi
 
 }  // namespace
 
-LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view content,
+                       const std::string& channel) {
   const auto [kind, whole] = Bytes(file, content.substr(gwy_magic.size())).object();
   if (kind != "GwyContainer") refuse(file, "holds no GwyContainer; is it a file of Gwyddion 2?");
   const Components container = components_of(file, whole);
-  // The first channel of heights; where none names a unit, the first of all.
-  std::map<std::uint32_t, Components> channels;
+  std::map<std::uint32_t, Components> fields;
   for (const auto& [name, value] : container)
-    if (const auto channel = channel_of(name))
+    if (const auto number = channel_of(name))
       if (auto field = object_in(file, container, name, "GwyDataField"))
-        channels[*channel] = std::move(*field);
-  if (channels.empty()) refuse(file, "holds no channel; export one from Gwyddion");
-  auto chosen = channels.end();
-  for (auto it = channels.begin(); it != channels.end() && chosen == channels.end(); ++it)
-    if (metres_in(unit_in(file, it->second, "si_unit_z"))) chosen = it;
-  for (auto it = channels.begin(); it != channels.end() && chosen == channels.end(); ++it)
-    if (unit_in(file, it->second, "si_unit_z").empty()) chosen = it;
-  if (chosen == channels.end())
-    refuse(file, "holds no channel of heights: the unit of its first one is '" +
-                     unit_in(file, channels.begin()->second, "si_unit_z") + "'");
-
-  const auto& [number, field] = *chosen;
+        fields[*number] = std::move(*field);
+  if (fields.empty()) refuse(file, "holds no channel; export one from Gwyddion");
+  std::vector<Channel> channels;
+  for (const auto& [number, field] : fields) {
+    const auto title = container.find("/" + std::to_string(number) + "/data/title");
+    const bool is_named = title != container.end() && title->second.type == 's';
+    channels.push_back({std::to_string(number), is_named ? std::string(title->second.value) : "",
+                        unit_in(file, field, "si_unit_z")});
+  }
+  LoadedSurface surface;
+  const auto chosen = chosen_channel(file, channels, channel, surface);
+  const auto& [number, field] = *std::next(fields.begin(), static_cast<std::ptrdiff_t>(chosen));
+  surface.unit = channels[chosen].unit;
   const std::string_view values = values_of(file, field);
   const auto nx = number_in<std::int32_t>(file, field, "xres", 'i'),
              ny = number_in<std::int32_t>(file, field, "yres", 'i');
-  LoadedSurface surface;
-  surface.unit = unit_in(file, field, "si_unit_z");
   const std::string plane_unit = unit_in(file, field, "si_unit_xy");
   const double metres = plane_unit.empty() ? 1 : metres_per(file, plane_unit);
   surface.lateral_unit_open = plane_unit.empty();

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "hdf5_document.hpp"
+#include "header_words.hpp"
 #include "loaded_surface.hpp"
 #include "surface_importer.hpp"
 
@@ -13,21 +14,35 @@ namespace {
 
 using namespace hdf5;
 
-/// `heights`, or the only two-dimensional dataset at the root.
-std::string heights_name(const Document& document) {
-  if (document.find("heights")) return "heights";
-  std::string found, refused;
+std::string unit_of(const Document& document, const Object& dataset) {
+  const std::string unit = dataset.text("units").value_or("");
+  return unit.empty() ? document.group("/").text("units").value_or("") : unit;
+}
+
+/// `channel`, else `heights`, else the only two-dimensional dataset at the root.
+std::string heights_name(const Document& document, const std::string& channel,
+                         LoadedSurface& surface) {
+  surface.has_channels = true;
+  if (!channel.empty() && document.find(channel)) return channel;
+  std::vector<Channel> found;
+  const bool has_heights = document.find("heights") != nullptr;
+  if (has_heights) found.push_back({"", "heights", ""});
+  std::string refused;
   for (const auto& [name, kind] : document.group("/").members) {
     if (kind == Object::Kind::refused) refused = name;
-    if (kind == Object::Kind::group || kind == Object::Kind::refused) continue;
-    if (document.dataset(name).shape.size() != 2) continue;
-    if (!found.empty())
-      refuse_unknown(document.path(),
-                     "has several two-dimensional datasets at its root and none "
-                     "of them is named heights; name it so");
-    found = name;
+    if (kind == Object::Kind::group || kind == Object::Kind::refused || name == "heights") continue;
+    const Object& dataset = document.dataset(name);
+    // Beside heights, maps of pressures and the like are no channels.
+    const std::string unit = unit_of(document, dataset);
+    if (dataset.shape.size() == 2 && (!has_heights || unit.empty() || metres_in(unit)))
+      found.push_back({"", name, ""});
   }
-  if (!found.empty()) return found;
+  if (channel.empty() && !has_heights && found.size() > 1)
+    refuse_unknown(document.path(),
+                   "has several two-dimensional datasets at its root, " + found[0].name + " and " +
+                       found[1].name +
+                       " among them, and none is named heights; name one by `channel`");
+  if (!found.empty()) return found[chosen_channel(document.path(), found, channel, surface)].name;
   if (!refused.empty()) return refused;
   refuse_unknown(document.path(),
                  "has no dataset heights (nx, ny) at its root; store the surface there");
@@ -43,6 +58,20 @@ std::optional<double> number_of(const Document& document, const Object& object,
   refuse(document.path(), "has an attribute " + name + " that is not one number; correct it");
 }
 
+/// Refuses attributes that speak of units, scales or masks and are not among those that are used.
+void require_used(const Document& document, const Object& object, const std::string& whose,
+                  const std::set<std::string_view>& used) {
+  for (const auto& [name, value] : object.attributes) {
+    if (used.contains(name)) continue;
+    const std::string word = plain_word(name);
+    for (const char* meaning : {"unit", "scale", "factor", "offset", "fill", "missing", "nodata",
+                                "valid", "mask", "gain", "calibration"})
+      if (word.find(meaning) != std::string::npos)
+        refuse(document.path(),
+               "has an attribute " + name + whose + ", which is not used; apply it, and remove it");
+  }
+}
+
 /// Turns stored numbers into heights as the conventions for climate and forecast data (CF) have it:
 /// marks of undefined points are stored numbers, and so are the limits of valid ones.
 void unpack(const Document& document, const Object& object, std::span<double> values) {
@@ -50,19 +79,10 @@ void unpack(const Document& document, const Object& object, std::span<double> va
   const auto fill = number("_FillValue"), missing = number("missing_value"),
              least = number("valid_min"), greatest = number("valid_max"),
              scale = number("scale_factor"), offset = number("add_offset");
-  const std::set<std::string_view> used{"_FillValue",   "missing_value", "valid_min", "valid_max",
-                                        "scale_factor", "add_offset",    "units"};
-  for (const auto& [name, value] : object.attributes) {
-    if (used.contains(name)) continue;
-    std::string word = name;
-    for (char& symbol : word)
-      if (symbol >= 'A' && symbol <= 'Z') symbol = static_cast<char>(symbol - 'A' + 'a');
-    for (const char* meaning : {"unit", "scale", "factor", "offset", "fill", "missing", "nodata",
-                                "valid", "mask", "gain", "calibration"})
-      if (word.find(meaning) != std::string::npos)
-        refuse(document.path(), "has an attribute " + name +
-                                    " of its heights, which is not used; apply it, and remove it");
-  }
+  require_used(document, object, " of its heights",
+               {"_FillValue", "missing_value", "valid_min", "valid_max", "scale_factor",
+                "add_offset", "units"});
+  require_used(document, document.group("/"), "", {"units", "source_units"});
   if (object.attributes.end() !=
           std::ranges::find(object.attributes, "units",
                             &decltype(object.attributes)::value_type::first) &&
@@ -78,7 +98,8 @@ void unpack(const Document& document, const Object& object, std::span<double> va
 }
 
 /// One-dimensional heights, with their positions `x` or an attribute size_x.
-LoadedSurface read_profile(const Document& document, const std::string& name) {
+LoadedSurface read_profile(const Document& document, const std::string& name,
+                           LoadedSurface profile) {
   const auto column = [&](const std::string& of) {
     const Object& object = document.numeric(of);
     std::vector<double> values(object.count());
@@ -88,37 +109,41 @@ LoadedSurface read_profile(const Document& document, const std::string& name) {
   };
   const std::vector<double> heights = column(name);
   const Object& root = document.group("/");
-  LoadedSurface profile;
   if (document.find("x")) {
     std::vector<double> positions = column("x");
     if (const auto unit = document.dataset("x").text("units"); unit && !unit->empty()) {
       const double metres = metres_per(document.path(), *unit);
       for (double& position : positions) position *= metres;
     }
-    profile = profile_of(document.path(), positions, heights);
+    LoadedSurface even = profile_of(document.path(), positions, heights);
+    even.remarks.insert(even.remarks.begin(), profile.remarks.begin(), profile.remarks.end());
+    even.has_channels = true;
+    profile = std::move(even);
   } else {
     profile.is_profile = true;
     profile.heights = Eigen::Map<const Eigen::ArrayXd>(heights.data(), Index(heights.size()));
     profile.size_x = root.number("size_x");
   }
-  for (const Object* object : {&document.dataset(name), &root})
-    if (profile.unit.empty()) profile.unit = object->text("units").value_or("");
+  profile.unit = unit_of(document, document.dataset(name));
+  profile.stated_unit = root.text("source_units").value_or("");
   return profile;
 }
 
 }  // namespace
 
-LoadedSurface read_hdf5(const std::filesystem::path& file, const Communicator& ranks) {
+LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& channel,
+                        const Communicator& ranks) {
   const Document document{InputFile(file)};
-  const std::string name = heights_name(document);
+  LoadedSurface surface;
+  const std::string name = heights_name(document, channel, surface);
   const Object& heights = document.dataset(name);
   const Object& root = document.group("/");
-  if (heights.shape.size() == 1 && ranks.alone()) return read_profile(document, name);
+  if (heights.shape.size() == 1 && ranks.alone())
+    return read_profile(document, name, std::move(surface));
   if (heights.shape.size() != 2 || heights.shape[0] == 0 || heights.shape[1] == 0)
     refuse(document.path(),
            "has heights that are not two-dimensional with nx, ny >= 1; store heights (nx, ny)");
   document.numeric(name);
-  LoadedSurface surface;
   const auto number = [&](const char* key) {
     const auto value = heights.number(key);
     return value ? value : root.number(key);
@@ -126,8 +151,8 @@ LoadedSurface read_hdf5(const std::filesystem::path& file, const Communicator& r
   surface.size_x = number("size_x");
   surface.size_y = number("size_y");
   if (const auto periodic = number("periodic")) surface.periodic = *periodic != 0;
-  for (const Object* object : {&heights, &root})
-    if (surface.unit.empty()) surface.unit = object->text("units").value_or("");
+  surface.unit = unit_of(document, heights);
+  surface.stated_unit = root.text("source_units").value_or("");
   const Share share(ranks, static_cast<Index>(heights.shape[0]));
   surface.rows = share.rows();
   surface.heights = heights_of(file, share.count(), static_cast<Index>(heights.shape[1]));

@@ -2,8 +2,11 @@
 // Table of the words of headers: English, German, French, and Japanese in Latin letters.
 #include "header_words.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
+
+#include "header_tokens.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -221,6 +224,28 @@ Meaning meaning_of(std::string_view word) {
   constexpr int most_parts = 4;
   const Meaning parts = meaning_of_parts(plain, most_parts);
   return parts ? parts : unknown;
+}
+
+bool is_about_numbers(std::string_view key, std::string_view value) {
+  const auto is_joint = [](char symbol) {
+    return (symbol >= ' ' && symbol < '0') || symbol == ':' || symbol == '_';
+  };
+  Meaning all = 0;
+  while (!key.empty()) {
+    const auto end = std::ranges::find_if(key, is_joint);
+    const auto word = std::string_view(key.begin(), end);
+    if (!word.empty()) all |= meaning_of(word);
+    key = std::string_view(end == key.end() ? end : end + 1, key.end());
+  }
+  if (all & (harmless | result | index)) return (all & (unit | factor | missing | mask)) != 0;
+  if (all & carrying) return true;
+  using Kind = HeaderToken::Kind;
+  const auto bears = [](const HeaderToken& token) {
+    return token.kind == Kind::number || token.kind == Kind::length || token.kind == Kind::other ||
+           token.kind == Kind::ratio;
+  };
+  return (all & unknown) && (is_length_unit(value) || is_other_unit(value) ||
+                             std::ranges::any_of(header_tokens(value), bears));
 }
 
 }  // namespace salebra::detail

@@ -52,4 +52,8 @@ std::string plain_word(std::string_view word);
 /// "Pixelgröße", "ScanSizeX".
 Meaning meaning_of(std::string_view word);
 
+/// Whether an entry of a file, such as "z_scale = 2", is about the numbers of the file: their unit,
+/// scale, spacing or mask. One whose key has unknown words is so if its value has a number or a unit.
+bool is_about_numbers(std::string_view key, std::string_view value);
+
 }  // namespace salebra::detail

@@ -31,14 +31,29 @@ struct LoadedSurface {
   std::optional<double> size_y;  ///< m
   std::optional<bool> periodic;
   std::string unit;                ///< of the heights; empty where the file names none
+  std::string stated_unit = {};    ///< as the file states it, where the reader has converted it
   bool lateral_unit_open = false;  ///< the sizes are in a unit that the file does not name
   bool is_profile = false;         ///< one row
+  bool has_channels = false;       ///< the reader chose one by ReadOptions::channel
   std::vector<OpenQuestion> questions = {};
   std::vector<std::string> remarks = {};  ///< on what it says and the reader did not use
 };
 
 /// InvalidInput "<file>: <what>".
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what);
+
+/// One of the surfaces of a file.
+struct Channel {
+  std::string number;  ///< empty: it is called by its name alone
+  std::string name;    ///< may be empty
+  std::string unit;    ///< of its values; empty: unknown
+};
+
+/// The index of the channel with this number or name. Where `wanted` is empty, it is that of the
+/// first length, else of the first without a unit, and `surface` gets a remark on the others.
+/// Throws InvalidInput where no channel has that name, several have it, or none can be heights.
+std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<Channel>& channels,
+                           const std::string& wanted, LoadedSurface& surface);
 
 /// Room for the heights of a file, not initialised. Throws InvalidInput where they do not fit into
 /// the memory that is free.
@@ -69,7 +84,8 @@ LoadedSurface read_text(const InputFile& input);
 
 /// Any format but HDF5, by its first bytes. `file` is only named in messages, and where a sidecar
 /// may lie.
-LoadedSurface read_content(const std::filesystem::path& file, std::string_view content);
+LoadedSurface read_content(const std::filesystem::path& file, std::string_view content,
+                           const std::string& channel = {});
 
 /// A surface as it was read.
 struct ReadSurface {
@@ -86,6 +102,7 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
 
 /// The reader of HDF5; those of other formats are in surface_formats.cpp.
 /// ranks: each gets its rows.
-LoadedSurface read_hdf5(const std::filesystem::path& file, const Communicator& ranks = {});
+LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& channel = {},
+                        const Communicator& ranks = {});
 
 }  // namespace salebra::detail

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reader of NumPy arrays (.npy), with size and unit from the JSON file next to them.
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
@@ -7,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checksum.hpp"
+#include "header_words.hpp"
 #include "input_file.hpp"
 #include "loaded_surface.hpp"
 #include "sidecar.hpp"
@@ -124,6 +127,14 @@ void read_sidecar(const std::filesystem::path& file, std::string_view content,
       refuse(sidecar, "describes another array than that of " + file.filename().string() +
                           ": its checksum differs; write both again, or remove the entry checksum "
                           "if the size is right");
+    // These say how it was made; others may say how it is to be read.
+    constexpr std::array known{"size_x",       "size_y",        "periodic", "units",     "checksum",
+                               "origin",       "program",       "version",  "libraries", "created",
+                               "command_line", "configuration", "seed"};
+    for (const auto& [key, value] : json.items())
+      if (std::ranges::find(known, key) == known.end() &&
+          is_about_numbers(key, value.is_string() ? value.get<std::string>() : value.dump()))
+        refuse(sidecar, "has an entry '" + key + "', which is not used; apply it, and remove it");
     if (json.contains("size_x")) surface.size_x = json.at("size_x").get<double>();
     if (json.contains("size_y")) surface.size_y = json.at("size_y").get<double>();
     if (json.contains("periodic")) surface.periodic = json.at("periodic").get<bool>();
@@ -136,7 +147,8 @@ void read_sidecar(const std::filesystem::path& file, std::string_view content,
 
 }  // namespace
 
-LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface read_npy(const std::filesystem::path& file, std::string_view content,
+                       const std::string&) {
   constexpr std::size_t magic = 6;
   const auto byte = [&](std::size_t i) -> std::size_t {
     if (i >= content.size()) refuse(file, "ends within its NPY header; it is truncated");

@@ -58,17 +58,19 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
   try {
     const detail::InputFile input(file);
     // HDF5 is read through its own library, which need not hold the whole file.
-    if (input.is_hdf5()) return detail::read_hdf5(file);
+    if (input.is_hdf5()) return detail::read_hdf5(file, options.channel);
     if (detail::is_plain_text(input)) return detail::read_text(input);
-    return detail::read_content(file, detail::file_content(input));
+    return detail::read_content(file, detail::file_content(input), options.channel);
   } catch (const UnknownFormat& refusal) {
     if (surface_importer == nullptr || options.known_formats) throw;
     // An importer reads HDF5 by a library that follows what the file says to other files.
     if (detail::InputFile(file).may_be_hdf5()) throw;
     const ScratchFolder scratch;
-    std::vector<std::string> remarks = surface_importer(file, scratch / "surface.h5", refusal);
+    std::vector<std::string> remarks =
+        surface_importer(file, scratch / "surface.h5", options.channel, refusal);
     detail::LoadedSurface loaded = detail::read_hdf5(scratch / "surface.h5");
     loaded.remarks = std::move(remarks);
+    loaded.has_channels = true;
     return loaded;
   }
 }
@@ -150,8 +152,53 @@ std::string file_content(const InputFile& input) {
   return content;
 }
 
-LoadedSurface read_content(const std::filesystem::path& file, std::string_view content) {
-  return entry_of(content).read(file, content);
+LoadedSurface read_content(const std::filesystem::path& file, std::string_view content,
+                           const std::string& channel) {
+  return entry_of(content).read(file, content, channel);
+}
+
+std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<Channel>& channels,
+                           const std::string& wanted, LoadedSurface& surface) {
+  surface.has_channels = true;
+  const auto text = [](const Channel& channel) {
+    if (channel.number.empty()) return channel.name;
+    return channel.number + (channel.name.empty() ? "" : " (" + channel.name + ")");
+  };
+  // Those of one kind but for one of them.
+  const auto list = [&](const auto& kind, const Channel* without) {
+    std::string names;
+    for (const Channel& channel : channels)
+      if (&channel != without && kind(channel))
+        names += (names.empty() ? "" : ", ") + text(channel);
+    return names;
+  };
+  const auto any = [](const Channel&) { return true; };
+  if (!wanted.empty()) {
+    auto found = std::ranges::find(channels, wanted, &Channel::number);
+    if (found == channels.end()) {
+      found = std::ranges::find(channels, wanted, &Channel::name);
+      const bool is_only = std::ranges::count(channels, wanted, &Channel::name) == 1;
+      require(is_only, "channel", wanted,
+              fmt::format("is {} of {}, which has {}; give one of them",
+                          found == channels.end() ? "no channel" : "the name of several channels",
+                          file.string(), list(any, nullptr)));
+    }
+    return static_cast<std::size_t>(found - channels.begin());
+  }
+  const auto is_length = [](const Channel& channel) { return metres_in(channel.unit).has_value(); };
+  const auto is_bare = [](const Channel& channel) { return channel.unit.empty(); };
+  const auto first_of = [&](const auto& kind) -> std::optional<std::size_t> {
+    const auto found = std::ranges::find_if(channels, kind);
+    if (found == channels.end()) return {};
+    if (const std::string others = list(kind, &*found); !others.empty())
+      surface.remarks.push_back(fmt::format(
+          "channel {} was taken; the others are {}; see `channel`", text(*found), others));
+    return found - channels.begin();
+  };
+  if (const auto found = first_of(is_length)) return *found;
+  if (const auto found = first_of(is_bare)) return *found;
+  refuse(file, "holds no channel of heights: the unit of its first one is '" +
+                   channels.front().unit + "'");
 }
 
 std::optional<double> metres_in(const std::string& unit) {
@@ -249,10 +296,11 @@ void answer_questions(const std::filesystem::path& file, const ReadOptions& opti
     loaded.remarks.push_back(question.text.substr(0, question.text.rfind(';')));
   }
   if (options.height_unit.empty() || loaded.unit.empty()) return;
-  const auto given = metres_in(options.height_unit), stated = metres_in(loaded.unit);
+  const std::string& unit = loaded.stated_unit.empty() ? loaded.unit : loaded.stated_unit;
+  const auto given = metres_in(options.height_unit), stated = metres_in(unit);
   require(given && stated && std::abs(*given / *stated - 1) < 1e-9, "height_unit",
           options.height_unit,
-          "was given, and " + file.string() + " states the unit of its heights, '" + loaded.unit +
+          "was given, and " + file.string() + " states the unit of its heights, '" + unit +
               "'; leave it out");
 }
 
@@ -260,6 +308,9 @@ void answer_questions(const std::filesystem::path& file, const ReadOptions& opti
 
 ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
                       const ReadOptions& options) {
+  require(
+      options.channel.empty() || loaded.has_channels, "channel", options.channel,
+      "was given, and " + file.string() + " is of a format that holds one surface; leave it out");
   answer_questions(file, options, loaded);
   ReadSurface read{
       .names_unit = !loaded.unit.empty(),
@@ -477,8 +528,9 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
     // Each process reads its rows itself.
     require_one_file(file, ranks);
     detail::ReadSurface rows;
-    collectively(ranks,
-                 [&] { rows = detail::completed(file, detail::read_hdf5(file, ranks), options); });
+    collectively(ranks, [&] {
+      rows = detail::completed(file, detail::read_hdf5(file, options.channel, ranks), options);
+    });
     rows.surface.ranks = ranks;
     const bool complete = options.undefined == Undefined::keep ||
                           ranks.all_agree(rows.surface.undefined_points() == 0);

@@ -51,8 +51,11 @@ enum class Inversion : std::int16_t { none, heights, along_x, along_y };
 
 }  // namespace
 
-LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface read_sur(const std::filesystem::path& file, std::string_view content,
+                       const std::string&) {
   if (content.size() < header_size) refuse(file, "ends within its SUR header; it is truncated");
+  if (content.starts_with("DSCOMPRESSED"))
+    refuse_unknown(file, "is a SUR file whose points are compressed; save it uncompressed");
   const SurHeader header(content);
   if (header.int16(14) > 1)
     refuse_unknown(file, "holds " + std::to_string(header.int16(14)) +
@@ -71,7 +74,12 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
     refuse(file, "declares more points than it holds; it is truncated");
 
   LoadedSurface surface;
-  surface.unit = "m";
+  surface.stated_unit = header.words(212);
+  // Heights whose unit is not stated are as the user says.
+  if (!surface.stated_unit.empty()) surface.unit = "m";
+  surface.lateral_unit_open = header.words(180).empty();
+  if (surface.lateral_unit_open != header.words(196).empty())
+    refuse(file, "states the unit of its size along one axis alone; is it a SUR file?");
   const auto length = [&](std::size_t step, std::size_t unit) {
     return header.float32(step) * metres_per(file, header.words(unit));
   };

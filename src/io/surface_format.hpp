@@ -15,7 +15,8 @@ namespace salebra::detail {
 /// A row of the table of formats, from which reader and writer are chosen, and which help, docs and
 /// fuzzers list.
 struct SurfaceFormatEntry {
-  using Read = LoadedSurface(const std::filesystem::path& file, std::string_view content);
+  using Read = LoadedSurface(const std::filesystem::path& file, std::string_view content,
+                             const std::string& channel);
   using Write = void(const std::filesystem::path& file, const Surface& surface,
                      const Provenance& provenance, const WriteOptions& options);
 

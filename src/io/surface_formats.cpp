@@ -50,7 +50,7 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
        write_gwy,
        {"Gwyddion",
         {".gwy"},
-        "first channel of heights",
+        "a channel of heights",
         "yes",
         "exact",
         "exact",
@@ -71,7 +71,7 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
         "lost",
         "lost"}},
       {"sur",
-       {"DIGITAL SURF"},
+       {"DIGITAL SURF", "DSCOMPRESSED"},
        read_sur,
        nullptr,
        {"Digital Surf", {".sur"}, "16 and 32 bits", "", "", "", "marked value", "", ""}},
@@ -102,7 +102,7 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
 namespace salebra {
 namespace {
 
-std::string extensions_with(std::string_view SurfaceFormat::*use) {
+std::string extensions_with(std::string_view SurfaceFormat::* use) {
   std::string list;
   for (const SurfaceFormat& format : surface_formats())
     if (!(format.*use).empty())

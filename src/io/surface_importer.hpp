@@ -15,10 +15,11 @@ class UnknownFormat : public InvalidInput {
 };
 
 /// Writes the surface in `from` as the HDF5 file `to`, as read_surface reads it. refusal: why it is
-/// not read here. Returns lines for ReadOptions::remarks. Throws InvalidInput naming the file where
+/// not read here; channel: as ReadOptions has it. Returns lines for ReadOptions::remarks. Throws InvalidInput naming the file where
 /// it cannot.
 using SurfaceImporter = std::vector<std::string> (*)(const std::filesystem::path& from,
                                                      const std::filesystem::path& to,
+                                                     const std::string& channel,
                                                      const UnknownFormat& refusal);
 
 /// Who is asked from now on for files of unknown formats; nullptr, as at the start: nobody, and they

@@ -495,7 +495,8 @@ class TextReader {
 
 }  // namespace
 
-LoadedSurface read_text(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface read_text(const std::filesystem::path& file, std::string_view content,
+                        const std::string&) {
   return TextReader(file, {require_text(file, content)}).read();
 }
 

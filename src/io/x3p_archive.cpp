@@ -74,12 +74,31 @@ std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* a
   return content;
 }
 
+/// The folder of main.xml within the archive, with its slash: whoever packs a folder by hand has it
+/// in front of all names.
+std::string folder_of(const std::filesystem::path& file, zip_t* archive) {
+  constexpr std::string_view end = "/main.xml";
+  if (zip_name_locate(archive, "main.xml", 0) >= 0) return "";
+  std::string folder;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(archive, 0); ++i) {
+    const char* found = zip_get_name(archive, static_cast<zip_uint64_t>(i), 0);
+    const std::string_view name = found ? found : "";
+    if (!name.ends_with(end)) continue;
+    if (!folder.empty())
+      refuse(file, "holds several folders with a main.xml; pack the surface of one of them");
+    folder = name.substr(0, name.size() - end.size() + 1);
+  }
+  return folder;
+}
+
 }  // namespace
 
-LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content) {
+LoadedSurface read_x3p(const std::filesystem::path& file, std::string_view content,
+                       const std::string&) {
   const Archive archive = opened(file, content);
+  const std::string folder = folder_of(file, archive.get());
   return x3p_surface(file, [&](const std::string& name, std::optional<std::uint64_t> bytes) {
-    return extracted(file, archive.get(), name, bytes, content.size());
+    return extracted(file, archive.get(), folder + name, bytes, content.size());
   });
 }
 

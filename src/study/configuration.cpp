@@ -205,6 +205,7 @@ MeasuredSurface detail::read_measured(TomlTable& table, const std::filesystem::p
     surface.pixel_size = {steps.front(), steps.back()};
   }
   surface.lateral_unit = table.text("lateral_unit").value_or("");
+  surface.channel = table.text("channel").value_or("");
   surface.despike = table.quantity("despike", Dimension::dimensionless);
   surface.fill = table.flag("fill").value_or(false);
   if (const auto sides = table.values("crop", Dimension::length); !sides.empty()) {
@@ -464,6 +465,7 @@ ReadOptions MeasuredSurface::reading() const {
   options.pixel_size = pixel_size;
   options.lateral_unit = lateral_unit;
   options.height_unit = height_unit;
+  options.channel = channel;
   options.despike = despike;
   options.crop = crop;
   options.undefined = fill ? Undefined::fill : Undefined::fill_few;

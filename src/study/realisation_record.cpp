@@ -38,7 +38,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
     bytes += bytes_of(checksum_of(measured.file), checksum_of(sidecar_of(measured.file)),
                       measured.size_x, measured.size_y, measured.detrend, measured.height_unit,
                       measured.transpose, measured.pixel_size, measured.lateral_unit,
-                      measured.despike, measured.crop, measured.fill);
+                      measured.despike, measured.crop, measured.fill, measured.channel);
   }
   // The first of several surfaces states the error of all.
   bytes += bytes_of(point.material, point.pressures, point.relative_pressures, point.tolerance,

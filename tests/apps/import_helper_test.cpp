@@ -34,6 +34,13 @@ const std::string first = "PATH=\"$PWD/bin:$PATH\";";
 
 }  // namespace
 
+TEST_CASE("The helper is told which channel the user wants", "[import]") {
+  const ProgramTest test;
+  lay_helper(test, "bin", "echo \"salebra-import: error: $1: was asked for $3\" >&2\nexit 2\n");
+  test.write("noise.bin", noise());
+  check_refused(test.run("statistics noise.bin --channel=-1", first), "was asked for --channel=-1");
+}
+
 TEST_CASE("No file with the signature of HDF5 is handed to the helper", "[hostile]") {
   const ProgramTest test;
   lay_helper(test, "bin", "exit 1\n");
@@ -66,8 +73,8 @@ TEST_CASE("A signal ends a helper that never ends", "[hostile]") {
   for (const std::string sign : {"INT", "TERM"}) {
     INFO(sign);
     const auto start = std::chrono::steady_clock::now();
-    const auto result = test.run("statistics noise.bin", first + " me=$$; (sleep 0.3; kill -" +
-                                                             sign + " $me) &");
+    const auto result =
+        test.run("statistics noise.bin", first + " me=$$; (sleep 0.3; kill -" + sign + " $me) &");
     CHECK(result.status == 130);
     CHECK(was_called(test));
     // 0.3 s, the start of two programs, and a look each 20 ms.
@@ -82,9 +89,12 @@ TEST_CASE("A second signal of another kind ends the command at once", "[hostile]
   // The first one ends it in order within some 20 ms: the second may come too late, but not always.
   int status = 0;
   for (int k = 0; k < 20 && status != -15; ++k)
-    status = test.run("statistics noise.bin",
-                      first + " me=$$; (sleep 0.2; kill -INT $me; sleep 0.003; kill -TERM $me) 2>/dev/null &")
-                 .status;
+    status =
+        test.run(
+                "statistics noise.bin",
+                first +
+                    " me=$$; (sleep 0.2; kill -INT $me; sleep 0.003; kill -TERM $me) 2>/dev/null &")
+            .status;
   CHECK(status == -15);
 }
 
@@ -93,8 +103,8 @@ TEST_CASE("Only absolute folders of PATH are searched for the helper", "[hostile
   test.write("noise.bin", noise());
   lay_helper(test, ".", "exit 1\n");
   lay_helper(test, "bin", "exit 1\n");
-  for (const std::string path : {":/usr/bin:/bin", "/usr/bin::/bin", "/usr/bin:/bin:", ".:/bin",
-                                 "bin:/bin", ""}) {
+  for (const std::string path :
+       {":/usr/bin:/bin", "/usr/bin::/bin", "/usr/bin:/bin:", ".:/bin", "bin:/bin", ""}) {
     INFO(path);
     check_refused(test.run("statistics noise.bin", "PATH='" + path + "';"),
                   "pip install 'salebra[formats]'");

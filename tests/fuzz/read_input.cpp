@@ -98,7 +98,7 @@ struct Target {
 
 const std::map<std::string, Target, std::less<>>& targets() {
   static const auto surface = [](detail::SurfaceFormatEntry::Read* read) {
-    return [read](const std::string& input) { complete("input", read("input", input)); };
+    return [read](const std::string& input) { complete("input", read("input", input, "")); };
   };
   static const std::map<std::string, Target, std::less<>> all = [] {
     std::map<std::string, Target, std::less<>> some{

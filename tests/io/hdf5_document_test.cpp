@@ -3,7 +3,7 @@
 // over.
 #include "io/hdf5_document.hpp"
 
-#include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -14,6 +14,7 @@
 #include <optional>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
+#include <salebra/io/write_surface.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -146,6 +147,57 @@ TEST_CASE("Bytes of an outline are judged before anything is made of them", "[hd
   refused();
   CHECK(detail::from_bytes<bool>("\1", "truth"));
   CHECK_THROWS_WITH(detail::from_bytes<bool>("\2", "truth"), Catch::Contains("damaged"));
+}
+
+TEST_CASE("Of several maps of HDF5 the one that is named is read", "[hdf5]") {
+  const Scratch scratch;
+  const auto file = scratch / "maps.h5";
+  const auto written = [&](const std::vector<const char*>& names) {
+    const hid_t made = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Gclose(H5Gcreate2(made, "scan", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    const hsize_t shape[]{2, 2};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::vector<double> values(4, double(i + 1));
+      H5LTmake_dataset_double(made, names[i], 2, shape, values.data());
+      H5LTset_attribute_string(made, names[i], "units", i == 2 ? "Pa" : "m");
+    }
+    H5Fclose(made);
+  };
+  std::vector<std::string> remarks;
+  const auto height = [&](const std::string& channel) {
+    remarks.clear();
+    return read_surface(file, {.size_x = 1, .size_y = 1, .channel = channel, .remarks = &remarks})
+        .heights(0, 0);
+  };
+  written({"heights", "backward", "pressure", "scan/trace"});
+  CHECK(height("") == 1);
+  REQUIRE_FALSE(remarks.empty());
+  CHECK_THAT(remarks[0],
+             Catch::Contains("channel heights was taken; the others are backward; see `channel`"));
+  CHECK(height("backward") == 2);
+  CHECK(height("scan/trace") == 4);
+  CHECK_THROWS_WITH(height("pressure"), Catch::Contains("'Pa'"));
+  CHECK_THROWS_WITH(height("forward"), Catch::Contains("channel: forward is no channel of"));
+  written({"a", "b"});
+  CHECK_THROWS_WITH(height(""),
+                    Catch::Contains("a and b among them") && Catch::Contains("`channel`"));
+  CHECK(height("b") == 2);
+}
+
+TEST_CASE("An attribute at the root of HDF5 that may change the heights is refused", "[hdf5]") {
+  const Scratch scratch;
+  const auto file = scratch / "scaled.h5";
+  const auto read_with = [&](const char* attribute) {
+    write_surface(file, {{2, 2, 1, 1}, Field::Zero(2, 2), true, "test"}, {}, {.overwrite = true});
+    const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    const double value = 2;
+    H5LTset_attribute_double(opened, "/", attribute, &value, 1);
+    H5Fclose(opened);
+    return read_surface(file);
+  };
+  for (const char* attribute : {"z_scale", "scale_factor", "Height unit"})
+    CHECK_THROWS_WITH(read_with(attribute), Catch::Contains(std::string("attribute ") + attribute));
+  CHECK_NOTHROW(read_with("serial"));
 }
 
 TEST_CASE("Attributes of the conventions for climate data make heights of stored numbers",

@@ -295,6 +295,24 @@ TEST_CASE("NPY arrays of every kind are read alike", "[read]") {
   refused(std::string("\x93NUMPY\1\0\xff\xff{", 11), "truncated");
 }
 
+TEST_CASE("An entry of a sidecar that is not used is refused if it may change the heights",
+          "[read]") {
+  const Scratch scratch;
+  write_surface(scratch / "scan.npy", Surface{{6, 4, 1, 1}, Field::Random(6, 4), true, "test"});
+  std::ifstream stream(scratch / "scan.npy.json");
+  const std::string written{std::istreambuf_iterator<char>(stream), {}};
+  const auto read_with = [&](const std::string& entry) {
+    scratch.file("scan.npy.json", "{" + entry + "," + written.substr(written.find('{') + 1));
+    return read_surface(scratch / "scan.npy");
+  };
+  for (const char* key : {"unit", "height_unit", "scale", "z_factor", "pixel_size", "nodata", "Lx"})
+    CHECK_THROWS_WITH(read_with("\"" + std::string(key) + "\": 2"),
+                      Contains("entry '" + std::string(key) + "', which is not used"));
+  for (const char* entry : {"\"serial\": 4711", "\"comment\": \"3 nm of gold\"",
+                            "\"measured on date\": \"2024-05-01\"", "\"anything\": true"})
+    CHECK_NOTHROW(read_with(entry));
+}
+
 TEST_CASE("A unit that the file states is not given by the user as well", "[read]") {
   const Scratch scratch;
   const std::string size = "# Width: 2 um\n# Height: 2 um\n", heights = "1 2\n3 4\n";
@@ -335,7 +353,8 @@ TEST_CASE("A SUR file is refused where it is cut or of another kind", "[read]") 
   };
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, 511))), InvalidInput);
   CHECK_THROWS_WITH(read_surface(measured / "sur-2.sur", {.height_unit = "um"}),
-                    Contains("states the unit of its heights"));
+                    Contains("states the unit of its heights, 'mm'"));
+  CHECK_NOTHROW(read_surface(measured / "sur-2.sur", {.height_unit = "mm"}));
   CHECK_THROWS_AS(read_surface(scratch.file("a.sur", content.substr(0, content.size() - 1))),
                   InvalidInput);
   // A private zone of more than 32767 bytes moves the heights beyond the end.
@@ -346,6 +365,15 @@ TEST_CASE("A SUR file is refused where it is cut or of another kind", "[read]") 
   refused(98, 8, "bits");               // bits of a point
   refused(14, 2, "one surface");        // objects in the file
   refused(212, 'V', "unit of length");  // unit of heights
+  refused(180, '\0', "one axis alone");
+  CHECK_THROWS_WITH(read_surface(scratch.file("a.sur", "DSCOMPRESSED" + content.substr(12))),
+                    Contains("points are compressed"));
+  // A file without the unit of its heights takes it from the user.
+  std::string bare = content;
+  bare.replace(212, 16, 16, ' ');
+  const Field stated = read_surface(measured / "sur-2.sur").heights;
+  const Field given = read_surface(scratch.file("bare.sur", bare), {.height_unit = "um"}).heights;
+  CHECK((stated.isNaN() || (given - 1e-3 * stated).abs() <= 1e-15 * stated.abs()).all());
 }
 
 TEST_CASE("A SUR file of a replica is turned over, with the axis that it names", "[read]") {

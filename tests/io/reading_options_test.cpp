@@ -185,7 +185,8 @@ namespace {
 std::filesystem::path asked, given;
 
 std::vector<std::string> import_waves(const std::filesystem::path& from,
-                                      const std::filesystem::path& to, const UnknownFormat&) {
+                                      const std::filesystem::path& to, const std::string&,
+                                      const UnknownFormat&) {
   asked = from;
   given = to;
   write_surface(to, waves());
@@ -193,7 +194,7 @@ std::vector<std::string> import_waves(const std::filesystem::path& from,
 }
 
 std::vector<std::string> import_nothing(const std::filesystem::path& from,
-                                        const std::filesystem::path&,
+                                        const std::filesystem::path&, const std::string&,
                                         const UnknownFormat& refusal) {
   throw InvalidInput(from.string(), refusal.statement() + "; nor by the importer");
 }

@@ -114,6 +114,34 @@ TEST_CASE("A file of Gwyddion: the first channel of heights, its mask, its size"
   CHECK(surface.undefined_points() == 1);
 }
 
+TEST_CASE("Of several channels of Gwyddion the one that is named is read", "[formats]") {
+  const Scratch scratch;
+  const auto ones = [](double height) { return std::vector<double>(6, height); };
+  const auto file = scratch.file(
+      "channels.gwy", gwy(channel("/0/data", "V", ones(8)) + text("/0/data/title", "Error") +
+                          channel("/2/data", "m", ones(2)) + text("/2/data/title", "Trace") +
+                          channel("/3/data", "m", ones(3)) + text("/3/data/title", "Retrace") +
+                          channel("/5/data", "m", ones(5)) + text("/5/data/title", "Retrace")));
+  std::vector<std::string> remarks;
+  const auto height = [&](const std::string& wanted) {
+    return read_surface(file, {.channel = wanted, .remarks = &remarks}).heights(0, 0);
+  };
+  CHECK(height("") == 2);
+  REQUIRE_FALSE(remarks.empty());
+  CHECK_THAT(remarks[0], Contains("channel 2 (Trace) was taken; the others are 3 (Retrace), 5 "
+                                  "(Retrace); see `channel`"));
+  remarks.clear();
+  CHECK(height("Trace") == 2);
+  CHECK(height("5") == 5);
+  for (const std::string& remark : remarks) CHECK_THAT(remark, !Contains("channel"));
+  CHECK_THROWS_WITH(height("Retrace"), Contains("name of several channels"));
+  CHECK_THROWS_WITH(height("4"), Contains("channel: 4 is no channel of") && Contains("0 (Error)"));
+  CHECK_THROWS_WITH(height("Error"), Contains("'V', which is no unit of length"));
+  write_surface(scratch / "one.gsf", read_surface(file));
+  CHECK_THROWS_WITH(read_surface(scratch / "one.gsf", {.channel = "2"}),
+                    Contains("of a format that holds one surface"));
+}
+
 TEST_CASE("A file of Gwyddion without units is in metres, or as the user says", "[formats]") {
   const Scratch scratch;
   const auto file = scratch.file("bare.gwy", gwy(channel("/0/data", "", hills)));
@@ -141,6 +169,13 @@ TEST_CASE("Units of a simple field come from it, or from the user where it has n
   CHECK(read_surface(stated, {.lateral_unit = "um", .remarks = &remarks}).grid.lx == 4);
   CHECK_THROWS_WITH(read_surface(stated, {.height_unit = "nm"}),
                     Catch::Contains("states the unit of its heights"));
+  for (const std::string entry : {"ZUnit = nm", "ZScale = 1e-9", "Pixel size = 2 um", "NoData = 4",
+                                  "Lx = 4e-6", "Mystery = nm"})
+    CHECK_THROWS_WITH(read_surface(field("ZUnits = m\n" + entry + "\n")),
+                      Contains("'" + entry + "'"));
+  for (const std::string entry : {"Serial number = 4711", "Date = 2024-05-01 12:30", "Bias = 1 V",
+                                  "Comment = 3 nm of gold", "XOffset = 2", "Mystery = yes"})
+    CHECK(read_surface(field("ZUnits = m\n" + entry + "\n")).heights(1, 0) == 2);
 }
 
 TEST_CASE("What is written for Gwyddion is a container of its data fields", "[formats]") {

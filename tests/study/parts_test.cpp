@@ -145,20 +145,14 @@ TEST_CASE("The key of a realisation changes with what decides it, and with nothi
       {"tolerance", [](StudyConfiguration& c) { c.tolerance = 1e-9; }},
       {"hardness", [](StudyConfiguration& c) { c.known.hardness = 1e9; }},
       {"stick", [](StudyConfiguration& c) { c.stick = false; }},
-      {"window",
-       [](StudyConfiguration& c) {
-         c.window = PressureWindow{1e6, 1e8, 0};
-       }},
+      {"window", [](StudyConfiguration& c) { c.window = PressureWindow{1e6, 1e8, 0}; }},
       {"models", [](StudyConfiguration& c) { c.models = c.compared_models; }},
       {"velocity", [](StudyConfiguration& c) { std::get<Drag>(c.motion).drag_velocity *= 2; }},
       {"frequency", [](StudyConfiguration& c) { std::get<Drag>(c.motion).angular_frequency *= 2; }},
       {"normal_amplitude",
        [](StudyConfiguration& c) { std::get<Drag>(c.motion).normal_amplitude *= 2; }},
       {"amplitude", [](StudyConfiguration& c) { c.damping.amplitude = Amplitude::small; }},
-      {"motion",
-       [](StudyConfiguration& c) {
-         c.motion = EqualFrequency{1e-10, 1e-9, 1, 1e5};
-       }},
+      {"motion", [](StudyConfiguration& c) { c.motion = EqualFrequency{1e-10, 1e-9, 1, 1e5}; }},
       {"hold", [](StudyConfiguration& c) { c.damping.hold = Hold::force; }},
   };
   for (const auto& [name, change] : changes) {
@@ -197,6 +191,9 @@ TEST_CASE("The key of a measured surface changes with all that is read of it", "
   CHECK(key_of(other) != key);
   other = plain;
   other.height_unit = "nm";
+  CHECK(key_of(other) != key);
+  other = plain;
+  other.channel = "2";
   CHECK(key_of(other) != key);
   other = plain;
   other.detrend = Detrend::quadratic;

@@ -33,6 +33,9 @@ struct ReadOptions {
   std::optional<double> despike = {};  ///< threshold of find_spikes(), which become undefined
   std::optional<Rectangle> crop = {};  ///< m, in the coordinates of the whole
   Undefined undefined = Undefined::keep;
+  std::string channel =
+      {};  ///< number or name of one of several surfaces in GWY, HDF5 (dataset) and
+           ///< imported files; empty: the first whose unit is a length
   bool known_formats = false;  ///< whoever was set to import others is not asked
   bool profiles = false;  ///< a line profile is read as a surface of one row; else it is refused
   std::vector<std::string>* remarks =

@@ -108,6 +108,7 @@ struct MeasuredSurface {
   std::optional<double> despike = {};
   std::optional<Rectangle> crop = {};
   bool fill = false;
+  std::string channel = {};
 
   /// How read_surface() is to read it.
   ReadOptions reading() const;
@@ -116,7 +117,7 @@ struct MeasuredSurface {
 constexpr void describe(auto&& visit, std::type_identity<MeasuredSurface>) {
   using S = MeasuredSurface;
   keep(visit, &S::file, &S::size_x, &S::size_y, &S::detrend, &S::height_unit, &S::transpose,
-       &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill);
+       &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill, &S::channel);
 }
 
 /// Parameters that take several values each; an empty list leaves the value of the surface table.
