@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surface from the main.xml and the binary members of an X3P file.
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <pugixml.hpp>
 #include <utility>
@@ -63,6 +65,19 @@ class Description {
     if (value < 1) wrong(path);
     return value;
   }
+  /// Refuses entries and attributes below `path` that are not `known`: a unit, for example.
+  void require_nothing_but(const char* path, std::initializer_list<std::string_view> known) const {
+    for (const pugi::xml_node& entry : root_.first_element_by_path(path).children()) {
+      if (entry.type() != pugi::node_element) continue;
+      const std::string name = entry.name();
+      const bool is_known = std::ranges::find(known, name) != known.end();
+      if (!is_known || entry.first_attribute())
+        refuse(file_, std::string("has ") + (*path ? std::string(path) + "/" : "") + name +
+                          (is_known ? std::string("/@") + entry.first_attribute().name() : "") +
+                          " in its main.xml, which is not used; remove it if it says nothing about "
+                          "the heights");
+    }
+  }
   [[noreturn]] void wrong(const char* path) const {
     refuse(file_, std::string("has ") + path + " = '" + std::string(words(path).substr(0, 24)) +
                       "' in its main.xml, which cannot be; correct it");
@@ -101,6 +116,11 @@ void require_height_map(const std::filesystem::path& file, const Description& de
                        " is not I); resample them on one");
   if (description.required("Record1/Axes/CZ/AxisType") != "A")
     description.wrong("Record1/Axes/CZ/AxisType");
+  for (const char* axis : {"Record1/Axes/CX", "Record1/Axes/CY", "Record1/Axes/CZ"})
+    description.require_nothing_but(axis, {"AxisType", "DataType", "Increment", "Offset"});
+  description.require_nothing_but("Record1/Axes", {"CX", "CY", "CZ", "Rotation"});
+  description.require_nothing_but("Record1", {"Revision", "FeatureType", "Axes"});
+  description.require_nothing_but("Record3/MatrixDimension", {"SizeX", "SizeY", "SizeZ"});
   if (description.number("Record3/MatrixDimension/SizeZ", 1) != 1)
     refuse(file, "holds several layers; save one of them");
   if (!description.has("Record3/DataLink"))
@@ -142,6 +162,7 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
   surface.size_x = std::abs(step_x) * static_cast<double>(nx);
   surface.size_y = std::abs(step_y) * static_cast<double>(ny);
   surface.heights = heights_of(file, nx, ny);
+  Index infinite = 0;
   // Points may be listed against the direction of an axis; x and y grow with ix and iy all the
   // same.
   for (Index row = 0; row < ny; ++row) {
@@ -149,10 +170,17 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
     for (Index column = 0; column < nx; ++column) {
       const Index ix = step_x > 0 ? column : nx - 1 - column;
       const auto place = static_cast<std::size_t>(row * nx + column);
-      surface.heights(ix, iy) =
-          type.read(data->data() + type.bytes() * place, std::endian::little) * step_z + offset_z;
+      const double stored = type.read(data->data() + type.bytes() * place, std::endian::little);
+      // Some programs mark points without a height as infinite.
+      infinite += std::isinf(stored);
+      surface.heights(ix, iy) = std::isinf(stored) ? std::numeric_limits<double>::quiet_NaN()
+                                                   : stored * step_z + offset_z;
     }
   }
+  if (infinite > 0)
+    surface.remarks.push_back("has " + std::to_string(infinite) +
+                              (infinite == 1 ? " infinite height, which counts as undefined"
+                                             : " infinite heights, which count as undefined"));
   if (const std::string mask_name(description.words("Record3/DataLink/ValidPointsLink"));
       !mask_name.empty()) {
     const auto valid = member(mask_name, (points + 7) / 8);

@@ -138,6 +138,44 @@ TEST_CASE("X3P masks points by bits, the least first", "[x3p]") {
                     Contains("valid.bin") && Contains("asks for 1"));
 }
 
+TEST_CASE("X3P that was packed as a folder is read, several folders are not", "[x3p]") {
+  const Scratch scratch;
+  const std::string xml = replaced(main_xml, ">data.bin", ">bindata/data.bin");
+  const Members one{{"scan/main.xml", xml}, {"scan/bindata/data.bin", heights}};
+  CHECK(read_surface(archive(scratch, one)).heights(1, 0) == Approx(15e-9));
+  Members two = one;
+  two["other/main.xml"] = xml;
+  CHECK_THROWS_WITH(read_surface(archive(scratch, two)), Contains("several folders"));
+}
+
+TEST_CASE("Infinite heights of X3P are undefined points", "[x3p]") {
+  const Scratch scratch;
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::string xml = replaced(main_xml, "<DataType>I</DataType>", "<DataType>D</DataType>");
+  std::vector<std::string> remarks;
+  const Surface surface = read_surface(
+      archive(scratch, {{"main.xml", xml},
+                        {"data.bin", bytes_of<double>({1, infinity, 3, -infinity, 5, 6})}}),
+      {.remarks = &remarks});
+  CHECK(std::isnan(surface.heights(1, 0)));
+  CHECK(std::isnan(surface.heights(0, 1)));
+  CHECK(surface.undefined_points() == 2);
+  REQUIRE(remarks.size() == 1);
+  CHECK_THAT(remarks[0], Contains("2 infinite heights"));
+}
+
+TEST_CASE("An entry of X3P that the standard does not have is refused by name", "[x3p]") {
+  const Scratch scratch;
+  const auto [from, to, name] = GENERATE(table<std::string, std::string, std::string>(
+      {{"</CZ>", "<Unit>um</Unit></CZ>", "Record1/Axes/CZ/Unit"},
+       {"<Increment>1E-9", "<Increment unit=\"um\">1E-9", "Record1/Axes/CZ/Increment/@unit"},
+       {"</Axes>", "<Scale>2</Scale></Axes>", "Record1/Axes/Scale"},
+       {"</Record1>", "<Unit>um</Unit></Record1>", "Record1/Unit"}}));
+  CHECK_THROWS_WITH(read_surface(archive(scratch, {{"main.xml", replaced(main_xml, from, to)},
+                                                   {"data.bin", heights}})),
+                    Contains(name + " in its main.xml, which is not used"));
+}
+
 TEST_CASE("X3P that is no height map, or damaged, says what it lacks", "[x3p]") {
   const Scratch scratch;
   const auto refused = [&](const Members& members, const std::string& why) {
