@@ -95,12 +95,18 @@ std::vector<ForceCurve> read_force_curves(const ResultReader& reader, const std:
   std::vector<Column> columns;
   for (const auto& [quantity, member] : detail::curve_quantities())
     if (const std::string name(quantity.name); reader.has(group + "/" + name)) {
+      columns.emplace_back(member, column(name));
       const std::string_view si = si_unit(quantity.dimension);
       const auto units = reader.text_attribute(group + "/" + name, "units").value_or("");
-      if (!units.empty() && units != si)
-        detail::refuse(reader.file(), fmt::format("has {}/{} in '{}', which must be in {}", group,
-                                                  name, printable_line(units), si));
-      columns.emplace_back(member, column(name));
+      if (units.empty() || units == si) continue;
+      double factor = 0;
+      try {
+        factor = parse_quantity("1 " + units, quantity.dimension, "units");
+      } catch (const InvalidInput&) {
+        detail::refuse(reader.file(), fmt::format("has {}/{} in '{}', which is no unit like {}",
+                                                  group, name, printable_line(units), si));
+      }
+      for (double& value : columns.back().second) value *= factor;
     }
   if (!length) detail::refuse(reader.file(), "holds no force curve in its group " + group);
   const std::vector<double> converged =

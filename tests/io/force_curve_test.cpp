@@ -105,10 +105,10 @@ TEST_CASE("A curve in a table is read with its units, in the order of rising for
   CHECK(curve.samples[1].mean_gap == Approx(100e-9).epsilon(1e-14));
 }
 
-TEST_CASE("A curve of HDF5 in other units than SI is refused", "[curve file]") {
+TEST_CASE("A curve of HDF5 is converted from the units that it states", "[curve file]") {
   const Scratch scratch;
   const std::vector<double> values{1, 2};
-  for (const char* units : {"Pa", "MPa"}) {
+  for (const char* units : {"Pa", "MPa", "V"}) {
     const auto file = scratch / (std::string(units) + ".h5");
     ResultFile results(file, {}, {});
     ResultGroup curve = results.group("curve");
@@ -118,8 +118,9 @@ TEST_CASE("A curve of HDF5 in other units than SI is refused", "[curve file]") {
     results.commit();
   }
   CHECK(read_force_curve(scratch / "Pa.h5").samples[1].pressure == 2);
-  CHECK_THROWS_WITH(read_force_curve(scratch / "MPa.h5"),
-                    Contains("curve/pressure in 'MPa', which must be in Pa"));
+  CHECK(read_force_curve(scratch / "MPa.h5").samples[1].pressure == 2e6);
+  CHECK_THROWS_WITH(read_force_curve(scratch / "V.h5"),
+                    Contains("curve/pressure in 'V', which is no unit like Pa"));
 }
 
 TEST_CASE("A table that is no curve is refused with the reason", "[curve file]") {
