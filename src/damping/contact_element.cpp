@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {
@@ -126,6 +127,7 @@ LawLevels::LawLevels(const ContactLaw& law, double lowest, double highest,
   require(std::isfinite(lowest) && std::isfinite(highest) && lowest <= highest, "lowest", lowest,
           "and highest must be finite and in this order");
   require(law.force(highest) > 0, "highest", highest, "m is where nothing touches");
+  detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
   const int half = options.levels / 2;
   std::vector<double> nodes;
   for (int i = 0; i <= half; ++i) nodes.push_back(lowest + (highest - lowest) * i / half);

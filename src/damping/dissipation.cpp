@@ -154,6 +154,14 @@ struct NormalCycle {
   double stiffness_at_middle, stiffness_at_bottom, stiffness_at_top;
 };
 
+double mean_of_force(const ContactLaw& law, double mean_indentation, double amplitude) {
+  require_covered(law, mean_indentation, amplitude);
+  auto force = [&](double angle) {
+    return law.force(mean_indentation + amplitude * std::cos(angle));
+  };
+  return detail::integrate(force, break_angles(law, mean_indentation, amplitude), 1e-12).value / pi;
+}
+
 // W for a square_velocity of 1.
 detail::Integral work_factor(const NormalCycle& cycle, const Kernel& kernel, double tolerance) {
   // A constant may be taken off K_t, and what is left hardly cancels.
@@ -211,7 +219,7 @@ void set_finite(DampingResult& result, const ContactLaw& law, double middle, con
   require_covered(law, middle, amplitude);
   require_representable(law, middle, amplitude);
   set_state(result, law, middle);
-  result.mean_force = mean_force_of_cycle(law, middle, amplitude);
+  result.mean_force = mean_of_force(law, middle, amplitude);
   const NormalCycle cycle{
       [&](double angle) { return law.tangential_stiffness(middle + amplitude * std::cos(angle)); },
       break_angles(law, middle, amplitude), law.tangential_stiffness(middle),
@@ -227,6 +235,7 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
   const double small_factor = small_amplitude_factor(law, law.force_curvature(settled), kernel);
   DampingResult result;
   if (options.amplitude == Amplitude::small) {
+    detail::require_possible(law, settled, 0);
     set_state(result, law, settled);
     result.mean_force = result.force;
     set_work(result, {small_factor, 0, true}, kernel);
@@ -258,6 +267,8 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
   };
   DampingResult result;
   set_state(result, law, law.indentation_of(mean_force));
+  detail::require_possible(law, result.indentation,
+                           law.indentation_of(mean_force + force_amplitude) - result.indentation);
   result.mean_force = mean_force;
   kernel.normal_amplitude = force_amplitude / result.normal_stiffness;
   const double small_factor = small_amplitude_factor(law, result.force_curvature, kernel);
@@ -300,11 +311,8 @@ double indentation_of(const ContactLaw& law, const Position& position) {
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
   require_finite(mean_indentation, "indentation");
   require_amplitude(amplitude);
-  require_covered(law, mean_indentation, amplitude);
-  auto force = [&](double angle) {
-    return law.force(mean_indentation + amplitude * std::cos(angle));
-  };
-  return detail::integrate(force, break_angles(law, mean_indentation, amplitude), 1e-12).value / pi;
+  detail::require_possible(law, mean_indentation, amplitude);
+  return mean_of_force(law, mean_indentation, amplitude);
 }
 
 double indentation_at_mean_force(const ContactLaw& law, double mean_force, double amplitude) {
@@ -317,11 +325,14 @@ double indentation_at_mean_force(const ContactLaw& law, double mean_force, doubl
   const double high = std::min(settled + amplitude, law.highest_indentation() - amplitude);
   if (!(low <= high)) require_covered(law, settled, amplitude);
   auto excess = [&](double indentation) {
-    return mean_force_of_cycle(law, indentation, amplitude) - mean_force;
+    return mean_of_force(law, indentation, amplitude) - mean_force;
   };
   if (!(excess(low) <= 0)) require_covered(law, low - amplitude, amplitude);
   if (!(excess(high) >= 0)) require_covered(law, high + amplitude, amplitude);
-  return detail::find_root(excess, low, high);
+  const double indentation = detail::find_root(excess, low, high);
+  detail::require_possible(
+      law, settled, amplitude, [&](double) { return indentation; }, Hold::force);
+  return indentation;
 }
 
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
@@ -36,26 +37,49 @@ double mean_pressure(const IndenterLaw& law, double indentation) {
   return law.force(indentation) / (std::numbers::pi * radius * radius);
 }
 
+// A cone has its mean pressure at every load, whatever it is.
+bool is_above_modulus(const IndenterLaw& law, double indentation) {
+  if (!(indentation > 0)) return false;
+  const double pressure = mean_pressure(law, indentation);
+  return pressure > law.contact_modulus() &&
+         pressure > 1.001 * mean_pressure(law, 0.5 * indentation);
+}
+
+// The largest number up to `asked` at which nothing is beyond its limit, as nothing is at `possible`.
+double largest_possible(double possible, double asked,
+                        const std::function<bool(double)>& is_beyond) {
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (possible + asked);
+    (is_beyond(middle) ? asked : possible) = middle;
+  }
+  return possible;
+}
+
 void require_possible(const IndenterLaw& law, double rest, double amplitude,
                       const std::function<double(double)>& middle_at) {
-  const auto pressure_under = [&](double one) { return mean_pressure(law, middle_at(one) + one); };
-  const double limit = law.contact_modulus(), most = pressure_under(amplitude);
-  if (!(most > limit)) return;
-  const double at_rest = rest > 0 ? mean_pressure(law, rest) : 0;
-  // A cone has this pressure at every load.
-  if (!(most > 1.001 * at_rest)) return;
+  const auto is_beyond = [&](double one) { return is_above_modulus(law, middle_at(one) + one); };
+  if (!is_beyond(amplitude)) return;
   const std::string beyond = fmt::format(
       "m presses the contact to a mean of {}, above the contact modulus of {}, which "
       "no elastic contact reaches; ",
-      in_words(most, Dimension::pressure), in_words(limit, Dimension::pressure));
-  require(at_rest < limit, "indentation", rest, beyond + "reduce the load");
-  double possible = 0, above = amplitude;
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = 0.5 * (possible + above);
-    (pressure_under(middle) > limit ? above : possible) = middle;
-  }
+      in_words(mean_pressure(law, middle_at(amplitude) + amplitude), Dimension::pressure),
+      in_words(law.contact_modulus(), Dimension::pressure));
+  require(!is_above_modulus(law, rest), "indentation", rest, beyond + "reduce the load");
+  const double possible = largest_possible(0, amplitude, is_beyond);
   require(false, "normal_amplitude", amplitude,
           beyond + fmt::format("at most {} here", in_words(possible, Dimension::length)));
+}
+
+// rest: where the exponential law bears the force of which it holds most_force_ratio times.
+void require_possible_exponential(double length, double rest, double mean, double amplitude,
+                                  const char* remedy) {
+  const double most = possible_amplitude(length) + (rest - mean);
+  require(amplitude <= most, "normal_amplitude", amplitude,
+          fmt::format("m takes the force to {:.2g} times that at rest, and an exponential law "
+                      "holds up to {:g} times; at most {} here; {}give a `curve` that "
+                      "covers the motion",
+                      std::exp((mean + amplitude - rest) / length), most_force_ratio,
+                      in_words(most, Dimension::length), remedy));
 }
 
 }  // namespace
@@ -71,13 +95,31 @@ void require_possible(const ContactLaw& law, double rest, double amplitude,
                       const std::function<double(double)>& middle_at, std::optional<Hold> hold) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
     return require_possible(*indenter, rest, amplitude, middle_at);
-  const double most = hold == Hold::force ? infinity : possible_amplitude(law, rest);
-  require(amplitude <= most, "normal_amplitude", amplitude,
-          fmt::format("m takes the force to {:.2g} times that at rest, and an exponential law "
-                      "holds up to {:g} times; at most {} here; {}give a `curve` that "
-                      "covers the motion",
-                      std::exp(amplitude / most * std::log(most_force_ratio)), most_force_ratio,
-                      in_words(most, Dimension::length), hold ? "hold the mean force, or " : ""));
+  if (hold == Hold::force) return;
+  if (const double length = decay_length_of(law, rest); std::isfinite(length))
+    require_possible_exponential(length, rest, rest, amplitude,
+                                 hold ? "hold the mean force, or " : "");
+}
+
+void require_possible(const ContactLaw& law, double mean_indentation, double amplitude) {
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
+    return require_possible(*indenter, mean_indentation, amplitude,
+                            [&](double) { return mean_indentation; });
+  const double rest = std::max(mean_indentation, 0.0);
+  double length = decay_length_of(law, rest);
+  // The force at a far higher one may be no number.
+  if (std::isnan(length)) length = decay_length_of(law, 0);
+  if (std::isfinite(length))
+    require_possible_exponential(length, rest, mean_indentation, amplitude, "");
+}
+
+double possible_indentation(const ContactLaw& law, double rest, double asked) {
+  if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law)) {
+    const auto is_beyond = [&](double one) { return is_above_modulus(*indenter, one); };
+    return is_beyond(asked) ? largest_possible(0, asked, is_beyond) : asked;
+  }
+  const double length = decay_length_of(law, rest);
+  return std::isfinite(length) ? std::min(asked, rest + possible_amplitude(length)) : asked;
 }
 
 }  // namespace salebra::detail

@@ -30,6 +30,14 @@ void require_possible(const ContactLaw& law, double rest, double amplitude,
                       const std::function<double(double)>& middle_at,
                       std::optional<Hold> hold = {});
 
+/// The same of a mean indentation at which the contact need not rest, because a mean force may be
+/// held there. An exponential law then rests at 0, where it counts its indentation from, or higher.
+/// A power law has no modulus, and with it no scale of its pressure: it has no limit.
+void require_possible(const ContactLaw& law, double mean_indentation, double amplitude);
+
+/// The highest indentation up to `asked` to which a contact that rests at `rest` can be pressed.
+double possible_indentation(const ContactLaw& law, double rest, double asked);
+
 /// As relaxation_damping(), of a mean indentation at which the contact does not rest: one that
 /// holds its mean force, or is searched over amplitudes.
 DampingResult damping_about(const ContactLaw& law, double mean_indentation, const Motion& motion,

@@ -684,6 +684,7 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   const ContinuedLaw law(given);
   const double amplitude = motion.amplitude;
   require_positive(amplitude, "normal_amplitude");
+  detail::require_possible(given, motion.mean, amplitude);
   const double length = length_of(law, motion.mean, amplitude);
   Premises premises;
   premises.plasticity = plasticity_of(
@@ -804,6 +805,7 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
   const ContinuedLaw law(given);
   const JudgedMotion one = case_of(law, mean_indentation, motion);
   require_positive(one.amplitude, "normal_amplitude");
+  detail::require_possible(given, one.mean, one.amplitude);
   const double full_stick = one.loss(one.amplitude) * one.displacement * one.displacement;
   const double limit = friction_coefficient / law.stiffness_ratio(one.mean), unit = limit * limit;
   const double displacement = std::abs(one.displacement) / limit;
@@ -831,6 +833,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
                      const std::vector<double>& excursions, double friction_coefficient) {
   check(normal, velocities, excursions, friction_coefficient);
   const double amplitude = normal.normal_amplitude, omega = normal.angular_frequency;
+  detail::require_possible(given, mean_indentation, amplitude);
   const ContinuedLaw law(given);
   // Displacements below stand for the velocity.
   const Drag drag{amplitude, amplitude * omega, omega};

@@ -9,6 +9,7 @@
 #include <salebra/damping/stress_map.hpp>
 
 #include "contact/quadrature.hpp"
+#include "largest_motion.hpp"
 
 namespace salebra {
 namespace {
@@ -37,6 +38,7 @@ OscillatingStress::OscillatingStress(const IndenterLaw& law, double mean_indenta
     require_positive(drag->angular_frequency, "angular_frequency");
   // A profile that ends too early is refused here and not in the middle of a map.
   static_cast<void>(law.contact_radius(mean_indentation + amplitude_));
+  detail::require_possible(law, mean_indentation, amplitude_);
   // cos θ = −δ0/u_z where the contact opens.
   open_angle_ = mean_indentation_ < amplitude_
                     ? half_angle(amplitude_ + mean_indentation_, amplitude_ - mean_indentation_)

@@ -9,6 +9,7 @@
 
 #include "base/special_values.hpp"
 #include "base/stop_check.hpp"
+#include "largest_motion.hpp"
 
 namespace salebra {
 namespace {
@@ -81,6 +82,8 @@ void set_series(TrajectoryDamping& result, const std::vector<double>& force,
 TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion& path,
                                      const TrajectoryDampingOptions& options) {
   path.validate();
+  const auto [lowest, highest] = std::ranges::minmax(path.indentation);
+  detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
   const auto [low_x, high_x] = std::ranges::minmax(path.displacement);
   const bool stick = std::isinf(options.friction_coefficient);
   const bool drifts = moves_on(path);
@@ -95,7 +98,7 @@ TrajectoryDamping trajectory_damping(const ContactLaw& law, const SampledMotion&
   const auto bottom = std::ranges::min_element(path.indentation);
   const std::size_t first = static_cast<std::size_t>(bottom - path.indentation.begin()) % count;
   TangentialContact contact(
-      law, *bottom, std::ranges::max(path.indentation),
+      law, lowest, highest,
       {.friction_coefficient = options.friction_coefficient,
        .tangential_range = slides ? std::numeric_limits<double>::infinity() : high_x - low_x});
 

@@ -12,6 +12,7 @@
 #include "base/loop_progress.hpp"
 #include "base/stop_check.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
+#include "largest_motion.hpp"
 #include "surface/dense_systems.hpp"
 
 namespace salebra {
@@ -261,6 +262,7 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   const std::vector<double> normal_moves = differences(trajectory.indentation);
   const std::vector<double> moves = differences(trajectory.displacement);
   const auto [lowest, highest] = std::ranges::minmax(trajectory.indentation);
+  detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
 
   ViscoelasticDamping result;
   result.converged = true;

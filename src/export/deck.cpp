@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "damping/largest_motion.hpp"
 #include "formats.hpp"
 #include "questions/part.hpp"
 
@@ -31,9 +32,11 @@ void set_range(DeckContact& contact) {
     contact.lowest = law.lowest_indentation();
     contact.highest = law.highest_indentation();
   } else if (!std::isnan(contact.indentation)) {
+    detail::require_possible(law, contact.indentation, 0);
     const double force = law.force(contact.indentation);
     contact.lowest = law.indentation_of(lowest_share * force);
-    contact.highest = law.indentation_of(highest_share * force);
+    contact.highest = detail::possible_indentation(law, contact.indentation,
+                                                   law.indentation_of(highest_share * force));
   }
 }
 
@@ -96,6 +99,11 @@ Range common_range(const DeckQuestion& question) {
       const double area = contact.nominal_area;
       lowest = contact.law->indentation_of(question.pressure_window->first * area);
       highest = contact.law->indentation_of(question.pressure_window->second * area);
+      const double rest = std::isnan(contact.indentation) ? lowest : contact.indentation;
+      const double most = detail::possible_indentation(*contact.law, rest, highest);
+      require(!(highest > most), "pressure_window", question.pressure_window->second,
+              fmt::format("Pa is a pressure that this contact cannot reach; at most {}",
+                          format_quantity(contact.law->force(most) / area, Dimension::pressure, 3)));
     }
     range.far = std::min(range.far, contact.clearance_origin - lowest);
     range.close = std::max(range.close, contact.clearance_origin - highest);

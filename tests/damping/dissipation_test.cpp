@@ -6,7 +6,13 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/contact_element.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/friction_map.hpp>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/stress_map.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/viscoelastic_damping.hpp>
 
 #include "spring_foundation.hpp"
 
@@ -152,6 +158,65 @@ TEST_CASE("An oscillation ends where no contact has the pressure of the law", "[
   Drag fast = slow_drag(1e-9);
   fast.drag_velocity = 1e200;
   CHECK_THROWS_AS(relaxation_damping(law, AtForce{10}, fast), InvalidInput);
+}
+
+TEST_CASE("Each function of a law and a motion refuses one beyond any contact", "[dissipation]") {
+  const double decay_length = 27e-9, possible = decay_length * std::log(1e4);
+  const ExponentialLaw law(10, decay_length, ratio);
+  const auto refuses = [](const auto& asked, const char* most) {
+    CHECK_THROWS_WITH(asked(1.001), Catch::Contains(most));
+    CHECK_NOTHROW(asked(0.999));
+  };
+  const auto path_to = [&](double highest) {
+    const double middle = -0.5 * possible;
+    return sample(slow_drag(highest - middle), middle, 64);
+  };
+  // Paths and levels have their middle at -l ln(10⁴)/2, and the law rests at 0.
+  const char *about_rest = "at most 249 nm", *of_path = "at most 373 nm";
+  refuses([&](double f) { return mean_force_of_cycle(law, 0, f * possible); }, about_rest);
+  refuses([&](double f) { return loss_with_slip(law, 0, slow_drag(f * possible), 0.3, 1e-6); },
+          about_rest);
+  refuses([&](double f) { return premises_of(law, 0, slow_drag(f * possible)); }, about_rest);
+  refuses([&](double f) { return regime_map(law, 0, {f * possible, 1e5}, {1e-6}, {1e-4}, 0.3); },
+          about_rest);
+  refuses([&](double f) { return friction_map(law, 0, f * possible, 1e-9, {1}, {pi / 2}); },
+          about_rest);
+  refuses([&](double f) { return trajectory_damping(law, path_to(f * possible)); }, of_path);
+  refuses([&](double f) { return premises_of(law, path_to(f * possible)); }, of_path);
+  refuses([&](double f) { return LawLevels(law, -2 * possible, f * possible); }, of_path);
+  CHECK_THROWS_WITH(LawLevels(law, 0, 1e5 * decay_length), Catch::Contains("at most 249 nm"));
+  // Under a held mean force the same amplitudes lie about a lower mean indentation.
+  const double wide = 1e-6, settled = indentation_at_mean_force(law, 10, wide);
+  CHECK(mean_force_of_cycle(law, settled, wide) == Approx(10));
+  CHECK(loss_with_slip(law, settled, slow_drag(wide), 0.3, 1e-4).work_per_cycle > 0);
+
+  // (3π/4)² R, as above; F ∝ δ^{3/2}.
+  const double radius = 1e-3, deepest = std::pow(3 * pi / 4, 2) * radius;
+  const IndenterLaw ball(paraboloid_profile(radius), Material::of_contact_modulus(1e9, 0.3));
+  refuses([&](double f) { return mean_force_of_cycle(ball, 0, f * deepest); }, "at most 5.55 mm");
+  refuses([&](double f) { return stress_map(ball, 0, slow_drag(f * deepest), 4, 4); },
+          "at most 5.55 mm");
+  refuses(
+      [&](double f) {
+        return viscoelastic_damping(ball, {1e9, {{1e9, 1e-5}}},
+                                    sample(slow_drag(f * deepest), 0, 16), 8);
+      },
+      "at most 5.55 mm");
+  const double most_force = ball.force(deepest);
+  const auto by_force = [&](double f) {
+    return relaxation_damping_force_controlled(ball, 0.9 * most_force, (f - 0.9) * most_force,
+                                               slow_drag(0));
+  };
+  CHECK_NOTHROW(by_force(0.999));
+  CHECK_THROWS_WITH(by_force(1.001), Catch::Contains("contact modulus"));
+  CHECK_THROWS_WITH(
+      indentation_at_mean_force(ball, 0.9 * most_force, 0.5 * deepest),
+      Catch::Contains("contact modulus"));
+  // A contact that rests there already, whatever the amplitude.
+  for (const Amplitude amplitude : {Amplitude::small, Amplitude::finite})
+    CHECK_THROWS_WITH(relaxation_damping(ball, AtIndentation{1.001 * deepest}, slow_drag(1e-12),
+                                         {.amplitude = amplitude}),
+                      Catch::Contains("reduce the load"));
 }
 
 TEST_CASE("A force-controlled exponential contact follows Eqs (12), (15) at every amplitude",
