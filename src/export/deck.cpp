@@ -40,7 +40,7 @@ void set_range(DeckContact& contact) {
   }
 }
 
-bool complete(const ForceCurve& curve, double ForceSample::*quantity) {
+bool complete(const ForceCurve& curve, double ForceSample::* quantity) {
   return std::ranges::all_of(curve.samples, [&](const ForceSample& sample) {
     return !sample.converged || std::isfinite(sample.*quantity);
   });
@@ -101,9 +101,10 @@ Range common_range(const DeckQuestion& question) {
       highest = contact.law->indentation_of(question.pressure_window->second * area);
       const double rest = std::isnan(contact.indentation) ? lowest : contact.indentation;
       const double most = detail::possible_indentation(*contact.law, rest, highest);
-      require(!(highest > most), "pressure_window", question.pressure_window->second,
-              fmt::format("Pa is a pressure that this contact cannot reach; at most {}",
-                          format_quantity(contact.law->force(most) / area, Dimension::pressure, 3)));
+      require(
+          !(highest > most), "pressure_window", question.pressure_window->second,
+          fmt::format("Pa is a pressure that this contact cannot reach; at most {}",
+                      format_quantity(contact.law->force(most) / area, Dimension::pressure, 3)));
     }
     range.far = std::min(range.far, contact.clearance_origin - lowest);
     range.close = std::max(range.close, contact.clearance_origin - highest);

@@ -209,9 +209,8 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
   };
   CHECK_NOTHROW(by_force(0.999));
   CHECK_THROWS_WITH(by_force(1.001), Catch::Contains("contact modulus"));
-  CHECK_THROWS_WITH(
-      indentation_at_mean_force(ball, 0.9 * most_force, 0.5 * deepest),
-      Catch::Contains("contact modulus"));
+  CHECK_THROWS_WITH(indentation_at_mean_force(ball, 0.9 * most_force, 0.5 * deepest),
+                    Catch::Contains("contact modulus"));
   // A contact that rests there already, whatever the amplitude.
   for (const Amplitude amplitude : {Amplitude::small, Amplitude::finite})
     CHECK_THROWS_WITH(relaxation_damping(ball, AtIndentation{1.001 * deepest}, slow_drag(1e-12),
