@@ -78,7 +78,12 @@ struct ElementForces {
 /// over the levels i of LawLevels. A spring is anchored where it touches, lets go where it
 /// parts, and slips by the return along its own stretch, as bodies of Coulomb and plasticity do
 /// [Simo and Hughes (1998)]; all of them slip at |F_t| = μF, and no path leads beyond that.
-/// TangentialContact is the limit of many levels for one direction, without an error of the step.
+/// TangentialContact is the limit of many levels for one direction, without an error of the step. On
+/// a law with a K_t of its own the two differ in the stretch at which a spring slips, by K_t/K:
+/// TangentialContact and joint_loss() take it at one indentation, an element takes G/F, of the whole
+/// contact, with which it carries μF when it slides. They differ in K_t where it falls too. With a noise
+/// of 1 % in F and K_t of 60 loads on a sphere each loss is 17 % off that of the sphere (standard
+/// deviation), and the two are up to a quarter apart, with a standard deviation of less than half of that.
 /// A copy of an element is a state to come back to; copies share their levels.
 /// cost  of a step some nanoseconds for each level that slips, touches or parts, and one for each of
 ///       the rest; 32 bytes a level of memory
