@@ -138,6 +138,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
       ask(question, contact,
           contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
           session.context());
+  session.warn(found.doubts);
 
   Json answer = Json::object(), columns = json_of(found.points);
   if (single) {

@@ -217,11 +217,12 @@ void Session::note(std::string_view text) {
 }
 
 void Session::warn(std::string_view text) {
-  if (options_.quiet || !ranks().is_root() || !warned_.emplace(text).second) return;
+  if (!ranks().is_root() || !warned_.emplace(text).second) return;
+  const std::string& said = warnings_.emplace_back(printable(in_options(text)));
+  if (options_.quiet) return;
   bar_.clear();
   print_remark(fmt::format("{}: {} {}\n", program_name(),
-                           emphasised("warning:", Emphasis::warning, STDERR_FILENO),
-                           printable(in_options(text))));
+                           emphasised("warning:", Emphasis::warning, STDERR_FILENO), said));
 }
 
 void Session::warn(const std::vector<std::string>& lines) {
@@ -236,7 +237,9 @@ void Session::answer(const Json& object, const std::string& text) {
   if (!ranks().is_root()) return;
   bar_.clear();
   if (options_.json) {
-    print_answer(object.dump(2) + "\n");
+    Json all = object;
+    if (!warnings_.empty()) all["warnings"] = warnings_;
+    print_answer(all.dump(2) + "\n");
   } else {
     print_answer(printable(text));
   }

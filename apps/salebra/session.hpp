@@ -93,7 +93,7 @@ class Session {
   Context context();
 
   /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only
-  /// remain. The same warning is given once.
+  /// remain. The same warning is given once, and is among the `warnings` of a JSON answer.
   void note(std::string_view text);
   void warn(std::string_view text);
   void warn(const std::vector<std::string>& lines);
@@ -118,6 +118,7 @@ class Session {
   NamedFiles files_;
   bool may_read_output_ = false;
   std::set<std::string> warned_;
+  std::vector<std::string> warnings_;  ///< as they were said
 };
 
 /// Surfaces are missing in a study that was to be merged: the program exits with 3.

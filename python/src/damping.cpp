@@ -12,6 +12,7 @@
 #include <salebra/damping/premises.hpp>
 
 #include "bindings.hpp"
+#include "damping/largest_motion.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
@@ -46,6 +47,10 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
           }};
 }
 
+void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results) {
+  if (const auto doubt = detail::doubt_of_held_indentation(hold, results)) warn_user(*doubt);
+}
+
 void bind_damping_result(nb::module_& m) {
   nb::class_<BoundDamping> bound(
       m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.");
@@ -77,6 +82,7 @@ void bind_theorem(nb::module_& m) {
             return relaxation_damping(law, position, one, options);
           });
         });
+        warn_of_held_indentation(options.hold, {&result, 1});
         return to_be_judged(result, law, motion, facts, curve);
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
@@ -149,6 +155,7 @@ InvalidInput
           const detail::StopCheck check([&] { return !options.on_progress({"damping"}); });
           return relaxation_damping(law, cases, options);
         });
+        warn_of_held_indentation(options.hold, results);
         std::vector<BoundDamping> answers;
         for (std::size_t i = 0; i < count; ++i)
           answers.push_back(

@@ -12,6 +12,7 @@
 #include <salebra/damping/steady_sliding.hpp>
 
 #include "bindings.hpp"
+#include "damping/largest_motion.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/damping.hpp"
@@ -32,6 +33,12 @@ std::string verdicts(const Premises& premises) {
 }
 
 namespace {
+
+/// Of functions that hold the mean indentation and nothing else.
+void warn_of_held_indentation(const ContactLaw& law, double indentation, double mean_force) {
+  const DampingResult mean{.force = law.force(indentation), .mean_force = mean_force};
+  if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1})) warn_user(*doubt);
+}
 
 void bind_facts(nb::module_& m) {
   auto facts = described_class<ContactFacts>(
@@ -71,8 +78,9 @@ void bind_premise_classes(nb::module_& m) {
         return unlocked([&] {
           const double mean = indentation_of(law, position);
           const auto judged = [&](const auto& one) {
-            return premises_of(law, mean, one,
-                               at_state(known(facts), law, curve, mean, mean + one.normal_amplitude));
+            return premises_of(
+                law, mean, one,
+                at_state(known(facts), law, curve, mean, mean + one.normal_amplitude));
           };
           return std::visit(judged, motion);
         });
@@ -149,8 +157,10 @@ void bind_steady_sliding(nb::module_& m) {
          std::optional<double> indentation, std::optional<double> force) {
         cite({"popov2015"});
         const Position position = position_of(indentation, force);
-        return unlocked(
-            [&] { return steady_sliding(law, position, motion, friction_coefficient); });
+        const SteadySliding sliding =
+            unlocked([&] { return steady_sliding(law, position, motion, friction_coefficient); });
+        warn_of_held_indentation(law, sliding.indentation, sliding.mean_force);
+        return sliding;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
@@ -174,12 +184,15 @@ void bind_joint(nb::module_& m) {
         const TangentialOscillation motion =
             tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})
                              : TangentialOscillation(TangentialAmplitude{*tangential_amplitude});
-        return unlocked([&] {
-          return normal_amplitude == 0
-                     ? joint_loss(law, position, motion, friction_coefficient)
-                     : joint_loss(law, position, {motion, normal_amplitude, phase},
-                                  friction_coefficient, steps);
+        if (normal_amplitude == 0)
+          return unlocked([&] { return joint_loss(law, position, motion, friction_coefficient); });
+        const JointLoss loss = unlocked([&] {
+          return joint_loss(law, position, {motion, normal_amplitude, phase}, friction_coefficient,
+                            steps);
         });
+        warn_of_held_indentation(law, loss.indentation,
+                                 mean_force_of_cycle(law, loss.indentation, normal_amplitude));
+        return loss;
       },
       nb::arg("law"), nb::kw_only(), nb::arg("friction_coefficient"),
       nb::arg("tangential_amplitude") = nb::none(), nb::arg("tangential_force") = nb::none(),

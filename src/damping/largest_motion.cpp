@@ -113,6 +113,28 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
     require_possible_exponential(length, rest, mean_indentation, amplitude, "");
 }
 
+std::optional<std::string> doubt_of_held_indentation(std::optional<Hold> hold,
+                                                     std::span<const DampingResult> results) {
+  constexpr double most_ratio = 2;
+  if (hold == Hold::force) return {};
+  double worst = most_ratio;
+  std::optional<std::string> doubt;
+  for (const DampingResult& one : results) {
+    // Infinite where the contact is open at rest; NaN where it never touches.
+    const double ratio = one.mean_force / one.force;
+    if (!(ratio > worst)) continue;
+    worst = ratio;
+    doubt = fmt::format(
+        "the oscillation about a mean indentation that is held makes the mean force {}, not {}{}; "
+        "a "
+        "machine that is preloaded holds the mean force{}",
+        in_words(one.mean_force, Dimension::force), in_words(one.force, Dimension::force),
+        std::isfinite(ratio) ? fmt::format(", {:.3g} times that", ratio) : "",
+        hold ? " (`hold` force)" : "");
+  }
+  return doubt;
+}
+
 double possible_indentation(const ContactLaw& law, double rest, double asked) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law)) {
     const auto is_beyond = [&](double one) { return is_above_modulus(*indenter, one); };

@@ -7,6 +7,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace salebra::detail {
@@ -37,6 +38,12 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
 
 /// The highest indentation up to `asked` to which a contact that rests at `rest` can be pressed.
 double possible_indentation(const ContactLaw& law, double rest, double asked);
+
+/// A sentence for the worst of these oscillations, if what was held is the mean indentation and the
+/// mean force then is more than twice that at rest: a machine that is preloaded holds the force.
+/// Only `force` and `mean_force` are looked at. hold: as above.
+std::optional<std::string> doubt_of_held_indentation(std::optional<Hold> hold,
+                                                     std::span<const DampingResult> results);
 
 /// As relaxation_damping(), of a mean indentation at which the contact does not rest: one that
 /// holds its mean force, or is searched over amplitudes.

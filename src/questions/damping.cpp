@@ -313,7 +313,7 @@ class SurfaceDamper {
     OscillatorDecay& off = answer_.decay_error.emplace();
     off.damping_constant = error;
     off.contact_stiffness = off.natural_frequency = off.frequency_ratio = not_known;
-    for (double OscillatorDecay::*const number :
+    for (double OscillatorDecay::* const number :
          {&OscillatorDecay::damping_ratio, &OscillatorDecay::quality_factor,
           &OscillatorDecay::decay_time, &OscillatorDecay::logarithmic_decrement})
       off.*number = std::abs(more.*number - found.*number);
@@ -412,6 +412,8 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
   const DampingOptions options{.hold = question.hold, .amplitude = question.amplitude};
   const std::vector<Case> cases = cases_of(answer.contact.positions, question);
   answer.results = results_of(law, cases, options, context);
+  if (const auto doubt = detail::doubt_of_held_indentation(question.hold, answer.results))
+    answer.doubts.push_back(*doubt);
   const bool slips = !std::isnan(question.facts.friction_coefficient);
   std::string unknown;  // why, one line for all cases
   if (surface) {
@@ -572,15 +574,19 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
       .hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress};
   const bool one = amplitudes.size() == 1 && omega.size() == 1;
   std::vector<double> indentations;
+  std::vector<DampingResult> rested;
   for (const double amplitude : amplitudes) {
     Drag motion{amplitude, 0, std::ranges::max(omega)};
-    indentations.push_back(relaxation_damping(law, position, motion, options).indentation);
+    rested.push_back(relaxation_damping(law, position, motion, options));
+    indentations.push_back(rested.back().indentation);
     motion.drag_velocity = question.drag_velocity;
     answer.premises.push_back(
         premises_of(law, indentations.back(), motion,
                     answer.contact.facts_at(question.facts, indentations.back(),
                                             indentations.back() + amplitude)));
   }
+  if (const auto doubt = detail::doubt_of_held_indentation(question.hold, rested))
+    answer.doubts.push_back(*doubt);
   std::optional<SurfaceDamper> of_surface;
   if (answer.contact.surface) of_surface.emplace(question, material, context, answer);
   if (!amplitudes.empty())

@@ -8,6 +8,7 @@
 #include <salebra/questions/damping.hpp>
 #include <utility>
 
+#include "damping/largest_motion.hpp"
 #include "part.hpp"
 
 namespace salebra {
@@ -150,6 +151,13 @@ JointAnswer ask(JointQuestion question, const Context& context) {
                     lost, answer.losses.size()));
   const double indentation = answer.losses.front().indentation;
   answer.state = state_of(law, indentation);
+  if (oscillates) {
+    const DampingResult mean{
+        .force = answer.state.force,
+        .mean_force = mean_force_of_cycle(law, indentation, question.normal_amplitude)};
+    if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1}))
+      answer.contact.doubts.push_back(*doubt);
+  }
   if (question.direct_steps) {
     question.motions = of_sample(question.motions, ratio);
     answer.simulated =

@@ -78,15 +78,20 @@ SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law,
                   const Position& position) {
   SlidingAnswer answer;
   std::vector<SlidingPoint>& points = answer.points;
+  std::vector<DampingResult> means;
   for (const double amplitude : question.normal_amplitude) {
     const std::vector<SlidingPoint> found = points_at(question, amplitude, law, position);
     points.insert(points.end(), found.begin(), found.end());
+    const SteadySliding& state = found.front().state;
+    means.push_back({.force = law.force(state.indentation), .mean_force = state.mean_force});
     if (const auto lost = std::ranges::count_if(
             found, [](const SlidingPoint& point) { return !point.state.converged; });
         lost > 0)
       throw NotConverged(fmt::format("sliding: {} of {} integrals did not reach the tolerance",
                                      lost, found.size()));
   }
+  if (const auto doubt = detail::doubt_of_held_indentation(question.hold, means))
+    answer.doubts.push_back(*doubt);
   if (question.excursions.empty()) return answer;
   std::vector<double> velocities;
   for (const SlidingPoint& point : points) velocities.push_back(point.velocity);

@@ -9,6 +9,7 @@ import gc
 import copy
 import math
 import re
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -138,6 +139,33 @@ def test_steady_sliding_of_a_paraboloid_tends_to_coulomb_and_to_its_static_frict
     slow = at(1e-6 * critical)
     assert slow.converged
     assert slow.friction_coefficient == pytest.approx(static, rel=3e-6)
+
+
+def test_a_held_indentation_that_raises_the_mean_force_is_warned_of() -> None:
+    law = salebra.ExponentialLaw(10, 1e-7, 0.8)
+    wide = salebra.Drag(normal_amplitude=2e-7, drag_velocity=1e-6, angular_frequency=1e5)
+    small = salebra.Drag(normal_amplitude=1.5e-7, drag_velocity=1e-6, angular_frequency=1e5)
+    # I_0(2) = 2.28 and I_0(1.5) = 1.65.
+    for asked in (
+        lambda: salebra.relaxation_damping(law, wide, force=10),
+        lambda: salebra.damping_curve(law, [small, wide], force=10),
+        lambda: salebra.steady_sliding(law, wide, friction_coefficient=0.3, force=10),
+        lambda: salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=1e-9, normal_amplitude=2e-7, force=10),
+    ):
+        with pytest.warns(UserWarning, match="22.8 N, not 10 N, 2.28 times"):
+            asked()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        salebra.relaxation_damping(law, small, force=10)
+        salebra.relaxation_damping(law, wide, force=10, hold="force")
+        salebra.steady_sliding(law, small, friction_coefficient=0.3, force=10)
+
+
+def test_a_loss_with_slip_ends_where_no_contact_has_the_pressure_of_the_law() -> None:
+    law = salebra.ExponentialLaw(10, 27e-9, 0.8)
+    motion = salebra.Drag(normal_amplitude=1e-6, drag_velocity=1e-6, angular_frequency=1e5)
+    with pytest.raises(salebra.InvalidInput, match="at most 249 nm"):
+        salebra.loss_with_slip(law, motion, 0.0, friction_coefficient=0.3, excursion=1e-6)
 
 
 def test_a_damping_curve_is_its_points() -> None:

@@ -6,6 +6,7 @@
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/questions/contact.hpp>
+#include <string>
 #include <vector>
 
 /// Friction of a contact that slides while it oscillates in the normal direction, and the motion of
@@ -28,6 +29,7 @@ struct SlidingQuestion {
 struct SlidingAnswer {
   std::vector<SlidingPoint> points;  ///< amplitude by amplitude
   std::optional<RegimeMap> regimes;
+  std::vector<std::string> doubts = {};  ///< beside those of the contact
 };
 
 /// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
