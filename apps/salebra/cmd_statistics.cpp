@@ -22,6 +22,7 @@
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
+#include "surface/asymmetry.hpp"
 #include "surface/psd_convention.hpp"
 #include "surface_figure.hpp"
 #include "text.hpp"
@@ -66,6 +67,17 @@ constexpr std::string_view needs_whole =
 constexpr std::string_view no_hurst =
     "no Hurst exponent: no range of reliable wavelengths follows a self-affine law closely enough "
     "for an interval";
+
+/// Says which waves did not enter the fit of H, and why. asymmetric: see PowerSpectrum.
+void note_asymmetry(const StatisticsArguments& arguments, double asymmetric, Session& session) {
+  if (arguments.tip_radius || arguments.resolution || asymmetric == 0) return;
+  const std::string waves =
+      std::isinf(asymmetric) ? "no wave enters"
+                             : fmt::format("waves below {:.3g} um do not enter", 1e6 * asymmetric);
+  session.note(
+      "peaks and valleys differ, as under a scanning tip: " + waves +
+      " the Hurst exponent; --tip-radius or --resolution says which waves the instrument shows");
+}
 
 ReliabilityLimit reliability(const StatisticsArguments& arguments, const Surface& surface) {
   return short_wavelength_limit(
@@ -159,9 +171,12 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   const Json answer = summary(arguments, surface, undefined, fit);
   // A smaller grid has too few wavelengths for an exponent, so that nobody misses it.
   constexpr Index expected = 32;
-  if (spectrum && !fit.hurst.found() && std::min(surface.grid.nx, surface.grid.ny) >= expected)
-    session.note(surface.periodic || spectrum->windowed ? no_hurst
-                                                        : "no Hurst exponent without a window");
+  if (spectrum && std::min(surface.grid.nx, surface.grid.ny) >= expected) {
+    if (!fit.hurst.found())
+      session.note(surface.periodic || spectrum->windowed ? no_hurst
+                                                          : "no Hurst exponent without a window");
+    note_asymmetry(arguments, spectrum->asymmetric_wavelength, session);
+  }
   if (!spectrum)
     session.note(fmt::format(
         "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
@@ -225,6 +240,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
     answer["reliability"] = json_of(reliability(arguments, complete));
   if (undefined > 0) session.note(fmt::format("{} undefined points were filled", undefined));
   if (!fit.hurst.found()) session.note(no_hurst);
+  note_asymmetry(arguments, detail::asymmetric_wavelength(complete), session);
   const std::vector<ResultTable> tables{psd_table(
       "profile_psd_x", converted(psd, *value_of<PsdConvention>(arguments.convention)), psd.modes)};
   write_tables(session, "statistics", answer, tables);

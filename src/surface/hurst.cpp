@@ -340,6 +340,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
 }  // namespace
 
 HurstEstimate estimate_hurst(const PowerSpectrum& spectrum, double shortest_wavelength) {
+  if (shortest_wavelength == 0) shortest_wavelength = spectrum.asymmetric_wavelength;
   HurstEstimate estimate = found_or_not(spectrum, 2 * pi / shortest_wavelength);
   spectrum.ranks.broadcast(&estimate, sizeof estimate);
   return estimate;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/quiet_gsl.hpp"
+#include "surface/asymmetry.hpp"
 #include "surface/power_law_range.hpp"
 
 namespace salebra {
@@ -148,6 +149,7 @@ ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   fit.surface_slope = std::numbers::sqrt2 * fit.rms_slope;
   constexpr Index fewest = 32;
   if (!(fit.rms_height > 1e-9 * profile.heights.abs().maxCoeff()) || n < fewest) return fit;
+  if (shortest_wavelength == 0) shortest_wavelength = detail::asymmetric_wavelength(level);
   const double unreliable = std::max(shortest_wavelength, interpolated_wavelength(profile));
   // Waves of less than two and a half cells are what points fold most, and no law describes them.
   const double highest = std::min(0.8 * pi / level.grid.dx(), unreliable > 0 ? 2 * pi / unreliable : endless);

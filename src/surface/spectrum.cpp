@@ -14,6 +14,7 @@
 #include "profiles.hpp"
 #include "ring_means.hpp"
 #include "spectrum_lattice.hpp"
+#include "surface/asymmetry.hpp"
 
 namespace salebra {
 namespace {
@@ -122,6 +123,7 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
                    "a power spectrum");
     spectrum.psd = uninitialised_field(grid.nx, columns.count());
   });
+  if (!surface.periodic) spectrum.asymmetric_wavelength = detail::asymmetric_wavelength(surface);
   double offset = height_statistics(surface).mean;
   std::optional<Weights> weights;
   const auto heights = [&](Index row) { return surface.heights.row(row).transpose() - offset; };

@@ -121,7 +121,7 @@ inline salebra::Field dilated(salebra::Field heights, double cell, double radius
   const double range = heights.maxCoeff() - heights.minCoeff();
   const auto reach =
       std::min<Index>(60, static_cast<Index>(std::sqrt(2 * radius * range) / cell) + 1);
-  for (int axis = 0; axis < 2; ++axis) {
+  for (int axis = 0; axis < (heights.cols() > 1 ? 2 : 1); ++axis) {
     salebra::Field out = heights;
     const Index nx = out.rows(), ny = out.cols();
     for (Index k = 1; k <= reach; ++k) {

@@ -103,7 +103,7 @@ void spectra_of(const Surface& surface, Numbers& numbers) {
   for (const Window window : {Window::none, Window::hann, Window::radial_hann}) {
     const PowerSpectrum spectrum = power_spectrum(surface, window);
     numbers.add_part(spectrum.psd.transpose());  // it is spread by columns
-    numbers.add({spectrum.correlated_modes});
+    numbers.add({spectrum.correlated_modes, spectrum.asymmetric_wavelength});
     const RadialSpectrum radial = radial_spectrum(spectrum);
     numbers.add(radial.wavenumber);
     numbers.add(radial.psd);

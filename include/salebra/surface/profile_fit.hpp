@@ -45,7 +45,8 @@ double profile_density(double q, double hurst, double q_rolloff, double q_short)
 /// inverting what was measured. Powers are exponentially distributed. The three longest waves, into
 /// which the window mixes others, are left out, and so are those of less than 2.5 cells, those shorter
 /// than shortest_wavelength (m), and of an interpolated profile those shorter than twice its longest
-/// straight piece. The interval of H is that of a likelihood-ratio test at 5 %, the roll-off, floor
+/// straight piece. Where shortest_wavelength is 0, those up to which peaks and valleys differ are left
+/// out too, as estimate_hurst() says. The interval of H is that of a likelihood-ratio test at 5 %, the roll-off, floor
 /// and g being free. A roll-off counts as seen where a law without it is less likely by more than
 /// that, a shortest wavelength where the power falls to a twentieth of the law within a factor of
 /// 1.6. H is not found of less than 32 points, of a straight line, where a wave has no power, and
