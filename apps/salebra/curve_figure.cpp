@@ -14,8 +14,8 @@ namespace salebra::cli {
 namespace {
 
 /// y over x of the samples that converged and know both.
-PlotCurve points_of(const ForceCurve& curve, std::string name, double ForceSample::*x,
-                    double ForceSample::*y) {
+PlotCurve points_of(const ForceCurve& curve, std::string name, double ForceSample::* x,
+                    double ForceSample::* y) {
   PlotCurve points{.name = std::move(name), .style = PlotStyle::line_and_points};
   for (const ForceSample& sample : curve.samples) {
     if (!sample.converged || !std::isfinite(sample.*x) || !std::isfinite(sample.*y)) continue;
@@ -42,14 +42,14 @@ void add_fit(PlotPanel& panel, const ExponentialFit& fit) {
 Figure curve_figure(const ForceCurve& curve, const std::optional<ExponentialFit>& fit) {
   Figure figure;
   const PlotAxis pressure{.label = "nominal pressure p", .unit = "Pa", .logarithmic = true};
-  PlotCurve gaps = points_of(curve, "computed", &ForceSample::mean_gap, &ForceSample::pressure);
+  PlotCurve gaps = points_of(curve, curve.model.empty() ? "curve" : plot_text(curve.model),
+                             &ForceSample::mean_gap, &ForceSample::pressure);
   require(
       !gaps.x.empty(), "curve", curve.samples.size(),
       "samples, none of which converged with a mean gap and a pressure: there is nothing to draw");
   PlotPanel& law = figure.panels.emplace_back();
   law.x = {.label = "mean gap ū", .unit = "m"};
   law.y = pressure;
-  if (!fit) gaps.name.clear();
   law.curves.push_back(std::move(gaps));
   if (fit && std::isfinite(fit->decay_length)) add_fit(law, *fit);
 

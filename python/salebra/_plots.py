@@ -184,7 +184,7 @@ _MAPS: dict[type, tuple[_Along, _Along, _Along, str, Callable[[Any], dict[str, A
 }  # fmt: skip
 
 # Results that are drawn as a part of theirs.
-_PARTS = {_core.ModelResult: "curve", _core.MonteCarloCurve: "mean", _core.NonGaussianSurface: "surface"}
+_PARTS = {_core.MonteCarloCurve: "mean", _core.NonGaussianSurface: "surface"}
 
 
 @singledispatch
@@ -208,7 +208,7 @@ def _(
     result: _core.ForceCurve, ax: Axes | None = None, fit: _core.ExponentialFit | bool = True, **keywords: Any
 ) -> Axes:
     """The curve, and the exponential law that is fitted to it: fit=False leaves it out, an ExponentialFit is drawn in its place."""
-    keywords = {"marker": ".", "label": result.model} | keywords
+    keywords = {"marker": ".", "label": result.model or "curve"} | keywords
     if np.isnan(result.mean_gap).any():
         return _line(ax, (result.indentation, "indentation δ", "m"), (result.force, "force F", "N"), "y", keywords)
     drawn = _line(ax, _of(result, _GAP), _of(result, _PRESSURE), "y", keywords)
@@ -224,11 +224,17 @@ def _(
     return drawn
 
 
+@plot.register(_core.ModelResult)
+def _(result: _core.ModelResult, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Under the name that the study has for the model, which several kinds of summits share a class for."""
+    return plot(result.curve, ax, **({"label": result.model} | keywords))
+
+
 @plot.register(_core.Realisation)
 def _(result: _core.Realisation, ax: Axes | None = None, **keywords: Any) -> Axes:
     drawn = _axes(ax)
     for model in result.models:
-        plot(model.curve, drawn, fit=model.model == "bem", **keywords)
+        plot(model, drawn, **({"fit": model.model == "bem"} | keywords))
     return drawn
 
 
@@ -246,13 +252,15 @@ def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axe
 
 @plot.register(_core.StudyAnswer)
 def _(result: _core.StudyAnswer, ax: Axes | None = None, **keywords: Any) -> Axes:
-    """Damping constant over pressure with its 95 % intervals, and that without slip."""
+    """Damping constant over pressure with its 95 % intervals, of one surface its numerical errors, and that without slip."""
     drawn = _axes(ax)
     means = [[one.mean for one in row] for row in (result.damping_constant, result.damping_constant_without_slip)]
-    bars = np.array([[one.mean - one.low, one.high - one.mean] for one in result.damping_constant]).T
+    intervals = np.array([[one.mean - one.low, one.high - one.mean] for one in result.damping_constant]).T
+    errors = np.array([[one.error, one.error] for one in result.damping_constant]).T
+    bars = np.where(np.isnan(intervals).all(), errors, intervals)
     drawn.errorbar(
         result.pressures, means[0], bars,
-        **({"marker": ".", "label": "as described" if result.slip_followed else "without slip"} | keywords),
+        **({"marker": ".", "label": "with slip" if result.slip_followed else "without slip"} | keywords),
     )  # fmt: skip
     if result.slip_followed:
         drawn.plot(result.pressures, means[1], "--", label="without slip")

@@ -142,7 +142,9 @@ ModelResult drawn_summits(ModelWork& work) {
       draw_summits(ensemble, count, std::sqrt(area), work.realisation.seed),
       work.configuration.material, area, -ensemble.mean_height,
       work.realisation.heights.rms_height);
-  return {.curve = curve_at_pressures(summits, work.pressures)};
+  ModelResult result{.curve = curve_at_pressures(summits, work.pressures)};
+  result.curve.model = "greenwood-williamson-monte-carlo";
+  return result;
 }
 
 ModelResult interacting_summits(ModelWork& work) {

@@ -224,3 +224,35 @@ def test_a_study_goes_on_from_its_parts(result: salebra.StudyResult, tmp_path: P
     assert salebra.is_result_of(file, configuration)
     assert not salebra.is_result_of(file, configuration.with_models(["persson"]))
     assert not re.search(r"lock", " ".join(path.name for path in parts.iterdir()))
+
+
+def test_pictures_of_a_study_name_its_models_and_draw_its_answer() -> None:
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    configuration = salebra.parse_study_configuration(STUDY)
+    result = salebra.run_study(configuration.with_models(configuration.compared_models))
+    realisation = result.realisations[0]
+    lines = {line.get_label(): line for line in realisation.plot(fit=False).get_lines()}
+    assert list(lines) == list(result.models)
+    for model in result.models:
+        assert np.array_equal(lines[model].get_ydata(), realisation.model(model).curve.pressure)
+        assert [line.get_label() for line in realisation.model(model).plot(fit=False).get_lines()] == [model]
+    # Each curve has a name of its own as well.
+    assert len({realisation.model(model).curve.model for model in result.models}) == len(result.models)
+
+    text = STUDY.replace("[contact]", "friction_coefficient = 0.3\n[contact]").replace("[damping]", '[damping]\nexcursion = "1mm"')
+    one = re.sub(r"seeds = \[.*\]", "seeds = [3]", text)
+    for study, several in ((text, True), (one, False)):
+        answer = salebra.run_study(salebra.parse_study_configuration(study)).answer()
+        axes = answer.plot()
+        points, _, (bars,) = axes.containers[0]
+        assert np.array_equal(np.asarray(points.get_ydata(), float), [mean.mean for mean in answer.damping_constant], equal_nan=True)
+        for mean, bar in zip(answer.damping_constant, bars.get_segments()):
+            ends = (mean.low, mean.high) if several else (mean.mean - mean.error, mean.mean + mean.error)
+            if not np.isnan(ends).any():
+                assert bar[:, 1] == pytest.approx(ends, rel=1e-12)
+        assert len(bars.get_segments()) > 3
+        assert [text.get_text() for text in axes.get_legend().get_texts()] == ["without slip", "with slip"]
+        assert list(axes.get_lines()[-1].get_ydata()) == pytest.approx(
+            [mean.mean for mean in answer.damping_constant_without_slip], nan_ok=True
+        )
