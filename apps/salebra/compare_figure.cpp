@@ -2,15 +2,18 @@
 // Figure of `compare`: curves of all models with 95 % bands.
 #include "compare_figure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <salebra/study/study_answer.hpp>
 
 namespace salebra::cli {
 namespace {
 
 std::vector<double> column(const std::vector<EnsembleMean>& estimates,
-                           double EnsembleMean::*member) {
+                           double EnsembleMean::* member) {
   std::vector<double> values;
   for (const EnsembleMean& estimate : estimates) values.push_back(estimate.*member);
   return values;
@@ -25,16 +28,43 @@ PlotCurve band(const std::string& name, const std::vector<double>& x,
           .high = column(y, &EnsembleMean::high)};
 }
 
+/// γ as the table of the study prints it: of the motion as described, with the 95 % interval of the
+/// surfaces or, where one surface has none, the numerical error.
+void add_answer(const StudyResult& result, PlotPanel& damping) {
+  const StudyAnswer answer = answer_of(result);
+  const bool sample = result.realisations.size() > 1;
+  bool any_bar = false;
+  PlotCurve points{.x = result.pressures, .style = PlotStyle::points, .color = 0};
+  for (const StatedMean& one : answer.damping_constant) {
+    const double low = sample ? one.low : one.mean - one.error,
+                 high = sample ? one.high : one.mean + one.error;
+    const bool bar = !std::isnan(low);
+    any_bar |= bar;
+    points.y.push_back(one.mean);
+    points.low.push_back(bar ? low : one.mean);
+    points.high.push_back(bar ? high : one.mean);
+  }
+  if (std::ranges::all_of(points.y, [](double value) { return std::isnan(value); })) return;
+  if (answer.slips()) {
+    points.name =
+        fmt::format("with slip, µ = {:g}", result.configuration.known.friction_coefficient);
+    damping.curves.front().name = "without slip, as all lines";
+  } else {
+    points.name = "without slip";
+  }
+  if (any_bar) points.name += sample ? ", 95 %" : ", ± error";
+  damping.curves.push_back(std::move(points));
+}
+
 /// The window of the fit, what the theories of vanishing load say, and the law with the fitted l.
-void add_references(const StudyResult& result, const std::vector<double>& loads,
-                    const std::vector<double>& forces, std::array<PlotPanel, 4>& panels) {
+void add_references(const StudyResult& result, std::array<PlotPanel, 4>& panels) {
   auto& [gaps, areas, stiffness, damping] = panels;
   if (!result.configuration.window) gaps.lines = {{.at = 1}, {.at = 2.5}};
   const StudyTheories theories = result.theories();
   areas.lines = {{.at = theories.bgt_area_slope, .name = "BGT"}};
   if (!result.configuration.has(ContactModel::persson))
     areas.lines.push_back({.at = theories.persson_area_slope, .name = "Persson"});
-  PlotCurve edge = band("boundary elements, less the edge", loads,
+  PlotCurve edge = band("boundary elements, less the edge", result.pressures,
                         result.at_pressures([&](const Realisation& r, std::size_t k) {
                           return r.spots[k].corrected_area_fraction / result.pressures[k] *
                                  r.moments.rms_slope() *
@@ -43,8 +73,9 @@ void add_references(const StudyResult& result, const std::vector<double>& loads,
   edge.style = PlotStyle::dotted;
   edge.color = 0;
   areas.curves.push_back(std::move(edge));
+  if (result.configuration.adhesion) return;
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
-  PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", forces,
+  PlotCurve law = band(drag ? "Eq. (16), fitted l" : "Eq. (12), fitted l", result.pressures,
                        result.damping(&DampingPoint::damping_constant_closed_form));
   law.low = law.high = {};
   law.style = PlotStyle::dashed;
@@ -52,20 +83,20 @@ void add_references(const StudyResult& result, const std::vector<double>& loads,
   damping.curves.push_back(std::move(law));
 }
 
-/// Force–gap, area–load, stiffness–load and damping–force of one point, with bands of 95 %.
+/// Gap, area, stiffness and damping over the pressure of one point, with bands of 95 %.
 std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
   std::array<PlotPanel, 4> panels;
   auto& [gaps, areas, stiffness, damping] = panels;
-  std::vector<double> loads, forces;
-  for (const double pressure : result.pressures) {
-    loads.push_back(pressure / result.contact_scale);
-    forces.push_back(pressure * result.grid.area());
+  for (PlotPanel& panel : panels) {
+    panel.x = {.label = "nominal pressure p", .unit = "Pa", .logarithmic = true};
+    panel.top = {.label = "p/(E^{*}h')", .logarithmic = true};
+    panel.top_factor = 1 / result.contact_scale;
   }
-  gaps.x = areas.x = stiffness.x = {.label = "nominal pressure p/(E^{*}h')", .logarithmic = true};
+  damping.top = {.label = "normal force F", .unit = "N", .logarithmic = true};
+  damping.top_factor = result.grid.area();
   gaps.y = {.label = "mean gap ū/h_{rms}"};
   areas.y = {.label = "area over load, A E^{*}h'/F"};
   stiffness.y = {.label = "stiffness K h_{rms}/F"};
-  damping.x = {.label = "normal force F", .unit = "N", .logarithmic = true};
   damping.y = {.label = "damping constant γ", .unit = "N s/m", .logarithmic = true};
   gaps.legend = PlotLegend::bottom_left;
   damping.legend = PlotLegend::top_left;
@@ -78,26 +109,36 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
       });
     };
     // The place among all models decides: a model keeps its colour whatever is drawn beside it.
-    const auto add = [&](PlotPanel& panel, const std::vector<double>& x,
-                         const std::vector<EnsembleMean>& y) {
-      panel.curves.push_back(band("", x, y));
+    const auto add = [&](PlotPanel& panel, const std::vector<EnsembleMean>& y) {
+      panel.curves.push_back(band("", result.pressures, y));
       panel.curves.back().color = int(model.id);
     };
-    add(gaps, loads, scaled([](const Realisation& r, const ForceSample& sample) {
+    add(gaps, scaled([](const Realisation& r, const ForceSample& sample) {
           return sample.mean_gap / r.heights.rms_height;
         }));
     gaps.curves.back().name = model.title;
-    add(areas, loads, scaled([&](const Realisation& r, const ForceSample& sample) {
+    add(areas, scaled([&](const Realisation& r, const ForceSample& sample) {
           return sample.contact_area_fraction / sample.pressure * r.moments.rms_slope() *
                  result.configuration.material.contact_modulus;
         }));
-    add(stiffness, loads, scaled([](const Realisation& r, const ForceSample& sample) {
+    add(stiffness, scaled([](const Realisation& r, const ForceSample& sample) {
           return sample.normal_stiffness * r.heights.rms_height / sample.force;
         }));
-    add(damping, forces, result.damping(&DampingPoint::damping_constant, model.id));
+    if (!result.configuration.adhesion)
+      add(damping, result.damping(&DampingPoint::damping_constant, model.id));
   }
-  add_references(result, loads, forces, panels);
+  add_references(result, panels);
+  if (!result.configuration.adhesion) add_answer(result, damping);
   return panels;
+}
+
+/// Whether an axis can be laid out for the values: not where no model knows the quantity.
+bool shows_anything(const PlotPanel* panel) {
+  return std::ranges::any_of(panel->curves, [&](const PlotCurve& curve) {
+    return std::ranges::any_of(curve.y, [&](double value) {
+      return std::isfinite(value) && (value > 0 || !panel->y.logarithmic);
+    });
+  });
 }
 
 /// Limits that hold all curves with their bands, so that panels beside each other can be compared.
@@ -107,7 +148,8 @@ void share_limits(const std::vector<PlotPanel*>& panels) {
     for (const PlotCurve& curve : panel->curves)
       for (const auto* values : {&curve.y, &curve.low, &curve.high})
         for (const double value : *values)
-          if (std::isfinite(value) && (value > 0 || !panel->y.logarithmic)) {
+          if (std::isfinite(value) && (value > 0 || !panel->y.logarithmic) &&
+              (values != &curve.low || curve.style != PlotStyle::points)) {
             low = std::min(low, value);
             high = std::max(high, value);
           }
@@ -130,9 +172,8 @@ Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLi
   for (std::size_t quantity = 0; quantity < 4; ++quantity) {
     std::vector<PlotPanel*> row;
     for (auto& point : points) row.push_back(&point[quantity]);
+    if (!std::ranges::all_of(row, shows_anything)) continue;
     if (row.size() > 1) share_limits(row);
-  }
-  for (std::size_t quantity = 0; quantity < 4; ++quantity)
     for (std::size_t i = 0; i < points.size(); ++i) {
       PlotPanel& panel = points[i][quantity];
       // The first column explains the lines of all.
@@ -142,6 +183,7 @@ Figure compare_figure(const std::vector<StudyResult>& results, const ParameterLi
         panel.title = describe_point(varied, results[i].configuration);
       figure.panels.push_back(std::move(panel));
     }
+  }
   return figure;
 }
 

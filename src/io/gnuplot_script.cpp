@@ -17,11 +17,11 @@
 namespace salebra::detail {
 namespace {
 
-// Okabe and Ito's colours, which stay apart for colour-blind readers.
-constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                               "#E69F00", "#56B4E9", "#000000", "#808080"};
-constexpr int cycle = 7;  // grey only where asked for
-constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1};
+// Okabe and Ito's colours, which stay apart for colour-blind readers, and wine as a ninth.
+constexpr std::array colors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00",
+                               "#56B4E9", "#000000", "#808080", "#882255"};
+constexpr int cycle = 7;  // grey and wine only where asked for
+constexpr std::array markers = {7, 5, 9, 13, 11, 15, 3, 1, 2};
 constexpr int panel_width = 520, panel_height = 390, title_height = 26;
 
 std::string literal(std::string_view text) {
@@ -63,6 +63,25 @@ const char* legend_place(PlotLegend legend) {
   return "top right";
 }
 
+/// Places in a panel, in pixels from the lower left corner of its frame.
+struct Box {
+  double left, right, bottom, top;
+
+  bool holds(double x, double y) const { return x > left && x < right && y > bottom && y < top; }
+  bool meets(const Box& other) const {
+    return left < other.right && other.left < right && bottom < other.top && other.bottom < top;
+  }
+};
+
+/// A generous width of a text: fonts differ, and markup takes no place.
+double text_width(std::string_view text) {
+  constexpr double character = 7.4;
+  return character * double(std::ranges::count_if(text, [](char c) {
+           const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80;
+           return !continues && std::string_view("_^{}\\").find(c) == std::string_view::npos;
+         }));
+}
+
 void check(const PlotCurve& curve) {
   const std::string field =
       "curve " + (curve.name.empty() ? std::string("without name") : curve.name);
@@ -74,7 +93,7 @@ void check(const PlotCurve& curve) {
           field, fmt::format("{} and {} values", curve.low.size(), curve.high.size()),
           "of the band; give one for each x");
   require(curve.color >= -1 && curve.color < static_cast<int>(colors.size()), field, curve.color,
-          "is not a colour; use -1 to 7");
+          "is not a colour; use -1 to 8");
 }
 
 class PanelScript {
@@ -86,7 +105,10 @@ class PanelScript {
     std::vector<std::span<const double>> x, y;
     for (const PlotCurve& curve : panel.curves) {
       x.emplace_back(curve.x);
-      for (const auto* column : {&curve.y, &curve.low, &curve.high}) y.emplace_back(*column);
+      y.emplace_back(curve.y);
+      y.emplace_back(curve.high);
+      // An error bar that reaches to nearly zero would take a logarithmic axis down by decades.
+      if (!(panel.y.logarithmic && curve.style == PlotStyle::points)) y.emplace_back(curve.low);
     }
     if (panel.image) {
       x.emplace_back(panel.image->x);
@@ -94,9 +116,23 @@ class PanelScript {
     }
     x_ = display_axis(panel.x, x);
     y_ = display_axis(panel.y, y);
+    if (!panel.image) {
+      const bool points = std::ranges::any_of(panel.curves, [](const PlotCurve& curve) {
+        return curve.style == PlotStyle::points || curve.style == PlotStyle::line_and_points;
+      });
+      set_limits(x_, x, points ? 0.03 : 0);
+      set_limits(y_, y, 0.04);
+    }
+    if (panel.top.label.empty()) return;
+    std::vector<double> top;
+    for (const auto& column : x)
+      for (const double value : column) top.push_back(value * panel.top_factor);
+    top_ = display_axis(panel.top, {top});
   }
 
   void write() {
+    find_obstacles();
+    place_names();
     write_frame();
     if (panel_.image) write_image();
     write_curves();
@@ -110,19 +146,141 @@ class PanelScript {
     out_ += '\n';
   }
 
+  /// Limits of a linear axis, which are needed to know where curves are in the frame.
+  static void set_limits(DisplayAxis& axis, const std::vector<std::span<const double>>& data,
+                         double margin) {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (const auto& column : data)
+      for (const double value : column)
+        if (const double shown = axis.display(value); std::isfinite(shown)) {
+          least = std::min(least, shown);
+          most = std::max(most, shown);
+        }
+    if (!(least < most)) return;  // gnuplot makes a range of one value
+    const double room = margin * (most - least);
+    // An axis of values of one sign ends at zero rather than just beyond it.
+    if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - room) : least - room;
+    if (!axis.high) axis.high = most <= 0 ? std::min(0.0, most + room) : most + room;
+  }
+
+  static double part(const DisplayAxis& axis, double value) {
+    return (axis.display(value) - *axis.low) / (*axis.high - *axis.low);
+  }
+
+  /// Whether the line is inside its axis: gnuplot draws it beyond the frame as well.
+  bool seen(const PlotLine& mark) const {
+    const DisplayAxis& axis = mark.vertical ? x_ : y_;
+    const double at = axis.display(mark.at);
+    return !(at < axis.low.value_or(-HUGE_VAL)) && !(at > axis.high.value_or(HUGE_VAL));
+  }
+
+  void find_obstacles() {
+    if (!x_.low || !x_.high || !y_.low || !y_.high) return;
+    height_ = frame_height - (panel_.title.empty() ? 0 : 20) - (top_.label.empty() ? 0 : 40);
+    const auto segment = [&](double x0, double y0, double x1, double y1) {
+      const double steps = std::ceil(std::hypot(x1 - x0, y1 - y0) / 3);
+      if (!std::isfinite(steps)) return;
+      for (double i = 0; i <= steps; ++i) {
+        const double along = steps > 0 ? i / steps : 0;
+        obstacles_.push_back({x0 + along * (x1 - x0), y0 + along * (y1 - y0)});
+      }
+    };
+    const auto across = [&](double value) { return frame_width * part(x_, value); };
+    const auto up = [&](double value) { return height_ * part(y_, value); };
+    for (const PlotCurve& curve : panel_.curves)
+      for (std::size_t i = 0; i < curve.x.size(); ++i) {
+        const double x = across(curve.x[i]), y = up(curve.y[i]);
+        segment(x, y, x, y);
+        if (!curve.low.empty()) segment(x, std::fmax(0, up(curve.low[i])), x, up(curve.high[i]));
+        if (i == 0 || curve.style == PlotStyle::points) continue;
+        segment(across(curve.x[i - 1]), up(curve.y[i - 1]), x, y);
+        for (const auto* limit : {&curve.low, &curve.high})
+          if (!limit->empty())
+            segment(across(curve.x[i - 1]), up((*limit)[i - 1]), x, up((*limit)[i]));
+      }
+    for (const PlotLine& mark : panel_.lines)
+      if (mark.vertical)
+        segment(across(mark.at), 0, across(mark.at), height_);
+      else
+        segment(0, up(mark.at), frame_width, up(mark.at));
+  }
+
+  bool free(const Box& box) const {
+    return std::ranges::none_of(obstacles_,
+                                [&](const auto& at) { return box.holds(at[0], at[1]); }) &&
+           std::ranges::none_of(taken_, [&](const Box& other) { return box.meets(other); });
+  }
+
+  /// Names of lines beside them, from right to left, above or below, where nothing else is; without
+  /// such a place in the legend, which gets the freest corner, or none and is below the panel.
+  void place_names() {
+    for (const PlotLine& mark : panel_.lines) {
+      if (mark.vertical || mark.name.empty() || !seen(mark)) continue;
+      if (height_ == 0) {
+        names_.push_back({&mark, 0.98, 0.5});
+        continue;
+      }
+      const double width = text_width(mark.name), line = height_ * part(y_, mark.at);
+      bool placed = false;
+      for (double right = 0.98; !placed && right * frame_width > width; right -= 0.05)
+        for (const double offset : {0.5, -0.5}) {
+          const double bottom = line - (offset > 0 ? 0 : 18), edge = right * frame_width;
+          const Box box{edge - width, edge, bottom, bottom + 18};
+          if (box.bottom < 0 || box.top > height_ || !free(box)) continue;
+          taken_.push_back(box);
+          names_.push_back({&mark, right, offset});
+          placed = true;
+          break;
+        }
+      if (!placed) unplaced_.push_back(&mark);
+    }
+    double rows = double(unplaced_.size()), width = 0;
+    for (const PlotLine* mark : unplaced_) width = std::max(width, text_width(entry_of(*mark)));
+    for (const PlotCurve& curve : panel_.curves)
+      if (!curve.name.empty()) {
+        ++rows;
+        width = std::max(width, text_width(curve.name));
+      }
+    legend_ = legend_place(panel_.legend);
+    if (rows == 0 || height_ == 0 || panel_.legend == PlotLegend::right_of_panel) return;
+    const double wide = width + 55, high = 18 * rows + 8;
+    using enum PlotLegend;
+    for (const PlotLegend corner :
+         {panel_.legend, top_right, top_left, bottom_right, bottom_left}) {
+      const bool right = corner == top_right || corner == bottom_right,
+                 top = corner == top_right || corner == top_left;
+      if (!free({right ? frame_width - wide : 0, right ? frame_width : wide,
+                 top ? height_ - high : 0, top ? height_ : high}))
+        continue;
+      legend_ = legend_place(corner);
+      return;
+    }
+    legend_ = "below Left reverse";
+  }
+
+  static std::string entry_of(const PlotLine& mark) {
+    return fmt::format("{}: {:.3g}", mark.name, mark.at);
+  }
+
   void write_frame() {
     line("reset");
     line("set encoding utf8");
     line("set border lw 0.8\nset tics in scale 0.7,0.35\nset mxtics\nset mytics");
     line("set title {} offset 0,-0.4", literal(panel_.title));
-    line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_place(panel_.legend));
+    line("set key {} samplen 2.4 spacing 1.15 width 0.5", legend_);
     if (panel_.image) line("set key opaque box lw 0.5");
-    if (std::ranges::all_of(panel_.curves, &std::string::empty, &PlotCurve::name))
+    if (unplaced_.empty() &&
+        std::ranges::all_of(panel_.curves, &std::string::empty, &PlotCurve::name))
       line("unset key");
     if (panel_.equal_scales) line("set size ratio -1");
     write_axis("x", x_);
     write_axis("y", y_);
+    if (!top_.label.empty()) {
+      line("set xtics nomirror");
+      write_axis("x2", top_);
+    }
     for (const PlotLine& mark : panel_.lines) {
+      if (!seen(mark)) continue;
       const double at = mark.vertical ? x_.display(mark.at) : y_.display(mark.at);
       if (mark.vertical) {
         line(
@@ -139,24 +297,24 @@ class PanelScript {
             "set arrow from graph 0,first {0:.9g} to graph 1,first {0:.9g} nohead dt 3 lw 1 lc "
             "'#404040' front",
             at);
-        if (!mark.name.empty())
-          line("set label {} at graph 0.98,first {:.9g} right offset 0,0.5 tc '#404040' front",
-               literal(mark.name), at);
       }
     }
+    for (const auto& [mark, right, offset] : names_)
+      line("set label {} at graph {:.2f},first {:.9g} right offset 0,{} tc '#404040' front",
+           literal(mark->name), right, y_.display(mark->at), offset);
+    for (const PlotLine* mark : unplaced_)
+      plots_.push_back(
+          fmt::format("NaN with lines dt 3 lw 1 lc '#404040' title {}", literal(entry_of(*mark))));
   }
 
   void write_axis(const char* name, const DisplayAxis& axis) {
-    line("set {}label {}", name, literal(axis.label));
+    line("set {}label {}{}", name, literal(axis.label), &axis == &top_ ? " offset 0,-0.5" : "");
     const bool tight = name[0] == 'x' || panel_.image;
     const auto bound = [](const std::optional<double>& value) {
       return value ? fmt::format("{:.9g}", *value) : std::string("*");
     };
     line("set {}range [{}:{}]", name, bound(axis.low), bound(axis.high));
-    const bool has_points = std::ranges::any_of(panel_.curves, [](const PlotCurve& curve) {
-      return curve.style == PlotStyle::points || curve.style == PlotStyle::line_and_points;
-    });
-    if (tight && (!has_points || panel_.image)) line("set autoscale {}fix", name);
+    if (tight) line("set autoscale {}fix", name);
     if (!axis.tics.empty()) line("set {}tics {}", name, axis.tics);
   }
 
@@ -214,24 +372,30 @@ class PanelScript {
       const PlotCurve& curve = panel_.curves[k];
       const int which = curve.color >= 0 ? curve.color : next++ % cycle;
       const char* color = colors[static_cast<std::size_t>(which)];
-      const bool band = !curve.low.empty();
+      const bool band = !curve.low.empty(), bars = band && curve.style == PlotStyle::points;
       line("$curve{}_{} << EOD", number_, k);
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         fmt::format_to(std::back_inserter(out_), "{:.9g} {:.9g}", x_.display(curve.x[i]),
                        y_.display(curve.y[i]));
-        if (band)
-          fmt::format_to(std::back_inserter(out_), " {:.9g} {:.9g}", y_.display(curve.low[i]),
+        if (band) {
+          double low = y_.display(curve.low[i]);
+          // A bar that ends at zero or below goes on to the frame of a logarithmic axis.
+          if (bars && std::isnan(low)) low = y_.low.value_or(low);
+          fmt::format_to(std::back_inserter(out_), " {:.9g} {:.9g}", low,
                          y_.display(curve.high[i]));
+        }
         out_ += '\n';
       }
       line("EOD");
-      if (band)
+      if (band && !bars)
         bands.push_back(
             fmt::format("$curve{}_{} using 1:3:4 with filledcurves lc '{}' fs transparent solid "
                         "0.2 noborder notitle",
                         number_, k, color));
-      drawn.push_back(fmt::format("$curve{}_{} using 1:2 with {} lc '{}' {}", number_, k,
-                                  style_of(curve.style, which), color,
+      drawn.push_back(fmt::format("$curve{}_{} using {} lc '{}' {}", number_, k,
+                                  bars ? fmt::format("1:2:3:4 with yerrorbars {}", marker_of(which))
+                                       : "1:2 with " + style_of(curve.style, which),
+                                  color,
                                   curve.name.empty() ? "notitle" : "title " + literal(curve.name)));
     }
     for (const auto* group : {&bands, &drawn, &labels_})
@@ -240,17 +404,20 @@ class PanelScript {
             "shows nothing; give a curve or an image");
   }
 
+  static std::string marker_of(int which) {
+    return fmt::format("pt {} ps 0.6", markers[static_cast<std::size_t>(which)]);
+  }
+
   static std::string style_of(PlotStyle style, int which) {
-    const int marker = markers[static_cast<std::size_t>(which)];
     switch (style) {
       case PlotStyle::dashed:
         return "lines lw 1.8 dt (10,5)";
       case PlotStyle::dotted:
         return "lines lw 1.8 dt (2,4)";
       case PlotStyle::points:
-        return fmt::format("points pt {} ps 0.6", marker);
+        return "points " + marker_of(which);
       case PlotStyle::line_and_points:
-        return fmt::format("linespoints lw 1.4 pt {} ps 0.6", marker);
+        return "linespoints lw 1.4 " + marker_of(which);
       case PlotStyle::line:
         break;
     }
@@ -260,7 +427,20 @@ class PanelScript {
   const PlotPanel& panel_;
   int number_;
   std::string& out_;
-  DisplayAxis x_, y_;
+  struct PlacedName {
+    const PlotLine* mark;
+    double right, offset;  ///< share of the width of the frame; lines of text above the line
+  };
+
+  // A little less than what gnuplot leaves of a panel without title.
+  static constexpr double frame_width = 410, frame_height = 300;
+  DisplayAxis x_, y_, top_;
+  double height_ = 0;  ///< of the frame; 0: limits are not known, and nothing can be avoided
+  std::vector<std::array<double, 2>> obstacles_;
+  std::vector<Box> taken_;
+  std::vector<PlacedName> names_;
+  std::vector<const PlotLine*> unplaced_;
+  std::string legend_;
   std::vector<std::string> plots_, labels_;
 };
 

@@ -38,12 +38,14 @@ enum class PlotStyle { line, dashed, dotted, points, line_and_points };
 struct PlotCurve {
   std::string name = {};               ///< in the legend; empty: not there
   std::vector<double> x = {}, y = {};  ///< NaN interrupts the line
-  std::vector<double> low = {},
-                      high = {};  ///< a band around it, such as a confidence interval; both or none
+  std::vector<double>
+      low = {},
+      high = {};  ///< a band around it, such as a confidence interval; both or none. Points have
+                  ///< error bars in its place
   PlotStyle style = PlotStyle::line;
   int color =
-      -1;  ///< 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey; −1:
-           ///< the next one
+      -1;  ///< 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey, 8 wine; −1:
+      ///< the next one
 };
 
 /// sequential: dark to bright; diverging: blue over white to red, for signed values, symmetric
@@ -71,6 +73,8 @@ enum class PlotLegend { top_right, top_left, bottom_right, bottom_left, right_of
 struct PlotPanel {
   std::string title = {};
   PlotAxis x = {}, y = {};
+  PlotAxis top = {};  ///< a second scale of a logarithmic x along the top; no label: there is none
+  double top_factor = 1;                ///< its values are those of x times this
   std::optional<PlotImage> image = {};  ///< under the curves
   std::vector<PlotCurve> curves = {};
   std::vector<PlotLine> lines = {};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <numbers>
+#include <regex>
 #include <salebra/io/result_file.hpp>
 #include <sstream>
 
@@ -82,10 +83,9 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   const double rms_height = file.numbers("surface/rms_height").front();
   const double scale = 1e10 * file.numbers("surface/rms_slope").front();  // E*h'
   const Values pressure = numbers(answer["pressure"]);
-  Values force, log_force;
+  Values force;
   for (const double p : pressure) force.push_back(p * 16e-12);
-  log_force = logarithms(force);
-  const Values loads = logarithms(numbers(answer["relative_pressure"]));
+  const Values loads = logarithms(pressure);
   const auto each = [&](const auto& value) {
     Values values;
     for (std::size_t k = 0; k < pressure.size(); ++k) values.push_back(value(k));
@@ -98,13 +98,12 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
     const Values gap = numbers(found["curve"]["mean_gap"]["mean"]),
                  area = numbers(found["curve"]["contact_area_fraction"]["mean"]),
                  stiffness = numbers(found["curve"]["normal_stiffness"]["mean"]);
-    for (const int panel : {1, 2, 3}) check_alike(drawing.column(panel, curve, 0), loads);
+    for (const int panel : {1, 2, 3, 4}) check_parallel(drawing.column(panel, curve, 0), loads);
     check_alike(drawing.column(1, curve, 1), each([&](auto k) { return gap[k] / rms_height; }));
     check_alike(drawing.column(2, curve, 1),
                 each([&](auto k) { return area[k] * scale / pressure[k]; }));
     check_alike(drawing.column(3, curve, 1),
                 each([&](auto k) { return stiffness[k] * rms_height / force[k]; }));
-    check_parallel(drawing.column(4, curve, 0), log_force);
     check_parallel(drawing.column(4, curve, 1),
                    logarithms(numbers(found["damping"]["damping_constant"]["mean"])));
     ++curve;
@@ -133,6 +132,165 @@ TEST_CASE("The picture of a comparison draws the numbers of its answer", "[compa
   }
   const json& damping = two["models"]["gw_moments"]["damping"]["damping_constant"];
   check_parallel(bands.column(4, 1, 3), logarithms(numbers(damping["high"])));
+}
+
+TEST_CASE("The picture of a study draws the damping constants of its table with their errors",
+          "[study][plot]") {
+  const ProgramTest test;
+  for (const std::string seeds : {"seeds = [3]", "seeds = [1, 2, 3]"})
+    for (const std::string slip : {"", " --friction-coefficient 0.3 --excursion 1um"}) {
+      CAPTURE(seeds, slip);
+      const bool sample = seeds.size() > 12;
+      test.write("study.toml", study_text(seeds));
+      const Drawing drawing(test, "study study.toml --no-report --json" + slip);
+      const json table = drawing.answer()["damping"]["damping_constant"];
+      Values mean = numbers(table["mean"]), low = numbers(table["low"]),
+             high = numbers(table["high"]);
+      const Values error = numbers(table["error"]);
+      const int points = 4;  // after three models and the law
+      const auto drawn = [&](std::size_t column) { return drawing.column(4, points, column); };
+      check_parallel(drawn(1), logarithms(mean));
+      const double prefix = drawn(1)[9] - std::log10(mean[9]);
+      int bars = 0;
+      for (std::size_t k = 0; k < mean.size(); ++k) {
+        const double from = sample ? low[k] : mean[k] - error[k],
+                     to = sample ? high[k] : mean[k] + error[k];
+        // A bar below zero has no end on a logarithmic axis.
+        if (std::isnan(from) || from <= 0) continue;
+        ++bars;
+        CHECK(drawn(2)[k] == Approx(std::log10(from) + prefix).margin(1e-6));
+        CHECK(drawn(3)[k] == Approx(std::log10(to) + prefix).margin(1e-6));
+      }
+      CHECK(bars > 3);
+      CHECK_THAT(drawing.script(), Contains("with yerrorbars"));
+      CHECK_THAT(drawing.script(),
+                 Contains(std::string(slip.empty() ? "'without slip" : "'with slip, µ = 0.3") +
+                          (sample ? ", 95 %'" : ", ± error'")));
+      CHECK_THAT(drawing.script(),
+                 Contains("nominal pressure p (") && Contains("normal force F ("));
+    }
+}
+
+TEST_CASE("Every model of a comparison is in its legend, of bodies that adhere as well",
+          "[compare][plot]") {
+  const ProgramTest test;
+  for (const std::string& text : {study_text("seeds = [3]"), adhesive_study_text()}) {
+    test.write("study.toml", text);
+    const Drawing drawing(test, "compare study.toml --no-stick --no-report --json");
+    const json models = drawing.answer()["models"];
+    CHECK(models.size() >= 7);
+    int curve = 0;
+    for (const std::string name :
+         {"bem", "gw_moments", "gw_deterministic", "gw_monte_carlo", "gw_interacting", "persson",
+          "greenwood_tripp", "gw_dmt", "gw_jkr"}) {
+      if (!models.contains(name)) continue;
+      const json& model = models[name];
+      std::string title = model["title"];
+      INFO(title);
+      for (std::size_t at = 0; (at = title.find('\'', at)) != title.npos; at += 2)
+        title.insert(at, 1, '\'');
+      CHECK_THAT(drawing.script(), Contains("title '" + title + "'"));
+      // The curve below the title is that of the model: its gaps fall alike.
+      const Values gap = numbers(model["curve"]["mean_gap"]["mean"]),
+                   found = drawing.column(1, curve++, 1);
+      CHECK((found[4] - found[0]) * (gap[1] - gap[0]) ==
+            Approx((found[1] - found[0]) * (gap[4] - gap[0])).epsilon(0.2).margin(1e-12));
+    }
+  }
+}
+
+namespace {
+
+struct TextBox {
+  std::string text;
+  double left, right, bottom, top;  ///< y grows downwards in a file: bottom > top
+};
+
+/// Texts of a picture that run from left to right, each with the place that it takes at least: half
+/// an em for each character.
+std::vector<TextBox> texts_of(const std::string& svg) {
+  static const std::regex pattern(
+      "translate\\(([-0-9.]+),([-0-9.]+)\\)\" "
+      "stroke[^>]*text-anchor=\"(\\w+)\">\\s*<text>(.*?)</text>");
+  std::vector<TextBox> boxes;
+  for (std::sregex_iterator at(svg.begin(), svg.end(), pattern), end; at != end; ++at) {
+    const std::string text = std::regex_replace((*at)[4].str(), std::regex("<[^>]*>"), "");
+    const double x = std::stod((*at)[1]), y = std::stod((*at)[2]);
+    const double width = 6.0 * double(std::ranges::count_if(text, [](char c) {
+                           return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+                         }));
+    const double left = (*at)[3] == "start" ? x : (*at)[3] == "end" ? x - width : x - width / 2;
+    boxes.push_back({text, left, left + width, y + 1, y - 9});
+  }
+  return boxes;
+}
+
+/// Points along all curves and bands of a picture, a pixel or two apart; legends' samples too.
+std::vector<std::pair<double, double>> curves_of(const std::string& svg) {
+  std::vector<std::pair<double, double>> points;
+  static const std::regex number("([ML]?)([-0-9.]+),([-0-9.]+)");
+  for (auto at = svg.find("<g id=\"gnuplot_plot_"); at != svg.npos;) {
+    const auto next = svg.find("<g id=\"gnuplot_plot_", at + 1);
+    const std::string group = svg.substr(at, std::min(next, svg.find("</g>\n\t</g>", at)) - at);
+    at = next;
+    for (const std::string attribute : {" d='", "points = '"})
+      for (auto path = group.find(attribute); path != group.npos;
+           path = group.find(attribute, path + 1)) {
+        const auto start = path + attribute.size();
+        const std::string list = group.substr(start, group.find('\'', start) - start);
+        double x0 = 0, y0 = 0;
+        bool begun = false;
+        for (std::sregex_iterator one(list.begin(), list.end(), number), end; one != end; ++one) {
+          const double x = std::stod((*one)[2]), y = std::stod((*one)[3]);
+          const int steps = begun && (*one)[1] != "M" ? 1 + int(std::hypot(x - x0, y - y0)) : 0;
+          for (int i = 1; i <= steps; ++i)
+            points.emplace_back(x0 + (x - x0) * i / steps, y0 + (y - y0) * i / steps);
+          x0 = x, y0 = y, begun = true;
+        }
+      }
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("No text of a picture of a study lies on a curve or on another text", "[study][plot]") {
+  const ProgramTest test;
+  const std::string scan =
+      "study --no-report --no-stick --surface " +
+      (std::filesystem::path(SALEBRA_README).parent_path() / "data/surfaces/afm-scan.txt")
+          .string() +
+      " --contact-modulus 115GPa --poisson 0.3 --friction-coefficient 0.3 --levels 0 "
+      "--normal-amplitude 1nm --drag-velocity 1um/s --excursion 1nm --frequency 20kHz --pressures ";
+  test.write("study.toml", study_text("seeds = [1, 2, 3]"));
+  test.write("adhesive.toml", adhesive_study_text());
+  for (const std::string& command :
+       {scan + "100:300MPa:4", scan + "100:300MPa:5", scan + "11MPa:4.4GPa:10",
+        std::string("compare study.toml --no-report --no-stick --models gw_moments,persson"),
+        std::string("compare study.toml --no-report --no-stick"),
+        std::string("compare adhesive.toml --no-report --no-stick")}) {
+    CAPTURE(command);
+    test.done(command + " --plot a.svg --overwrite");
+    const std::string svg = test.read("a.svg");
+    const auto texts = texts_of(svg);
+    const auto curves = curves_of(svg);
+    REQUIRE(texts.size() > 40);
+    REQUIRE(curves.size() > 1000);
+    for (const TextBox& one : texts) {
+      CAPTURE(one.text);
+      CHECK(one.top > 0);
+      CHECK(std::ranges::none_of(curves, [&](const auto& point) {
+        const auto [x, y] = point;
+        return x > one.left && x < one.right && y > one.top && y < one.bottom;
+      }));
+      for (const TextBox& other : texts) {
+        if (&one == &other) continue;
+        CAPTURE(other.text);
+        CHECK_FALSE((one.left < other.right && other.left < one.right && one.top < other.bottom &&
+                     other.top < one.bottom));
+      }
+    }
+  }
 }
 
 TEST_CASE("The numbers of a comparison are those of its file, and the theories' of their formulas",
@@ -262,6 +420,13 @@ TEST_CASE("Pictures of a contact and of its curve draw the numbers of the answer
   REQUIRE(gap.size() == 2);
   CHECK((gap[1] - gap[0]) / (std::log(10) * (pressure[0] - pressure[1])) ==
         Approx(1e9 * fit.answer()["decay_length"].get<double>()).epsilon(1e-6));
+
+  CHECK_THAT(fit.script(), Contains("title 'bem'"));
+  test.write("mine.csv",
+             "# model: my bench_1\nmean_gap [m],pressure "
+             "[Pa]\n3.0e-8,1.0e6\n2.0e-8,3.0e6\n1.0e-8,9.0e6\n0.0,27.0e6\n");
+  const Drawing measured(test, "fit mine.csv --json --pressure-window 1MPa,27MPa");
+  CHECK_THAT(measured.script(), Contains("title 'my bench\\_1'"));
 
   test.write("study.toml", study_text("seeds = [3]"));
   const Drawing study(test, "study study.toml --no-stick --no-report --json");
