@@ -31,7 +31,7 @@ std::string number(double value) { return fmt::format("{:g}", value); }
 // Decades carry labels, and where there are few of them 2 and 5 do too; what lies between has small
 // tics.
 std::string logarithmic_tics(double low, double high) {
-  const bool few = high - low < 1.7;
+  const bool few = high - low < 1.7 || std::floor(high) - std::ceil(low) < 1;
   const int stride = std::max(1, static_cast<int>(std::ceil((high - low) / 9)));
   std::string tics;
   for (int decade = static_cast<int>(std::floor(low)); decade <= std::ceil(high); ++decade) {

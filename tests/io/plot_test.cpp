@@ -231,3 +231,18 @@ TEST_CASE("A band is drawn between its limits, the curve through its values", "[
   CHECK_THAT(script, Contains("\n2 2 1 3\n"));
   CHECK_THAT(script, Contains("using 1:3:4 with filledcurves") && Contains("using 1:2 with lines"));
 }
+
+TEST_CASE("A logarithmic axis has more than one number, and its lines stay in its panel",
+          "[plot]") {
+  Figure figure = force_figure();
+  PlotPanel& panel = figure.panels[0];
+  panel.y.logarithmic = true;
+  // One power of ten lies between the limits, 140 N and 8 kN but for the room beyond the values.
+  panel.curves[0].y = {0.14e3, 2e3, 8e3};
+  panel.curves[0].low = panel.curves[0].high = {};
+  panel.lines = {{.at = 5e3}, {.at = 7e-9, .vertical = true}, {.at = 5e4}};
+  const std::string script = detail::gnuplot_script(figure, detail::PictureFormat::svg);
+  CHECK_THAT(script, Contains("'0.2'") && Contains("'1'") && Contains("'5'"));
+  CHECK_THAT(script, Contains("graph 0,first 0.698970004 to") && Contains("first 7,graph 0 to"));
+  CHECK_THAT(script, !Contains("first 1.69897"));
+}
