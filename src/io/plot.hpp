@@ -45,7 +45,7 @@ struct PlotCurve {
   PlotStyle style = PlotStyle::line;
   int color =
       -1;  ///< 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey, 8 wine; −1:
-      ///< the next one
+           ///< the next one
 };
 
 /// sequential: dark to bright; diverging: blue over white to red, for signed values, symmetric
