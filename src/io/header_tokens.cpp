@@ -33,7 +33,12 @@ class Tokenizer {
   explicit Tokenizer(std::string_view line) : line_(line) {}
 
   std::vector<HeaderToken> all() {
-    while (at_ < line_.size()) next();
+    while (at_ < line_.size()) {
+      const std::size_t before = tokens_.size();
+      const bool apart = at_ > 1 && line_[at_ - 1] == ' ' && line_[at_ - 2] == ' ';
+      next();
+      if (apart && tokens_.size() > before) tokens_[before].apart = true;
+    }
     return std::move(tokens_);
   }
 
@@ -183,10 +188,18 @@ class Tokenizer {
   void word() {
     std::size_t end = at_;
     if (line_[at_] == '%') ++end;
+    if (line_.substr(at_).starts_with("a.u.")) {
+      add(Kind::other, "a.u.");
+      at_ += 4;
+      return;
+    }
     while (is_letter(at(end)) || (end > at_ && is_digit(at(end)))) ++end;
     while (end > at_ + 2 && line_.substr(end - 2, 2) == "\xc2\xa0") end -= 2;
     const std::string_view text = line_.substr(at_, end - at_);
-    const bool attached = at_ > 0 && (line_[at_ - 1] == '/' || line_[at_ - 1] == '_');
+    // "Z/µm", "Z_µm", "Z / µm", "Z - µm"
+    const std::string_view before = trimmed(line_.substr(0, at_));
+    const bool attached = (before.size() == at_ && before.ends_with('_')) ||
+                          before.ends_with('/') || (before.size() < at_ && before.ends_with(" -"));
     // "w=3 h=2"
     const bool is_key = at(std::min(line_.find_first_not_of(' ', end), line_.size())) == '=';
     const bool after_number = behind_number() && !is_key;
@@ -205,9 +218,11 @@ class Tokenizer {
     // "in" is a word before a unit, and an inch behind a number.
     const bool after_in = !tokens_.empty() && tokens_.back().kind == Kind::word &&
                           plain_word(tokens_.back().text) == "in";
-    const bool length_after_in = after_in && is_length_unit(text);
-    if (length_after_in) tokens_.pop_back();
-    if ((after_number || attached || length_after_in) && unit_of(text, false)) {
+    const bool unit_after_in =
+        after_in &&
+        (is_length_unit(text) || (is_other_unit(text) && meaning_of(text) == meaning::unknown));
+    if (unit_after_in) tokens_.pop_back();
+    if ((after_number || attached || unit_after_in) && unit_of(text, false)) {
       at_ = end;
       rest_of_unit();
       return;

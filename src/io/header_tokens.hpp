@@ -24,6 +24,7 @@ struct HeaderToken {
   std::string text;
   bool bracket = false;    ///< in brackets
   bool per_pixel = false;  ///< of a length: "µm/pixel"
+  bool apart = false;      ///< behind two blanks or more
 };
 
 /// The pieces of a line in UTF-8.

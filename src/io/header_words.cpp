@@ -19,26 +19,28 @@ struct Entry {
 };
 
 constexpr Entry entries[]{
-    {x, "x yoko"},
-    {y, "y tate"},
+    {x, "x yoko easting ost"},
+    {y, "y tate northing nord"},
     {plane, "xy lateral laterale horizontal horizontale heimen"},
     {z, "z topography topographie topo vertical vertikal verticale suichoku"},
     {height,
      "height heights hoehe hoehen hohe hohen hauteur hauteurs altitude altitudes takasa elevation "
-     "hoehenwert hoehenwerte"},
+     "hoehenwert hoehenwerte cote"},
     {ordinate,
      "amplitude amplituden profile profil profiles profils profilhoehe depth depths tiefe tiefen "
      "profondeur fukasa relief roughness rauheit rauhigkeit rugosite arasa waviness welligkeit "
      "ondulation ordinate ordonnee purofairu danmen sokuteichi auslenkung"},
-    {values, "value values wert werte messwert messwerte valeur valeurs data daten donnees atai"},
+    {values,
+     "value values wert werte messwert messwerte valeur valeurs data daten donnees atai deta "
+     "signal"},
     {position,
      "position positions pos distance distances distanz weg messweg tastweg verfahrweg vorschub "
      "vorschubweg strecke taststrecke track trace abscissa abszisse abscisse ort ichi kyori travel "
-     "path course parcours laufweg"},
+     "path course parcours laufweg lauf bahn bahnkoordinate deplacement ido chemin s"},
     {width, "width breite largeur haba"},
     {size,
      "size sizes groesse grosse taille extent extents dimension dimensions abmessung abmessungen "
-     "etendue okisa field feld champ fov area flaeche messfeld bildfeld shiya"},
+     "etendue ausdehnung okisa field feld champ fov area flaeche messfeld bildfeld shiya"},
     {size | result, "range ranges bereich plage hani messbereich spanne"},
     {length, "length laenge lange longueur nagasa sokuteicho messlaenge messstrecke"},
     {pixel, "pixel pixels px cell cells zelle zellen cellule cellules gaso pikuseru"},
@@ -66,7 +68,11 @@ constexpr Entry entries[]{
      "multiplikator multiplicateur gain verstaerkung sensitivity empfindlichkeit sensibilite "
      "conversion umrechnung umrechnungsfaktor keisu coefficient koeffizient calibration "
      "kalibrierung "
-     "kalibrierfaktor etalonnage lsb digit digits exponent kansan skalierungsfaktor"},
+     "kalibrierfaktor etalonnage lsb digit digits exponent kansan skalierungsfaktor "
+     "multiply multiplied multipliziert multiplie divide divided geteilt dividiert divise times "
+     "mal "
+     "fois fach exaggeration exaggerated ueberhoehung ueberhoeht amplified amplification ratio "
+     "baika"},
     {alters,
      "offset offsets versatz decalage ofusetto inverted invert invertiert inversion inverse "
      "mirrored gespiegelt flipped flip rotated gedreht log logarithmic logarithmisch negated "
@@ -110,13 +116,17 @@ constexpr Entry entries[]{
      "tastspitze stylus taster pointe palpeur radius rayon spitzenradius tastspitzenradius needle "
      "nadel cantilever spring feder setpoint sollwert integral proportional copyright author autor "
      "auteur created creation erstellt modified mode modus method methode channel kanal canal "
-     "chaneru run lauf essai test session sitzung group gruppe groupe room raum salle site page "
+     "chaneru run essai test session sitzung group gruppe groupe room raum salle site page "
      "seite year month day jahr monat tag jour mois annee hour hours second seconds minute minutes "
      "duration dauer duree "
      "messdauer focal aperture na frame frames averaging averages mittelungen moyennes angle "
      "winkel "
      "kakudo rotation threshold schwelle schwellwert seuil revision release build license din jis "
-     "astm norm standard norme certificate january february march april may june july august "
+     "astm norm standard norme certificate report bericht rapport hokokusho licence lizenz licenza "
+     "key camera kamera spot working "
+     "arbeitsabstand hankei shokushin link http https www ftp website contact kontakt address "
+     "adresse phone email mail factory werk usine kojo hall halle department abteilung service "
+     "january february march april may june july august "
      "september october november december jan feb mar apr jun jul aug sep sept oct nov dec januar "
      "februar maerz mai juni juli oktober dezember okt dez janvier fevrier mars avril juin juillet "
      "aout septembre octobre novembre decembre monday tuesday wednesday thursday friday saturday "
@@ -134,14 +144,16 @@ constexpr Entry entries[]{
      "vert bleu colour color farbe couleur error fehler erreur gosa phase deflection quality "
      "qualitaet qualite confidence snr noise rauschen bruit reflectivity"},
     {neutral,
-     "the of in de du la le les des der die das den dem d l per pro par and und et for fuer pour "
+     "the of in en de du la le les des der die das den dem d l per pro par and und et for fuer "
+     "pour "
      "scan scanned image bild map karte carte measurement measurements measured messung mess "
      "messen mesure mesures measuring sokutei gazo direction richtung axis achse achsen axe axes "
      "jiku jikuhoko hoko coordinate coordinates koordinate koordinaten coordonnee coordonnees "
      "zahyo along entlang actual sampling sensor surface oberflaeche hyomen matrix matrice grid "
      "gitter raster grille array header ascii text texte export exported exportiert from to by on "
      "at with all begin end start ende beginn debut fin list liste content format section "
-     "ist each abtast echantillonnage"},
+     "ist each abtast echantillonnage coord coords raw roh brut brute primary filtered unfiltered "
+     "corrected levelled leveled relative relativ absolute absolut"},
     {other, "g b"},
     {no, "none off false nein non aus iie keine aucun aucune nashi linear"},
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "loaded_surface.hpp"
@@ -82,9 +83,9 @@ Role role_of(const HeaderTitle& title, bool of_profile) {
   const bool on_x = said & x, on_y = said & y;
   if ((said & heights) && !(said & (x | y | other | length | width | size | factor | alters)))
     return Role::height;
-  if (on_x != on_y && !(said & (heights | other | harmless | factor | alters | size)))
+  if (on_x != on_y && !(said & ((heights & ~values) | other | factor | alters | size)))
     return on_x ? Role::x : Role::y;
-  if (said & (other | harmless)) return Role::skipped;
+  if ((said & other) || ((said & harmless) && !(said & along))) return Role::skipped;
   if ((said & along) && !(said & (heights | x | y | alters | factor))) return Role::position;
   if ((said & (index | points | rows | columns | count)) && title.unit.empty() &&
       !(said & (heights | along | x | y)))
@@ -94,7 +95,7 @@ Role role_of(const HeaderTitle& title, bool of_profile) {
 
 }  // namespace
 
-Margins margins_of(const std::filesystem::path& file, const TextRows& rows) {
+Margins margins_of(const TextRows& rows) {
   constexpr Index least = 4, certain = 8;
   Margins margins;
   if (rows.columns < 3 || rows.rows < 3) return margins;
@@ -110,16 +111,16 @@ Margins margins_of(const std::filesystem::path& file, const TextRows& rows) {
     margins.row = margins.column = true;
     if (!counts(row_behind, along_x) || !counts(column_behind, along_y)) {
       if (*along_x < 0 || *along_y < 0)
-        refuse(file, "has falling coordinates in its first row or column; turn the matrix over");
+        margins.fault = "has falling coordinates in its first row or column; turn the matrix over";
       margins.step_x = along_x;
       margins.step_y = along_y;
     }
     return margins;
   }
   if (no_corner && (along_x || along_y))
-    refuse(file,
-           "has no number in the corner of an equally spaced row or column, which is no line of "
-           "heights; remove that line");
+    margins.fault =
+        "has no number in the corner of an equally spaced row or column, which is no line of "
+        "heights; remove that line";
   // Numbers of the rows alone, or of the columns.
   constexpr Index least_numbers = 5;
   const auto down = step_of(column, least_numbers);
@@ -130,9 +131,10 @@ Margins margins_of(const std::filesystem::path& file, const TextRows& rows) {
   if (down && (!next_down || numbered_profile)) {
     if (!counts(column, down)) {
       if (rows.rows < certain || rows.columns < least) return margins;
-      refuse(file,
-             "has a first column of equally spaced numbers, which are no heights; remove it, or "
-             "name its columns");
+      margins.fault =
+          "has a first column of equally spaced numbers, which are no heights; remove it, or name "
+          "its columns";
+      return margins;
     }
     margins.column = true;
   }
@@ -141,7 +143,8 @@ Margins margins_of(const std::filesystem::path& file, const TextRows& rows) {
   if (across && !step_of(Line{rows, true, 1, titles.first}, least)) {
     if (!counts(titles, across)) {
       if (titles.size() < certain) return margins;
-      refuse(file, "has a first row of equally spaced numbers, which are no heights; remove it");
+      margins.fault = "has a first row of equally spaced numbers, which are no heights; remove it";
+      return margins;
     }
     margins.row = true;
   }
@@ -211,6 +214,20 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     refuse(file, quote + ", names several columns of heights, " + quoted(title(a)) + " and " +
                      quoted(title(b)) + "; keep one of them");
   };
+  // Positions that rise, heights, and what is in no unit of length: a profile.
+  const auto profile_with_others = [&]() -> std::optional<std::pair<Index, Index>> {
+    std::optional<Index> along_x, of_z;
+    for (const Index i : kept) {
+      if (role(i) == Role::y) return {};
+      if (role(i) == Role::unknown && is_length(title(i).unit)) return {};
+      if (role(i) == Role::unknown) continue;
+      auto& target = role(i) == Role::height ? of_z : along_x;
+      if (target) return {};
+      target = i;
+    }
+    if (!along_x || !of_z || !is_monotone(rows, *along_x)) return {};
+    return std::pair(*along_x, *of_z);
+  };
   if (kept.empty()) refuse(file, quote + ", names no column of heights; name one z");
   if (kept.size() == 1) {
     const Role only = role(kept[0]);
@@ -242,6 +259,11 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     if (!is_monotone(rows, *result.x))
       refuse(file, quote + ", names positions, " + quoted(title(*result.x)) +
                        ", which neither rise nor fall from line to line; sort the lines");
+  } else if (const auto profile = profile_with_others()) {
+    std::tie(result.x, result.z) = *profile;
+    for (const Index i : kept)
+      if (role(i) == Role::unknown)
+        result.remarks.push_back("the column " + quoted(title(i)) + " was not used");
   } else {
     std::vector<Index> unclear;
     for (const Index i : kept) {

@@ -16,11 +16,12 @@ namespace salebra::detail {
 struct Margins {
   bool row = false, column = false;      ///< the first ones are no heights
   std::optional<double> step_x, step_y;  ///< of coordinates in them; nothing where they count
+  std::string fault;                     ///< why the rows are no matrix; empty where they may be
 };
 
-/// Numbers that count the rows and columns, or coordinates in the first row and column. Throws
-/// InvalidInput where one of them is equally spaced and may be either.
-Margins margins_of(const std::filesystem::path& file, const TextRows& rows);
+/// Numbers that count the rows and columns, or coordinates in the first row and column. It is a
+/// fault where one of them is equally spaced and may be either.
+Margins margins_of(const TextRows& rows);
 
 /// Whether a column rises from row to row, or falls.
 bool is_monotone(const TextRows& rows, Index column);

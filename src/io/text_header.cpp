@@ -140,12 +140,11 @@ class HeaderReader {
     // A longer line is no line of a header.
     constexpr std::size_t most_looked_at = 2000;
     const std::string decoded = utf8(line.text);
-    std::string_view text = trimmed(decoded);
-    while (!text.empty() && (std::string_view("#%!*/'\" \t").find(text.front()) != text.npos ||
+    std::string_view text = without_spaces(decoded);
+    while (!text.empty() && (std::string_view("#%!*/'\" ").find(text.front()) != text.npos ||
                              text.starts_with("; ")))
       text.remove_prefix(1);
-    text = trimmed(text);
-    line_ = text;
+    line_ = trimmed(text);
     number_ = line.number;
     const std::vector<HeaderToken> tokens = header_tokens(text.substr(0, most_looked_at));
     if (tokens.empty()) return;
@@ -174,6 +173,7 @@ class HeaderReader {
   /// Whether every token of the line is accounted for.
   bool read_line(Tokens tokens) {
     if (!has(tokens, Kind::assign)) return read_words(tokens);
+    while (tokens.front().kind == Kind::separator) tokens = tokens.subspan(1);
     // Each key is the words before a colon or an equals sign.
     std::size_t begin = 0;
     bool all = true;
@@ -209,7 +209,7 @@ class HeaderReader {
     const bool free_number = std::ranges::any_of(tokens, [](const HeaderToken& token) {
       return token.kind == Kind::number && !token.bracket;
     });
-    if (!free_number && !has(tokens, Kind::date)) {
+    if ((!free_number || numbers_names(tokens)) && !has(tokens, Kind::date)) {
       if (read_titles(tokens)) return true;
       if (read_unit_line(tokens)) return true;
       // Names of columns that do not fit the columns.
@@ -232,15 +232,30 @@ class HeaderReader {
     return !names_length(tokens);
   }
 
+  /// Whether numbers tell columns apart: "x;Profile 1;Profile 2".
+  bool numbers_names(Tokens tokens) const {
+    if (layout_.titled_columns < 3 ||
+        std::ranges::count(tokens, Kind::separator, &HeaderToken::kind) + 1 !=
+            layout_.titled_columns)
+      return false;
+    for (std::size_t i = 0; i < tokens.size(); ++i)
+      if (tokens[i].kind == Kind::number &&
+          (tokens[i].text.size() > 1 || i < 2 || tokens[i - 1].kind != Kind::word))
+        return false;
+    return true;
+  }
+
   bool read_titles(Tokens tokens) {
     const std::vector<HeaderTitle> titles = titles_of(tokens, layout_.titled_columns);
     if (titles.empty()) return false;
-    const bool units_alone = std::ranges::all_of(
-        titles, [](const HeaderTitle& title) { return title.meaning == 0 && !title.unit.empty(); });
+    const bool units_alone = std::ranges::all_of(titles, [](const HeaderTitle& title) {
+      return title.meaning == 0 && (title.text.empty() || !title.unit.empty());
+    });
     const auto columns = static_cast<std::size_t>(layout_.titled_columns);
     if (titles.size() == columns || titles.size() + 1 == columns) {
       if (units_alone && header_.titles.size() == titles.size()) {
         for (std::size_t i = 0; i < titles.size(); ++i) {
+          if (titles[i].unit.empty()) continue;
           if (!header_.titles[i].unit.empty()) return header_.titles[i].unit == titles[i].unit;
           header_.titles[i].unit = titles[i].unit;
         }
@@ -436,6 +451,9 @@ class HeaderReader {
       return !(meaning & carrying & ~points);
     }
     if (all_are(Kind::other)) return !(meaning & ((carrying & ~size) | ordinate));
+    // "Licence no.: 99812"
+    if ((meaning & index) && numbers && quantities.size() == 1 && said == 0)
+      return !(meaning & (carrying | ordinate | missing | mask));
     if (has_other(quantities, kind_of)) return false;
     if (meaning & (unknown | mask | no)) return false;
     const bool about_plane = meaning & (x | y | plane | pixel | width | columns | rows | step);
@@ -606,7 +624,9 @@ HeaderTitle title_of(Tokens tokens) {
     if (!title.text.empty()) title.text += ' ';
     title.text += token.text;
     const bool behind_name =
-        title.meaning != 0 && is_length_unit(token.text) && &token == &tokens.back();
+        title.meaning != 0 && &token == &tokens.back() &&
+        (is_length_unit(token.text) ||
+         (is_other_unit(token.text) && detail::meaning_of(token.text) == meaning::unknown));
     if (is_unit(token) || (token.kind == Kind::word && behind_name)) {
       // Two units of one column: one of them is something else.
       if (!title.unit.empty()) title.meaning |= meaning::unknown;
@@ -625,7 +645,8 @@ HeaderTitle title_of(Tokens tokens) {
 constexpr Meaning naming = meaning::x | meaning::y | meaning::plane | meaning::z | meaning::height |
                            meaning::ordinate | meaning::values | meaning::position |
                            meaning::index | meaning::other | meaning::mask | meaning::width |
-                           meaning::length | meaning::step | meaning::harmless | meaning::unknown;
+                           meaning::length | meaning::step | meaning::harmless | meaning::unknown |
+                           meaning::rows | meaning::points;
 
 /// Columns of words without separators: a unit ends a column, and a name begins one, unless it says
 /// more of the same: "Position X", "Z height".
@@ -651,9 +672,12 @@ std::vector<std::vector<HeaderToken>> groups_of(Tokens tokens, Index columns) {
     const Meaning here = detail::meaning_of(token.text) & naming;
     const Meaning axes = meaning::x | meaning::y | meaning::plane;
     const Meaning heights = meaning::z | meaning::height | meaning::ordinate | meaning::values;
+    // "Stylus position"
+    const bool condition = meaning == meaning::harmless && here != meaning::harmless;
     const bool axis_alone = (meaning & ~(axes | meaning::z)) == 0 && meaning != 0;
     const bool more =
-        (axis_alone && here == meaning::position) || (here & meaning & meaning::index) ||
+        condition || (axis_alone && here == meaning::position) ||
+        (here & meaning & meaning::index) ||
         ((here & meaning & heights) == 0 &&
          (((here & ~heights) == 0 && (meaning & ~heights) == 0) ||
           ((meaning & meaning::position) && !(meaning & axes) && (here & (axes | meaning::z)))));
@@ -691,6 +715,18 @@ std::vector<HeaderTitle> titles_of(Tokens tokens, Index columns, bool expand) {
     }
     while (titles.size() > static_cast<std::size_t>(columns) && titles.back().text.empty())
       titles.pop_back();
+    if (titles.size() == static_cast<std::size_t>(columns) + 1 && titles.front().text.empty())
+      titles.erase(titles.begin());
+    return titles;
+  }
+  const auto apart = std::ranges::count_if(tokens.subspan(1), &HeaderToken::apart);
+  if (apart > 0 && (apart + 1 == columns || apart + 2 == columns)) {
+    std::size_t begin = 0;
+    for (std::size_t end = 1; end <= tokens.size(); ++end)
+      if (end == tokens.size() || tokens[end].apart) {
+        add(tokens.subspan(begin, end - begin));
+        begin = end;
+      }
     return titles;
   }
   for (const auto& group : groups_of(tokens, columns)) add(group);

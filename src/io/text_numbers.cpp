@@ -152,19 +152,93 @@ bool is_row(std::string_view line) {
   return values > 1 && dashes < values;
 }
 
-/// A line whose values are in quotation marks without these. A comma within them is decimal, hence
-/// commas between them become semicolons.
-std::string without_quotes(std::string_view line) {
-  const bool tabs = line.find('\t') != line.npos;
-  std::string result;
-  bool quoted = false;
-  for (const char symbol : line) {
-    if (symbol == '"')
-      quoted = !quoted;
-    else
-      result += symbol == ',' && !quoted && !tabs ? ';' : symbol;
+bool is_digit(char symbol) { return symbol >= '0' && symbol <= '9'; }
+
+/// Beside points and commas: apostrophes and blanks, of which some do not break a line.
+constexpr std::string_view other_thousands_marks[]{
+    "'", " ", "\xc2\xa0", "\xe2\x80\xaf", "\xe2\x80\x99", "\xa0"};
+
+constexpr char between_quotes = '\x1f';  // the separator of units of ASCII, in no text
+
+/// Whether a number has a decimal point, which "-1.#IND" has not.
+bool has_point(std::string_view line) {
+  auto at = line.find('.');
+  while (at != line.npos && at + 1 < line.size() && line[at + 1] == '#')
+    at = line.find('.', at + 1);
+  return at != line.npos;
+}
+
+/// The mark of thousands of a number that has one for certain: another mark is decimal, or it
+/// stands twice, or it cannot be decimal. Empty where there is none.
+/// known  a mark of the lines before: three digits behind it suffice
+std::string_view thousands_mark(std::string_view number, std::string_view known) {
+  number = trimmed(number);
+  if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
+  const auto digits = [](std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
+  };
+  const std::size_t first = digits(number);
+  if (first == 0 || first > 3 || number.front() == '0') return {};
+  const std::string_view tail = number.substr(first);
+  std::string_view mark = tail.substr(0, tail.starts_with(',') || tail.starts_with('.') ? 1 : 0);
+  for (const std::string_view other : other_thousands_marks)
+    if (tail.starts_with(other)) mark = tail.substr(0, other.size());
+  if (mark.empty()) return {};
+  std::size_t groups = 0;
+  std::string_view rest = tail;
+  while (rest.starts_with(mark) && digits(rest.substr(mark.size())) == 3) {
+    rest.remove_prefix(mark.size() + 3);
+    ++groups;
   }
+  const bool decimal = rest.starts_with(',') || rest.starts_with('.');
+  if (groups == 0 || (decimal && rest.starts_with(mark))) return {};
+  const std::size_t fraction = decimal ? digits(rest.substr(1)) + 1 : 0;
+  if (rest.size() > fraction) return {};
+  const bool certain = decimal || groups > 1 || mark == known || (mark != "," && mark != ".");
+  return certain ? mark : std::string_view();
+}
+
+/// The parts of a line that semicolons or tabs separate. Other lines have none with marks of
+/// thousands but for apostrophes, and these only where blanks separate.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  const char between = line.find(';') != line.npos    ? ';'
+                       : line.find('\t') != line.npos ? '\t'
+                                                      : ' ';
+  if (between == ' ' && line.find_first_of("'\xe2") == line.npos) return {};
+  std::vector<std::string_view> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(between, begin), line.size());
+    fields.push_back(line.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return fields;
+}
+
+/// A line whose values are in quotation marks without these. A comma that is decimal within them
+/// makes semicolons of those between them.
+std::string without_quotes(std::string_view line) {
+  std::string result;
+  bool decimal = false, quoted = false;
+  const bool tabs = line.find('\t') != line.npos;
+  for (std::size_t begin = 0; begin <= line.size(); quoted = !quoted) {
+    const std::size_t end = std::min(line.find('"', begin), line.size());
+    std::string part(line.substr(begin, end - begin));
+    if (quoted && thousands_mark(part, {}) == ",") std::erase(part, ',');
+    if (quoted) decimal = decimal || part.find(',') != part.npos;
+    if (!quoted && !tabs) std::ranges::replace(part, ',', between_quotes);
+    result += part;
+    begin = end + 1;
+  }
+  std::ranges::replace(result, between_quotes, decimal ? ';' : ',');
   return result;
+}
+
+/// Whether the first number of a line, or one behind it, has a mark of thousands for certain.
+bool has_thousands(std::string_view line) {
+  return is_digit(line[line.size() > 1 && line.front() == '-']) &&
+         std::ranges::any_of(fields_of(line), [](std::string_view field) {
+           return !thousands_mark(field, {}).empty();
+         });
 }
 
 bool is_utf8(std::string_view text) {
@@ -280,11 +354,15 @@ bool starts_with_number(std::string_view line) {
   if (line.front() == '"') {
     const std::string plain = without_quotes(line);
     return is_row(plain) ||
-           (plain.find_first_of(" \t;,") == plain.npos && starts_with_number(plain));
+           (plain.find_first_of(" \t;,") == plain.npos && starts_with_number(plain)) ||
+           has_thousands(plain);
   }
+  if (has_thousands(line)) return true;
   double value;
   const char *at = line.data(), *end = at + line.size();
-  if (const char* mark = parse_mark(at, end); mark && *at != '-' && *at != '*') return is_row(line);
+  if (const char* mark = parse_mark(at, end);
+      mark && !std::string_view(at, mark).starts_with("--") && *at != '*')
+    return is_row(line);
   if (const char* stop = parse_number(at, end, value)) return stop == end || is_separator(*stop);
   const bool empty = *at == ',' || *at == ';';
   return (empty || parse_mark(at, end)) && is_row(line);
@@ -313,13 +391,48 @@ std::string_view NumberReader::content_of(std::string_view line) const {
   return tabs_ ? without_spaces(line) : trimmed(line);
 }
 
+/// The line without marks of thousands, which then are those of all lines; nothing where it has
+/// none.
+std::optional<std::string> NumberReader::without_thousands(std::string_view line, int number) {
+  std::string mark = thousands_;
+  bool found = false;
+  const std::vector<std::string_view> fields = fields_of(line);
+  for (const std::string_view field : fields)
+    if (const std::string_view own = thousands_mark(field, thousands_); !own.empty()) {
+      if (!mark.empty() && own != mark)
+        refuse_line(number, "holds '" + excerpt(field.data(), field.data() + field.size()) +
+                                "' beside numbers with another mark of thousands; write the "
+                                "numbers without such marks");
+      mark = own;
+      found = true;
+    }
+  if (!found) return {};
+  if ((mark == "," && style_.decimal_comma) || (mark == "." && has_decimal_point_))
+    refuse_line(number,
+                "has a mark of thousands, '" + mark +
+                    "', which is decimal in lines before; write numbers without such marks");
+  thousands_ = mark;
+  std::string plain;
+  for (const std::string_view& field : fields) {
+    const bool marked = !thousands_mark(field, mark).empty();
+    for (std::size_t i = 0; i < field.size();) {
+      const bool here =
+          marked && i > 0 && is_digit(field[i - 1]) && field.substr(i).starts_with(mark);
+      if (!here) plain += field[i];
+      i += here ? mark.size() : 1;
+    }
+    if (&field != &fields.back()) plain += field.data()[field.size()];
+  }
+  return plain;
+}
+
 /// How one line would be read.
 NumberReader::Style NumberReader::style_of(std::string_view line, int number) const {
   const bool semicolon = line.find(';') != std::string_view::npos;
   if (line.find(',') == std::string_view::npos)
     return {semicolon ? Separator::semicolon : Separator::blank, false};
 
-  const bool point = line.find('.') != std::string_view::npos;
+  const bool point = has_point(line);
   std::ptrdiff_t commas = 0, commas_before_blank = 0, blanks_after_digit = 0;
   for (std::size_t i = 0; i < line.size(); ++i) {
     const bool at_end = i + 1 == line.size();
@@ -333,7 +446,9 @@ NumberReader::Style NumberReader::style_of(std::string_view line, int number) co
   }
   if (semicolon || blanks_after_digit > 0) {
     if (point)
-      refuse_line(number, "mixes decimal points with commas; write one separator and points");
+      refuse_line(number, "mixes decimal points with commas, '" +
+                              excerpt(line.data(), line.data() + line.size()) +
+                              "'; write one separator and points");
     if (commas_before_blank > 0 && !semicolon)
       refuse_line(number, "mixes blanks and commas as separators; write one of them");
     return {semicolon ? Separator::semicolon : Separator::blank, true};
@@ -347,7 +462,7 @@ NumberReader::Style NumberReader::style_of(std::string_view line, int number) co
 }
 
 void NumberReader::settle(std::string_view line, int number) {
-  const bool point = has_decimal_point_ || line.find('.') != std::string_view::npos;
+  const bool point = has_decimal_point_ || has_point(line);
   const bool open = !started_ || (!style_.decimal_comma && style_.separator != Separator::comma &&
                                   has_one_of(line, ',', ';'));
   if (open) {
@@ -400,8 +515,20 @@ void NumberReader::append(std::string_view line, int number, std::vector<double>
     append(without_quotes(line), number, values);
     return;
   }
+  const bool settled = has_separator_ && has_decimal_point_ && thousands_.empty();
+  if (!settled) {
+    if (const auto plain = without_thousands(line, number)) {
+      append_plain(*plain, number, values);
+      return;
+    }
+  }
+  append_plain(line, number, values);
+}
+
+void NumberReader::append_plain(std::string_view line, int number, std::vector<double>& values) {
   const bool settled = has_separator_ && has_decimal_point_;
   if (!settled) settle(trimmed(line), number);
+  const std::size_t before = values.size();
   const std::string_view content = content_of(line);
   const char* const end = content.data() + content.size();
   const std::optional<char> between = symbol();
@@ -416,6 +543,11 @@ void NumberReader::append(std::string_view line, int number, std::vector<double>
       const char* const stop = read(at, end, number, column, value);
       const char* const after = stop ? skip(stop) : nullptr;
       if (!stop || !(after == end || (between ? *after == between : after != stop))) {
+        if (const auto plain = without_thousands(line, number)) {
+          values.resize(before);
+          append_plain(*plain, number, values);
+          return;
+        }
         // A comma or semicolon that is not of the style ends no value, and is refused by its name.
         if (settled) settle(trimmed(line), number);
         if (!stop)

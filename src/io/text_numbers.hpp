@@ -69,7 +69,8 @@ class NumberReader {
   /// Appends the values of a line; an empty field is NaN, a separator at the end of the line none.
   /// The marks of undefined points are NaN: "***" and "---" of two characters or more, "NA", "N/A",
   /// "BAD", "No Data", "null", "1.#IND" and the like. Values may be in quotation marks, and have
-  /// the exponents of Fortran, "1.0D-03".
+  /// the exponents of Fortran, "1.0D-03". Marks of thousands are read where they can be nothing
+  /// else: "1,234.5" between semicolons or tabs, "1'234.5".
   /// throws   InvalidInput naming the line and what was found in it; where the line can be read in
   ///          two ways; and where it contradicts the lines before
   /// Cost: one pass, no allocation but values'.
@@ -99,6 +100,8 @@ class NumberReader {
   };
 
   std::string_view content_of(std::string_view line) const;
+  std::optional<std::string> without_thousands(std::string_view line, int number);
+  void append_plain(std::string_view line, int number, std::vector<double>& values);
   Style style_of(std::string_view line, int number) const;
   void settle(std::string_view line, int number);
   const char* read(const char* at, const char* end, int number, std::size_t column, double& value);
@@ -108,6 +111,7 @@ class NumberReader {
   bool tabs_;
   bool started_ = false;
   Style style_;
+  std::string thousands_;  ///< the mark between them, where a line has shown one
   bool has_separator_ = false, has_decimal_point_ = false;  ///< in a line so far
   /// Points of a grid repeat one of their coordinates from line to line.
   std::array<Repeated, 2> repeated_;

@@ -106,27 +106,59 @@ bool are_thousands(const Text& text, char mark) {
   return whole && marked;
 }
 
+/// Lines between the rows, which may begin another matrix.
+class Interruptions {
+ public:
+  void line(const TextRows& matrix, int number, std::string_view content) {
+    if (matrix.rows == 0) return;
+    empty_ = empty_ || content.empty();
+    if (!content.empty() && comment_.empty())
+      comment_ =
+          "line " + std::to_string(number) + ", '" + std::string(content.substr(0, 60)) + "'";
+  }
+  /// rows  before the one that comes now
+  void row(TextRows& matrix) {
+    if (!comment_.empty() && matrix.interruption.empty()) matrix.interruption = comment_;
+    if (empty_ && block_ == 0) block_ = matrix.rows;
+    if (empty_) regular_ = regular_ && matrix.rows % block_ == 0;
+    empty_ = false;
+  }
+  /// An empty line behind each row separates nothing.
+  void end(TextRows& matrix) const {
+    if (matrix.interruption.empty() && block_ > 1 && regular_ && matrix.rows % block_ == 0)
+      matrix.interruption = "the empty line behind row " + std::to_string(block_);
+  }
+
+ private:
+  std::string comment_;
+  bool empty_ = false, regular_ = true;
+  Index block_ = 0;  ///< rows before the first empty line
+};
+
 TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tabs) {
   TextRows matrix;
   NumberReader reader(file, tabs);
   bool all_open = false;  // every row so far ends with a separator
   Lines lines(text);
   std::vector<HeaderLine> first_rows;
+  Interruptions interruptions;
   // Lines of a header are kept. A text of more of them is none.
   constexpr std::size_t most_lines = 5000;
   for (std::string_view line; lines.next(line);) {
     const std::string_view content = trimmed(line);
+    const bool comment = content.starts_with('#') || content.starts_with('%');
+    if (content.empty() || comment) interruptions.line(matrix, lines.number(), content);
     if (content.empty()) continue;
-    const bool comment = content.front() == '#' || content.front() == '%';
     if (comment || (matrix.rows == 0 && !starts_with_number(content))) {
       if (matrix.lines.size() < most_lines)
-        matrix.lines.push_back({lines.number(), std::string(content.substr(0, 4000))});
+        matrix.lines.push_back({lines.number(), std::string(without_spaces(line).substr(0, 4000))});
       else if (matrix.lines.size() == most_lines)
         matrix.lines.push_back({lines.number(), "more lines [m]"});
       continue;
     }
     if (matrix.rows == 0 && !tabs && has_blanks_between_tabs(content))
       return read_rows(file, text, true);
+    interruptions.row(matrix);
     const std::size_t before = matrix.values.size();
     reader.append(line, lines.number(), matrix.values);
     auto columns = static_cast<Index>(matrix.values.size() - before);
@@ -171,6 +203,7 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
   }
   if (matrix.rows == 0)
     refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");
+  interruptions.end(matrix);
   matrix.decimal_commas = reader.has_decimal_commas();
   matrix.decimal_points = reader.has_decimal_points();
   matrix.comma_separates = reader.symbol() == ',';

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <salebra/base/grid.hpp>
+#include <string>
 #include <vector>
 
 #include "text_header.hpp"
@@ -16,6 +17,7 @@ struct TextRows {
   Index columns = 0, rows = 0;
   std::vector<HeaderLine> lines;    ///< without numbers
   std::vector<HeaderLine> leading;  ///< numbers before the rows, of another length than these
+  std::string interruption;  ///< of the rows, by a line without numbers; empty where there is none
   bool decimal_points = false, decimal_commas = false, comma_separates = false;
 
   double operator()(Index row, Index column) const {

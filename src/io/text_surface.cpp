@@ -82,19 +82,23 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
     if (mark == 0) return;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     Index others = 0;
+    bool fractions = true;
     for (const double height : heights)
       if (height == height && height != mark) {
         low = std::min(low, height);
         high = std::max(high, height);
+        fractions = fractions && height != std::floor(height);
         ++others;
       }
     const double gap = mark == least ? low - mark : mark - high;
-    const bool apart = gap > high - low;
+    // A whole number among heights with fractions needs to be less far from these.
+    const bool apart = gap > (mark == std::floor(mark) && fractions ? 0.25 : 1) * (high - low);
     if (!apart || others < 3) {
       if (gap > 0.25 * (high - low) && std::abs(mark) < 1e9)
-        refuse(file, fmt::format("holds heights of {}, which may mark undefined points; write nan "
-                                 "for these, or correct them",
-                                 mark));
+        refuse(file,
+               fmt::format("holds heights of '{}', which may mark undefined points; write nan "
+                           "for these, or correct them",
+                           mark));
       return;
     }
     const Index count = remove(mark);
@@ -194,22 +198,29 @@ class TextReader {
       : file_(file), rows_(read_rows(file, text)) {}
 
   LoadedSurface read() {
-    const Margins margins = margins_of(file_, rows_);
+    const Margins margins = margins_of(rows_);
     header_ = read_header(
         file_, rows_.lines,
         {rows_.columns, rows_.rows, rows_.columns - margins.column, rows_.rows - margins.row,
          rows_.decimal_points, rows_.decimal_commas, rows_.comma_separates});
     remove_count();
     const std::optional<Columns> columns = columns_of(file_, rows_, header_);
-    if (columns)
-      read_columns(*columns);
-    else
-      read_untitled(margins);
+    constexpr const char* not_understood =
+        ", has a unit or a number that is not understood; remove the line, or give the sizes and "
+        "`height_unit`";
+    try {
+      if (columns)
+        read_columns(*columns);
+      else
+        read_untitled(margins);
+    } catch (const UnknownFormat&) {
+      // The line may have said what the numbers are.
+      if (header_.unaccounted.empty()) throw;
+      refuse_unknown(file_, header_.unaccounted.front() + not_understood);
+    }
     check_leading();
     for (const std::string& line : header_.unaccounted)
-      loaded_.questions.push_back({line + ", has a unit or a number that is not understood; remove "
-                                          "the line, or give the sizes and `height_unit`",
-                                   true, true});
+      loaded_.questions.push_back({line + not_understood, true, true});
     scale_heights();
     return std::move(loaded_);
   }
@@ -292,6 +303,7 @@ class TextReader {
         return;
       }
     }
+    if (!margins.fault.empty()) refuse(file_, margins.fault);
     if (margins.row) rows_.remove_first_row();
     if (margins.column) rows_.remove_column(0);
     if ((margins.row || margins.column) && !margins.step_x)
@@ -335,7 +347,15 @@ class TextReader {
     return {};
   }
 
+  /// Of a matrix or a list of heights, where nothing else tells one block of rows from the next.
+  void require_one_block() const {
+    if (!rows_.interruption.empty())
+      refuse(file_, rows_.interruption +
+                        ", stands between rows, which may be of two channels; keep one of them");
+  }
+
   void read_matrix(const Margins& margins, const std::string& x_unit, const std::string& y_unit) {
+    require_one_block();
     check_counts(rows_.columns, rows_.rows, rows_.columns * rows_.rows);
     loaded_.heights = transposed(rows_);
     const Axis x{"x", rows_.columns, header_.width, header_.pixel_x, x_unit},
@@ -367,16 +387,17 @@ class TextReader {
   }
 
   void require_both_units(bool lateral) {
+    const std::string titles = header_.titles_quote.empty() ? "" : ", " + header_.titles_quote;
     const bool of_heights =
         header_.height_factor || !unit_or_common(z_unit_, header_.value_unit).empty();
     if (lateral && !of_heights)
-      loaded_.questions.push_back(
-          {"states the unit of its positions and none of its heights; give `height_unit`", false,
-           true});
+      loaded_.questions.push_back({"states the unit of its positions and none of its heights" +
+                                       titles + "; give `height_unit`",
+                                   false, true});
     if (!lateral && of_heights && !header_.height_factor)
-      loaded_.questions.push_back(
-          {"states the unit of its heights and none of its positions; give `lateral_unit`", true,
-           false});
+      loaded_.questions.push_back({"states the unit of its heights and none of its positions" +
+                                       titles + "; give `lateral_unit`",
+                                   true, false});
   }
 
   void read_points(LoadedSurface grid, const std::string& x_unit, const std::string& y_unit) {
@@ -390,6 +411,7 @@ class TextReader {
   }
 
   void read_heights(const std::vector<double>& heights) {
+    require_one_block();
     check_counts(rows_.rows, rows_.rows, rows_.rows);
     loaded_.is_profile = true;
     loaded_.heights = Eigen::Map<const Field>(heights.data(), rows_.rows, 1);
