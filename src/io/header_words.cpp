@@ -29,7 +29,8 @@ constexpr Entry entries[]{
     {ordinate,
      "amplitude amplituden profile profil profiles profils profilhoehe depth depths tiefe tiefen "
      "profondeur fukasa relief roughness rauheit rauhigkeit rugosite arasa waviness welligkeit "
-     "ondulation ordinate ordonnee purofairu danmen sokuteichi auslenkung"},
+     "ondulation ordinate ordonnee purofairu danmen sokuteichi auslenkung deviation abweichung "
+     "ecart"},
     {values,
      "value values wert werte messwert messwerte valeur valeurs data daten donnees atai deta "
      "signal"},
@@ -66,13 +67,14 @@ constexpr Entry entries[]{
     {factor,
      "factor faktor facteur scale scales scaling skalierung skala massstab echelle multiplier "
      "multiplikator multiplicateur gain verstaerkung sensitivity empfindlichkeit sensibilite "
-     "conversion umrechnung umrechnungsfaktor keisu coefficient koeffizient calibration "
+     "keisu coefficient koeffizient calibration "
      "kalibrierung "
-     "kalibrierfaktor etalonnage lsb digit digits exponent kansan skalierungsfaktor "
+     "kalibrierfaktor etalonnage lsb digit digits exponent skalierungsfaktor "
      "multiply multiplied multipliziert multiplie divide divided geteilt dividiert divise times "
      "mal "
      "fois fach exaggeration exaggerated ueberhoehung ueberhoeht amplified amplification ratio "
      "baika"},
+    {factor | conversion, "conversion umrechnung umrechnungsfaktor kansan"},
     {alters,
      "offset offsets versatz decalage ofusetto inverted invert invertiert inversion inverse "
      "mirrored gespiegelt flipped flip rotated gedreht log logarithmic logarithmisch negated "

@@ -33,11 +33,12 @@ constexpr Meaning x = 1, y = 1 << 1, plane = 1 << 2,  ///< axes; plane: x and y 
     index = 1 << 22,                 ///< counts lines
     resolution = 1 << 23,
                   result = 1 << 24,  ///< a statistic of the heights
-    harmless = 1 << 25,  ///< says nothing about the numbers: dates, instruments, conditions
-    neutral = 1 << 26,   ///< says nothing by itself
-    other = 1 << 27,     ///< a quantity that is not a height
-    no = 1 << 28,        ///< negates
-    unknown = 1 << 29;   ///< in no table
+    harmless = 1 << 25,    ///< says nothing about the numbers: dates, instruments, conditions
+    neutral = 1 << 26,     ///< says nothing by itself
+    other = 1 << 27,       ///< a quantity that is not a height
+    no = 1 << 28,          ///< negates
+    unknown = 1 << 29,     ///< in no table
+    conversion = 1 << 30;  ///< of heights into lengths, by a factor
 
 /// Meanings that describe the numbers of the file.
 constexpr Meaning carrying = x | y | plane | z | height | values | width | size | length | pixel |

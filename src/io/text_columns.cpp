@@ -214,18 +214,24 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     refuse(file, quote + ", names several columns of heights, " + quoted(title(a)) + " and " +
                      quoted(title(b)) + "; keep one of them");
   };
+  // A column that is not understood is none of heights where those have a unit and it has none.
+  const auto is_other = [&](Index i, Index of_z) {
+    return !title(of_z).unit.empty() && !is_length(title(i).unit);
+  };
   // Positions that rise, heights, and what is in no unit of length: a profile.
   const auto profile_with_others = [&]() -> std::optional<std::pair<Index, Index>> {
     std::optional<Index> along_x, of_z;
     for (const Index i : kept) {
       if (role(i) == Role::y) return {};
-      if (role(i) == Role::unknown && is_length(title(i).unit)) return {};
       if (role(i) == Role::unknown) continue;
       auto& target = role(i) == Role::height ? of_z : along_x;
       if (target) return {};
       target = i;
     }
     if (!along_x || !of_z || !is_monotone(rows, *along_x)) return {};
+    if (!std::ranges::all_of(
+            kept, [&](Index i) { return role(i) != Role::unknown || is_other(i, *of_z); }))
+      return {};
     return std::pair(*along_x, *of_z);
   };
   if (kept.empty()) refuse(file, quote + ", names no column of heights; name one z");
@@ -280,7 +286,9 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     const int known = result.x.has_value() + result.y.has_value() + result.z.has_value();
     if (known == 2 && unclear.size() == 1) {
       auto& target = !result.x ? result.x : !result.y ? result.y : result.z;
-      if (role(unclear[0]) == Role::position && &target == &result.z) not_understood(unclear[0]);
+      if ((role(unclear[0]) == Role::position && &target == &result.z) ||
+          (&target == &result.y && is_monotone(rows, *result.x)))
+        not_understood(unclear[0]);
       target = unclear[0];
       unclear.clear();
     } else if (known < 3) {
@@ -294,7 +302,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
         one = one || rows(row, i) == 1;
         both = rows(row, i) == 0 || rows(row, i) == 1;
       }
-      if (is_length(title(i).unit) || (both && zero && one)) not_understood(i);
+      if (!is_other(i, *result.z) || (both && zero && one)) not_understood(i);
       result.remarks.push_back("the column " + quoted(title(i)) + " was not used");
     }
   }

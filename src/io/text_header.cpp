@@ -206,10 +206,14 @@ class HeaderReader {
   /// text.
   bool read_words(Tokens tokens) {
     const auto number = std::ranges::find(tokens, Kind::number, &HeaderToken::kind);
+    const auto columns = layout_.titled_columns;
+    const bool titles_apart =
+        std::ranges::count(tokens, Kind::separator, &HeaderToken::kind) + 1 == columns ||
+        std::ranges::count_if(tokens.subspan(1), &HeaderToken::apart) + 1 == columns;
     const bool free_number = std::ranges::any_of(tokens, [](const HeaderToken& token) {
       return token.kind == Kind::number && !token.bracket;
     });
-    if ((!free_number || numbers_names(tokens)) && !has(tokens, Kind::date)) {
+    if ((!free_number || (titles_apart && numbers_names(tokens))) && !has(tokens, Kind::date)) {
       if (read_titles(tokens)) return true;
       if (read_unit_line(tokens)) return true;
       // Names of columns that do not fit the columns.
@@ -234,10 +238,7 @@ class HeaderReader {
 
   /// Whether numbers tell columns apart: "x;Profile 1;Profile 2".
   bool numbers_names(Tokens tokens) const {
-    if (layout_.titled_columns < 3 ||
-        std::ranges::count(tokens, Kind::separator, &HeaderToken::kind) + 1 !=
-            layout_.titled_columns)
-      return false;
+    if (layout_.titled_columns < 3) return false;
     for (std::size_t i = 0; i < tokens.size(); ++i)
       if (tokens[i].kind == Kind::number &&
           (tokens[i].text.size() > 1 || i < 2 || tokens[i - 1].kind != Kind::word))
@@ -432,10 +433,14 @@ class HeaderReader {
         return ((kind_of(quantity) == kinds) || ...);
       });
     };
+    if (states_height_factor(meaning, quantities,
+                             unit_of_key != key.end() ? &*unit_of_key : nullptr))
+      return true;
     if (!all_are(Kind::number, Kind::length, Kind::other)) return false;
     const bool lengths = all_are(Kind::length), numbers = all_are(Kind::number);
 
-    if (line_.find("->") != line_.npos && (meaning & factor)) return read_height_factor(quantities);
+    if (line_.find("->") != line_.npos && (meaning & factor))
+      return !(meaning & (x | y | plane)) && read_height_factor(quantities);
     if (meaning & missing) {
       if (meaning & (points | count | pixel)) return numbers && !(meaning & unknown);
       if (quantities.size() != 1 || !numbers || said) return false;
@@ -492,6 +497,30 @@ class HeaderReader {
   static bool has_other(const std::vector<Quantity>& quantities, const KindOf& kind_of) {
     return std::ranges::any_of(
         quantities, [&](const Quantity& quantity) { return kind_of(quantity) == Kind::other; });
+  }
+
+  /// "Z conversion factor: 1e-9 m", "Height factor: 0.3 nm/digit". A "Z scale" of a length may be
+  /// that of a picture.
+  bool states_height_factor(Meaning meaning, const std::vector<Quantity>& quantities,
+                            const HeaderToken* unit_of_key) {
+    using namespace meaning;
+    if (!(meaning & factor) || !(meaning & (z | height | values)) || quantities.size() != 1 ||
+        (meaning & (carrying & ~(z | height | values | factor))) ||
+        (meaning & (harmless | unknown)))
+      return false;
+    const HeaderToken* unit = quantities[0].unit ? quantities[0].unit : unit_of_key;
+    const auto number = parsed(quantities[0].text, layout_);
+    if (!unit || !number || number->value == 0) return false;
+    const auto slash = std::min(unit->text.find('/'), unit->text.size());
+    const std::string_view per =
+        std::string_view(unit->text).substr(std::min(slash + 1, unit->text.size()));
+    const bool per_value =
+        per.empty() ? (meaning & conversion) != 0
+                    : per == "bit" || (detail::meaning_of(per) & (factor | count | values));
+    const auto metres = metres_in(unit->text.substr(0, slash));
+    if (!per_value || !metres) return false;
+    header_.height_factor = number->value * *metres;
+    return true;
   }
 
   bool read_height_factor(const std::vector<Quantity>& quantities) {

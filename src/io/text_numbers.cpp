@@ -223,7 +223,9 @@ std::string without_quotes(std::string_view line) {
   for (std::size_t begin = 0; begin <= line.size(); quoted = !quoted) {
     const std::size_t end = std::min(line.find('"', begin), line.size());
     std::string part(line.substr(begin, end - begin));
-    if (quoted && thousands_mark(part, {}) == ",") std::erase(part, ',');
+    if (const std::string mark(thousands_mark(quoted ? part : "", {})); !mark.empty())
+      for (auto at = part.find(mark); at != part.npos; at = part.find(mark))
+        part.erase(at, mark.size());
     if (quoted) decimal = decimal || part.find(',') != part.npos;
     if (!quoted && !tabs) std::ranges::replace(part, ',', between_quotes);
     result += part;
@@ -456,8 +458,9 @@ NumberReader::Style NumberReader::style_of(std::string_view line, int number) co
   // Commas alone: separators, unless "1,5" or "1,5e-7,…" could as well be decimal fractions.
   const bool exponent = line.find_first_of("eE") != std::string_view::npos;
   if (!point && commas_before_blank == 0 && (commas == 1 || exponent))
-    refuse_line(number,
-                "can be read with commas as separators or as decimal commas; write decimal points");
+    refuse_line(number, "can be read with commas as separators or as decimal commas, '" +
+                            excerpt(line.data(), line.data() + line.size()) +
+                            "'; write decimal points");
   return {Separator::comma, false};
 }
 

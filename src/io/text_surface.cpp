@@ -213,8 +213,8 @@ class TextReader {
         read_columns(*columns);
       else
         read_untitled(margins);
-    } catch (const UnknownFormat&) {
-      // The line may have said what the numbers are.
+    } catch (const InvalidInput&) {
+      // A line that is not understood may have said what the numbers are.
       if (header_.unaccounted.empty()) throw;
       refuse_unknown(file_, header_.unaccounted.front() + not_understood);
     }
@@ -303,7 +303,10 @@ class TextReader {
         return;
       }
     }
-    if (!margins.fault.empty()) refuse(file_, margins.fault);
+    if (!margins.fault.empty()) {
+      require_one_block();
+      refuse(file_, margins.fault);
+    }
     if (margins.row) rows_.remove_first_row();
     if (margins.column) rows_.remove_column(0);
     if ((margins.row || margins.column) && !margins.step_x)

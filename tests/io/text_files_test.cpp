@@ -648,7 +648,11 @@ std::string mistake(const Case& drawn, const detail::ReadSurface& read) {
 bool names_token(const Case& drawn, const std::string& error) {
   if (!drawn.culprit.empty() && error.find(drawn.culprit) != error.npos) return true;
   if (drawn.culprit.empty() && error.find('`') != error.npos) return true;
-  if (error.find("the empty line") != error.npos) return true;
+  if (error.find("the empty line") != error.npos ||
+      error.find("no number in the corner") != error.npos)
+    return true;
+  if (error.find("as XYZ points") != error.npos) return true;
+  if (error.find(" line ") != error.npos && error.find(" holds ") != error.npos) return true;
   for (auto begin = error.find('\''); begin != error.npos;) {
     const auto end = error.find('\'', begin + 1);
     if (end == error.npos) return false;
