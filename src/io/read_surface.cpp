@@ -510,6 +510,11 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
 Surface read_whole(const std::filesystem::path& file, const ReadOptions& options) {
   detail::ReadSurface read = detail::completed(file, load(file, options), options);
   doubt(file, read, options);
+  if (options.remarks)
+    for (const std::string& what :
+         doubts_of_values(read.surface.heights,
+                          read.names_unit ? std::nullopt : std::optional(read.metres_per_unit)))
+      options.remarks->push_back(file.string() + ": " + what);
   return prepared(file, std::move(read.surface), options);
 }
 

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <salebra/base/parallel.hpp>
 #include <salebra/base/share.hpp>
 #include <utility>
@@ -46,7 +48,71 @@ struct Differences {
   }
 };
 
+/// The least value, how often it is there, and the range of all others. Of negative values it is
+/// the greatest one.
+struct Extreme {
+  double value = infinity, low = infinity, high = -infinity;
+  Index count = 0;
+
+  void add(double height) {
+    if (height > value) {
+      low = std::min(low, height);
+      high = std::max(high, height);
+    } else if (height == value) {
+      ++count;
+    } else if (height < value) {
+      if (count > 0) {
+        low = value;
+        high = std::max(high, value);
+      }
+      value = height;
+      count = 1;
+    }
+  }
+  bool is_apart() const { return count > 1 && high > low && low - value > high - low; }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+};
+
 }  // namespace
+
+std::vector<std::string> doubts_of_values(const Field& heights, std::optional<double> unit) {
+  constexpr Index least = 64;  // fewer values may be so by chance
+  std::vector<std::string> doubts;
+  if (heights.size() < least) return doubts;
+  Extreme lowest, highest;
+  bool whole = unit.has_value();
+  const double per_metre = 1 / unit.value_or(1);
+  for (const double height : heights.reshaped<Eigen::RowMajor>()) {
+    lowest.add(height);
+    highest.add(-height);
+    const double number = height * per_metre;
+    // What a unit multiplied and divided is whole but for rounding.
+    whole = whole && !(std::abs(number - std::round(number)) > 1e-12 * std::abs(number));
+  }
+  if (lowest.count == 0 || !(lowest.high > lowest.value)) return doubts;
+  if (whole)
+    doubts.emplace_back(
+        "all heights are whole numbers, as counts of a converter are; check their unit");
+  const auto constant = [&](const auto& line) { return (line == line(0)).all(); };
+  constexpr Index shortest = 8;
+  const Index rows = heights.rows(), columns = heights.cols();
+  if (unit && rows >= shortest && columns >= shortest) {
+    if (constant(heights.row(0)) && !constant(heights.row(1)))
+      doubts.emplace_back("the first column of points holds one value; is it one of heights?");
+    if (constant(heights.col(0)) && !constant(heights.col(1)))
+      doubts.emplace_back("the first row of points holds one value; is it one of heights?");
+  }
+  const auto mark = [&](const Extreme& extreme, double sign) {
+    doubts.push_back(fmt::format(
+        "{} heights of {:.6g} are farther from all others than these span; if undefined points are "
+        "marked so, write nan there",
+        extreme.count, sign * extreme.value * per_metre));
+  };
+  if (lowest.is_apart()) mark(lowest, 1);
+  if (highest.is_apart()) mark(highest, -1);
+  return doubts;
+}
 
 std::optional<std::string> doubt_of_slope(double rms_slope, double unit) {
   constexpr double most = 1;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <string>
+#include <vector>
 
 /// Input that is allowed and most likely a slip of the user's hand, in words for a warning.
 namespace salebra {
@@ -19,5 +20,13 @@ std::optional<std::string> doubt_of_slope(double rms_slope, double unit = 1);
 /// Undefined points take no part; nothing is said of a map without pairs of neighbours along both
 /// axes. A profile has one. Cost: one pass. Collective of a surface that is spread over processes.
 std::optional<std::string> doubt_of_heights(const Surface& surface, double unit = 1);
+
+/// Values that are most likely no heights, of a map or a profile in one process. Where the file
+/// states no unit: whole numbers, as of a converter, and a first row or column of one value. In
+/// all: a repeated lowest or highest value that is farther from all others than these span, as marks
+/// of undefined points are.
+/// unit  of the heights as they were given, m; nothing where the file states it
+/// Cost: one pass.
+std::vector<std::string> doubts_of_values(const Field& heights, std::optional<double> unit);
 
 }  // namespace salebra

@@ -82,3 +82,39 @@ TEST_CASE("Heights without pairs of neighbours are not doubted", "[plausibility]
   hole.heights(5, 5) = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(doubt_of_heights(hole));
 }
+
+TEST_CASE("Values that are no heights are doubted", "[plausibility]") {
+  const Field heights = ripple(1).heights;
+  CHECK(doubts_of_values(heights, 1.).empty());
+  const auto only = [](const Field& changed, std::optional<double> unit = 1.) {
+    const auto doubts = doubts_of_values(changed, unit);
+    return doubts.size() == 1 ? doubts[0] : std::to_string(doubts.size()) + " doubts";
+  };
+  SECTION("Whole numbers, unless the file states their unit") {
+    const Field whole = 1e-9 * (1e8 * heights).round();
+    CHECK_THAT(only(whole, 1e-9), Contains("whole numbers"));
+    CHECK(doubts_of_values(whole, {}).empty());
+    CHECK(doubts_of_values(whole, 1.).empty());
+  }
+  SECTION("A first row or column of one value") {
+    Field changed = ripple(1, 0.1).heights;
+    changed.row(0) = 0;
+    CHECK_THAT(only(changed), Contains("first column"));
+    changed = heights;
+    changed.col(0) = 1e-7;
+    CHECK_THAT(only(changed), Contains("first row"));
+    CHECK(doubts_of_values(changed, {}).empty());
+    // Each column of a ripple along x holds one value, the second as the first.
+    CHECK(doubts_of_values(heights, 1.).empty());
+  }
+  SECTION("Repeated pits and peaks that may be marks") {
+    Field changed = heights;
+    changed(3, 4) = -9.999e-3;
+    CHECK(doubts_of_values(changed, 1.).empty());
+    changed(30, 40) = -9.999e-3;
+    CHECK_THAT(only(changed), Contains("2 heights of -0.009999 are farther"));
+    changed = heights;
+    changed(3, 4) = changed(5, 6) = 9.999e-3;
+    CHECK_THAT(only(changed), Contains("2 heights of 0.009999"));
+  }
+}
