@@ -20,7 +20,7 @@ namespace {
 
 /// A column of the table: what it means and what its values are multiplied by.
 struct Column {
-  double ForceSample::*member = nullptr;
+  double ForceSample::* member = nullptr;
   bool converged = false;
   double factor = 1;
 };
@@ -65,18 +65,31 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
     if (curve.nominal_area > 0 && std::isnan(sample.pressure))
       sample.pressure = sample.force / curve.nominal_area;
   }
-  const auto has = [&](double ForceSample::*member) {
+  // A column that is there but for some rows.
+  const auto refuse_gap = [&](std::initializer_list<double ForceSample::*> members) {
+    for (const auto& [quantity, member] : curve_quantities()) {
+      if (std::ranges::find(members, member) == members.end()) continue;
+      const auto unknown = [&](const ForceSample& sample) { return std::isnan(sample.*member); };
+      const auto row = std::ranges::find_if(curve.samples, unknown);
+      if (row != curve.samples.end() && !std::ranges::all_of(curve.samples, unknown))
+        refuse(file, fmt::format("holds 'nan' for {} in row {} of its numbers; remove that row",
+                                 quantity.name, row - curve.samples.begin() + 1));
+    }
+  };
+  const auto has = [&](double ForceSample::* member) {
     return std::ranges::none_of(
         curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*member); });
   };
   const auto load = has(&ForceSample::pressure) ? &ForceSample::pressure : &ForceSample::force;
-  if (!has(load))
-    refuse(file, "has no complete column pressure or force; name one in the first line");
+  if (!has(load)) {
+    refuse_gap({&ForceSample::pressure, &ForceSample::force});
+    refuse(file, "has no column pressure or force; name one in the first line");
+  }
   if (!has(&ForceSample::mean_gap) && !has(&ForceSample::indentation) &&
-      !has(&ForceSample::separation))
-    refuse(
-        file,
-        "has no complete column mean_gap, indentation or separation; name one in the first line");
+      !has(&ForceSample::separation)) {
+    refuse_gap({&ForceSample::mean_gap, &ForceSample::indentation, &ForceSample::separation});
+    refuse(file, "has no column mean_gap, indentation or separation; name one in the first line");
+  }
   std::ranges::stable_sort(curve.samples, {}, load);
 }
 

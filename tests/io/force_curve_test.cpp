@@ -139,6 +139,7 @@ TEST_CASE("A table that is no curve is refused with the reason", "[curve file]")
   refused("pressure [MPa], depth [nm], mean_gap [nm]\n1, 2, 3\n", "'depth [nm]'");
   refused("pressure [MPa], mean_gap\n1, 2\n", "none of mean_gap");
   refused("mean_gap [nm]\n1\n2\n", "pressure or force");
+  refused("pressure [MPa], mean_gap [nm]\n1, 3\nnan, 2\n3, 1\n", "'nan' for pressure in row 2");
   refused("pressure [MPa], mean_gap [nm\n1, 2\n", "bracket");
   refused("pressure [MPa], mean_gap [nm]\n", "no samples");
   refused("", "empty");

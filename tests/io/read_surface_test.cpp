@@ -569,6 +569,62 @@ TEST_CASE("An empty last field is an undefined point", "[read]") {
   CHECK_THROWS_WITH(read("1;2;3\n4;5\n"), Contains("holds 2 values"));
 }
 
+TEST_CASE("Marks of thousands are read where they can be nothing else", "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("scan.csv", text), {.size_x = 3, .size_y = 3}).heights;
+  };
+  for (const std::string row :
+       {"1,234.5;2.5;-12,345.25", "1.234,5;2,5;-12.345,25", "1'234.5;2.5;-12'345.25",
+        "1 234,5;2,5;-12 345,25", "1 234.5\t2.5\t-12 345.25", "1'234.5 2.5 -12'345.25",
+        "1\u202f234,5;2,5;-12\u202f345,25", "\"1,234.5\",\"2.5\",\"-12,345.25\""}) {
+    INFO(row);
+    // Two rows of points of which the first is the same do not fill a grid of x, y and z.
+    const Field heights = read("# Width: 3 um\n# Height: 2 um\n" + row + "\n" + row + "\n");
+    REQUIRE(heights.rows() == 3);
+    CHECK(heights(0, 0) == 1234.5);
+    CHECK(heights(1, 1) == 2.5);
+    CHECK(heights(2, 1) == -12345.25);
+  }
+  // A mark that other lines show counts where it stands alone.
+  CHECK(read("1,234.5;2.5\n1,234;2.5\n")(0, 1) == 1234);
+  CHECK_THROWS_WITH(read("1,234;2\n2,345.5;2.5\n"), Contains("line 2") && Contains("','"));
+  CHECK_THROWS_WITH(read("1,234.5;2'000.5\n"), Contains("another mark of thousands"));
+}
+
+TEST_CASE("Blocks of rows may be channels", "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& text) {
+    return read_surface(scratch.file("scan.txt", text), {.size_x = 3, .size_y = 3}).heights;
+  };
+  const std::string block = "1.5 2 4 8\n3 4 7 5\n";
+  CHECK_THROWS_WITH(read(block + "# second\n" + block), Contains("line 3, '# second'"));
+  CHECK_THROWS_WITH(read(block + "\n" + block), Contains("the empty line behind row 2"));
+  CHECK(read("1.5 2 4 8\n\n3 4 7 5\n").cols() == 2);
+  CHECK(read(block + "\n# end\n").cols() == 2);
+}
+
+TEST_CASE("Factors of conversion are read where they are of heights", "[read]") {
+  const Scratch scratch;
+  const auto read = [&](const std::string& line) {
+    return read_surface(
+               scratch.file("scan.txt", "# Pixel size: 1 um\n" + line + "\n1 2 3 4\n4 5 7 9\n"))
+        .heights(2, 0);
+  };
+  for (const char* line :
+       {"# Height conversion factor (-> m): 2e-9", "# Height conversion factor (-> um): 2e-3",
+        "# Z conversion factor: 2.0D-09 m", "# Umrechnungsfaktor H\u00f6he [nm]: 2",
+        "# Height factor: 2 nm/digit"}) {
+    INFO(line);
+    CHECK(read(line) == Approx(6e-9).epsilon(1e-12));
+  }
+  for (const char* line : {"Lateral conversion factor (-> m): 1e-6", "Z scale: 2.5 nm",
+                           "Sensitivity: 2.5 nm/V", "Heights multiplied by 10"}) {
+    INFO(line);
+    CHECK_THROWS_WITH(read(line), Contains(line));
+  }
+}
+
 TEST_CASE("Marks of instruments are undefined points", "[read]") {
   const Scratch scratch;
   const auto read = [&](const std::string& text) {
