@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 
 #include "base/printable.hpp"
@@ -17,8 +19,27 @@
 namespace salebra::detail {
 namespace {
 
-/// CalculiX and Abaqus read at most 20 characters of a number.
-std::string number(double value) { return fmt::format("{:.10g}", value); }
+/// CalculiX and Abaqus read at most 20 characters of a number: as many digits as fit, and no more than
+/// tell a number from its neighbours.
+std::string number(double value) {
+  constexpr std::size_t most = 20;
+  std::string text = fmt::format("{}", value);
+  for (int digits = 16; text.size() > most; --digits) text = fmt::format("{:.{}g}", value, digits);
+  return text;
+}
+
+/// Throws InvalidInput where the numbers of a column, as the other program reads them, do not rise:
+/// it would read a step, or refuse the deck.
+void require_rising(const Deck& deck, const std::vector<double>& column, const char* what) {
+  for (std::size_t i = 1; i < column.size(); ++i)
+    require(column[i] > column[i - 1], "rows", deck.clearance.size(),
+            fmt::format("are too many: two have the {} {} in all digits that are read; give fewer, "
+                        "or {}",
+                        what, column[i],
+                        deck.question.pressure_window
+                            ? "widen `pressure_window`"
+                            : "count the indentation from nearer to the contact"));
+}
 
 std::string comments(const Deck& deck, const CommentStyle& style) {
   std::string text;
@@ -26,7 +47,16 @@ std::string comments(const Deck& deck, const CommentStyle& style) {
   return text;
 }
 
+/// Throws InvalidInput where the rows of columns of whole numbers do not rise.
+void require_rising(const Deck& deck) {
+  std::vector<double> approach = deck.clearance;
+  for (double& value : approach) value = -value;
+  require_rising(deck, approach, "approach");
+  for (const DeckLaw& law : deck.laws) require_rising(deck, law.pressure, "pressure");
+}
+
 std::string csv(const Deck& deck) {
+  require_rising(deck);
   std::string text = comments(deck, {"#"}) + "clearance";
   std::vector<const std::vector<double>*> columns{&deck.clearance};
   const auto column = [&](const std::string& name, const std::vector<double>& values) {
@@ -49,6 +79,7 @@ std::string csv(const Deck& deck) {
 
 /// Its members are described in docs/howto/decks.md.
 std::string json(const Deck& deck) {
+  require_rising(deck);
   const DeckQuestion& question = deck.question;
   Json laws = Json::object();
   for (const DeckLaw& law : deck.laws) {
@@ -82,12 +113,39 @@ std::string upper_case(std::string name) {
   return "SALEBRA_" + name;
 }
 
-/// Pairs of pressure and overclosure in ascending order, from no pressure on. zero: the clearance
-/// at which the overclosure is 0.
-std::string overclosures(const Deck& deck, const DeckLaw& law, double zero) {
-  std::string text = fmt::format("0, {}\n", number(zero - first_clearance(deck)));
-  for (std::size_t i = 0; i < deck.clearance.size(); ++i)
-    text += fmt::format("{}, {}\n", number(law.pressure[i]), number(zero - deck.clearance[i]));
+struct DeckRow {
+  std::string displacement, pressure;
+};
+
+/// Rows in ascending order, from no pressure on. zero: the clearance at which the displacement is 0.
+/// steps > 0: a row more, so many steps beyond the last with its slope.
+std::vector<DeckRow> rows_of(const Deck& deck, const DeckLaw& law, double zero, double steps = 0) {
+  std::vector<double> displacement{zero - first_clearance(deck)}, pressure{0};
+  for (std::size_t i = 0; i < deck.clearance.size(); ++i) {
+    displacement.push_back(zero - deck.clearance[i]);
+    pressure.push_back(law.pressure[i]);
+  }
+  const auto go_on = [&](std::vector<double>& column) {
+    column.push_back(column.back() + steps * (column.back() - column[column.size() - 2]));
+  };
+  if (steps > 0) go_on(displacement), go_on(pressure);
+  std::vector<DeckRow> rows;
+  const auto print = [](double& value) {
+    const std::string text = number(value);
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return text;
+  };
+  for (std::size_t i = 0; i < displacement.size(); ++i)
+    rows.push_back({print(displacement[i]), print(pressure[i])});
+  require_rising(deck, displacement, "displacement");
+  require_rising(deck, pressure, "pressure");
+  return rows;
+}
+
+/// Pairs of pressure and overclosure.
+std::string overclosures(const std::vector<DeckRow>& rows) {
+  std::string text;
+  for (const DeckRow& row : rows) text += fmt::format("{}, {}\n", row.pressure, row.displacement);
   return text;
 }
 
@@ -108,17 +166,11 @@ std::string calculix(const Deck& deck) {
                           number(deck.exponential_length * std::log(100.)),
                           number(deck.exponential_pressure));
     } else {
-      const std::size_t last = deck.clearance.size() - 1;
-      const double step = deck.clearance[last - 1] - deck.clearance[last];
-      const double rise = law.pressure[last] - law.pressure[last - 1];
-      const double steps = 10. * double(last), zero = first_clearance(deck);
+      const double zero = first_clearance(deck), steps = 10 * double(deck.clearance.size() - 1);
       text += fmt::format(
           "** Draw the surfaces so that they touch where their clearance is {}:\n"
-          "** overclosure = {} - clearance.\n{}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n"
-          "{}{}, {}\n",
-          number(zero), number(zero), name, overclosures(deck, law, zero),
-          number(law.pressure[last] + steps * rise),
-          number(zero + steps * step - deck.clearance[last]));
+          "** overclosure = {} - clearance.\n{}*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n{}",
+          number(zero), number(zero), name, overclosures(rows_of(deck, law, zero, steps)));
     }
     if (deck.has_friction())
       text += fmt::format("*FRICTION\n{}, {}\n", number(deck.question.friction_coefficient),
@@ -137,7 +189,7 @@ std::string abaqus(const Deck& deck) {
     text += fmt::format(
         "** {}: {}\n*SURFACE INTERACTION, NAME={}\n*SURFACE BEHAVIOR, "
         "PRESSURE-OVERCLOSURE=TABULAR\n{}",
-        law.name, law.what, upper_case(law.name), overclosures(deck, law, 0));
+        law.name, law.what, upper_case(law.name), overclosures(rows_of(deck, law, 0)));
     if (deck.has_friction())
       text += fmt::format("*FRICTION, ELASTIC SLIP={}\n{},\n", number(law.elastic_slip),
                           number(deck.question.friction_coefficient));
@@ -162,9 +214,10 @@ std::string ansys(const Deck& deck) {
         "! {}: {}. Without displacement the surfaces are {} apart.\n"
         "ET,{},COMBIN39\nKEYOPT,{},1,0\nKEYOPT,{},2,1\nKEYOPT,{},3,3\nR,{},0,0",
         law.name, law.what, number(first), type, type, type, type, type);
-    for (std::size_t i = 0; i < deck.clearance.size(); ++i)
-      text += fmt::format("{}{},{}*SALEBRA_AREA", i % 3 == 2 ? "\nRMORE," : ",",
-                          number(first - deck.clearance[i]), number(law.pressure[i]));
+    const std::vector<DeckRow> rows = rows_of(deck, law, first);
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      text += fmt::format("{}{},{}*SALEBRA_AREA", i % 3 == 0 ? "\nRMORE," : ",",
+                          rows[i].displacement, rows[i].pressure);
     text += "\n";
     ++type;
   }
@@ -183,9 +236,9 @@ std::string code_aster(const Deck& deck) {
   for (const DeckLaw& law : deck.laws) {
     const double first = first_clearance(deck);
     text += fmt::format("# {}: {}\ntab{} = (\n    (0.0, 0.0),\n", law.name, law.what, law.name);
-    for (std::size_t i = 0; i < deck.clearance.size(); ++i)
-      text += fmt::format("    ({}, {}),\n", number(first - deck.clearance[i]),
-                          number(law.pressure[i]));
+    const std::vector<DeckRow> rows = rows_of(deck, law, first);
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      text += fmt::format("    ({}, {}),\n", rows[i].displacement, rows[i].pressure);
     text += fmt::format(
         ")\nfun{0} = DEFI_FONCTION(\n    NOM_PARA='DX', INTERPOL='LIN', PROL_GAUCHE='EXCLU', "
         "PROL_DROITE='LINEAIRE',\n    VALE=[value for dx, p in tab{0} for value in (dx, area * "
