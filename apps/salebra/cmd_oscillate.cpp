@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/questions/oscillation.hpp>
 
+#include "base/memory.hpp"
+#include "base/stop_check.hpp"
 #include "friction_options.hpp"
 #include "options.hpp"
 #include "oscillation_answer.hpp"
@@ -46,10 +49,14 @@ OscillatingBody shape_of(const OscillateArguments& arguments, const std::string&
   require(points >= 16, "--points", points, "must be >= 16");
   const double size = arguments.surface.size_x.value_or(default_size);
   const double width = arguments.surface.size_y.value_or(size);
-  const Grid2D grid{points,
-                    std::max<Index>(1, static_cast<Index>(std::lround(points * width / size))),
-                    size, width};
+  const double lines = points * width / size;
+  constexpr double most_lines = std::numeric_limits<int>::max();
+  require(lines < most_lines, "--size-y", format_quantity(width, Dimension::length),
+          fmt::format("would need {:.3g} lines of the cells of --size-x; choose a smaller one",
+                      lines));
+  const Grid2D grid{points, std::max<Index>(1, std::lround(lines)), size, width};
   grid.validate();
+  require_memory(grid, sizeof(double) * static_cast<double>(grid.points()), "a surface");
   return oscillating_shape(shape, grid);
 }
 
@@ -269,12 +276,15 @@ void run(const OscillateArguments& arguments, Session& session) {
   outcomes.reserve(shapes.size());  // a recorder refers to a surface in it
   std::optional<CycleRecorder> recorder;
   for (const std::string& shape : shapes) {
+    // The cycle keeps a checkpoint when it is interrupted; what comes before it is of no use then.
+    std::optional<detail::StopCheck> stops{interrupted};
     OscillationCase contact = case_of(arguments, shape, session);
     const OscillationRoutes routes = routes_of(
         arguments, contact, shape, part_of(session.progress(), outcomes.size(), shapes.size()));
     OscillationOutcome& outcome =
         outcomes.emplace_back(oscillation_by_levels(std::move(contact), routes));
     if (arguments.method == "levels") continue;
+    stops.reset();
     recorder.emplace(recorder_of(arguments, outcome.run, routes.cycle, session));
     simulate_cycles(outcome, routes, [&](const CycleOptions& cycle, const auto& simulate) {
       return recorder->run(cycle, simulate);
@@ -323,8 +333,10 @@ void add_oscillate_command(Program& program) {
   add_choice(command, "--method", arguments->method, {"levels", "both"},
              "levels: contact sets at a few indentations; both: also step through the cycle; "
              "default both");
-  add_steps(command, arguments->steps, "changes of the contact in a cycle; default 64");
-  command.add_option("--levels", arguments->levels, "contact levels; default 16, 32 for drag");
+  add_steps(command, arguments->steps, "changes of the contact in a cycle; default 64")
+      ->range(4, 10000000);
+  command.add_option("--levels", arguments->levels, "contact levels; default 16, 32 for drag")
+      ->range(0, 4096);
   add_quantity(command, "--relative-error", arguments->relative_error, Dimension::dimensionless,
                "of the levels' loss, such as 1%: chooses levels and, for a shape, cells");
   add_quantity(command, "--decay-length", arguments->decay_length, Dimension::length,

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <variant>
 
+#include "base/stop_check.hpp"
+
 namespace salebra::detail {
 namespace {
 
@@ -19,6 +21,7 @@ constexpr int fine_nodes = 96;
 std::vector<Node> gauss_nodes(int count) {
   std::vector<Node> nodes;
   for (int k = count; k >= 1; --k) {
+    stop_if_asked();
     double x = std::cos(pi * (k - 0.25) / (count + 0.5)), slope = 1;
     for (int iteration = 0; iteration < 8; ++iteration) {
       double previous = 1, value = x;  // P_0, P_1
