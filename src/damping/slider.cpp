@@ -424,14 +424,18 @@ double damping_error(const Case& at, const Slider& slider, double friction_coeff
   return 1.1 * std::max(more, damping - faster) + pi * pi / 3 * slow * slow * damping;
 }
 
-// The least place in (low, high] where `damping` reaches what is needed; NaN: nowhere.
+// The least place in (low, high] where `damping` reaches what is needed; NaN: nowhere, or already at
+// low, since the least place then lies below.
 double first_reached(const std::function<double(double)>& excess, double low, double high) {
   constexpr double ratio = 1.05;
   constexpr int most = 2000;  // 42 decades
   double before = low, place = low;
   for (int k = 0; k < most && place < high; ++k) {
     place = std::min(ratio * place, high);
-    if (excess(place) >= 0) return detail::find_root(excess, before, place);
+    if (excess(place) >= 0) {
+      if (before == low && !(excess(low) < 0)) break;
+      return detail::find_root(excess, before, place);
+    }
     before = place;
   }
   return SliderThreshold::unknown;
@@ -469,8 +473,10 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
         low, high);
   };
   threshold.linear_estimate = estimate(0);
+  const double further = estimate(-1) - threshold.linear_estimate,
+               nearer = threshold.linear_estimate - estimate(1);
   threshold.linear_estimate_error =
-      std::max(estimate(-1) - threshold.linear_estimate, threshold.linear_estimate - estimate(1));
+      std::isnan(nearer) ? SliderThreshold::unknown : std::max(further, nearer);
   threshold.value = first_reached(
       [&](double place) {
         const SliderStability one = slider_stability(law, position, normal_of(place), slider,

@@ -282,6 +282,13 @@ TEST_CASE("A threshold over frequency is that over amplitude, read the other way
   CHECK(std::isnan(threshold_amplitude(rough, load, {50e-9, omega}, steep, friction).value));
   CHECK(std::isnan(
       threshold_amplitude(rough, load, {50e-9, omega}, steep, friction).linear_estimate));
+  // Where the estimate is reached below four natural frequencies, the range has none, and how far it
+  // would move is not known either. The full equation has its threshold further up.
+  const SliderThreshold below =
+      threshold_angular_frequency(rough, load, {200e-9, 10 * omega}, slider, friction);
+  CHECK(std::isnan(below.linear_estimate));
+  CHECK(std::isnan(below.linear_estimate_error));
+  CHECK(below.value > 4.01 * std::sqrt(slider.spring_stiffness / slider.mass));
 }
 
 TEST_CASE("A slider on a tabulated contact with its own K_t slides as its averages say",

@@ -222,8 +222,8 @@ SliderStability slider_stability(const ContactLaw& law, const Position& position
 /// disturbances of sliding die out.
 struct SliderThreshold {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double value = unknown;            ///< of the full equation; NaN: none in the range
-  double linear_estimate = unknown;  ///< where dT̄/dv + c = b; NaN: nowhere in the range
+  double value = unknown;  ///< of the full equation; NaN: none in the range, or one below it
+  double linear_estimate = unknown;  ///< where dT̄/dv + c = b; NaN as value
   /// How far linear_estimate moves with the error of dT̄/dv (SliderStability). NaN: out of the
   /// range.
   double linear_estimate_error = unknown;
@@ -252,7 +252,8 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {
                  "minimum frequency of the normal oscillation at which sliding is stable"});
 }
 
-/// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05. The
+/// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05, and
+/// frequencies from 4.01 of the slider's natural one, below which an oscillation does not average. The
 /// estimate has an upper end too, for Γ falls with either.
 /// last    the oscillation at the end of the range: the largest amplitude, or the largest frequency
 /// throws  InvalidInput as slider_motion(), and where b <= c, which needs no oscillation
