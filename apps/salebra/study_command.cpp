@@ -27,6 +27,7 @@
 #include "dry_run.hpp"
 #include "results/answer_json.hpp"
 #include "results/columns.hpp"
+#include "study/surface_table.hpp"
 #include "text.hpp"
 
 namespace salebra::cli {
@@ -212,7 +213,9 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
   StudyConfiguration study;
   if (!file.empty()) {
     try {
-      study = read_study_configuration(file);
+      study = arguments.twin.empty() || surface.given()
+                  ? read_study_configuration(file)
+                  : detail::read_study_of_twin(file, arguments.twin);
     } catch (const InvalidInput&) {
       require(!is_surface(file), "CONFIG", file,
               "is a surface, no study file; give it as --surface " + file);
@@ -230,12 +233,10 @@ StudyConfiguration study_of(const StudyArguments& arguments) {
     study.pressures_below_hardness = true;
   }
   if (!arguments.twin.empty()) {
-    auto* generated = std::get_if<GeneratedSurfaces>(&study.surfaces);
-    require(generated != nullptr && !surface.given(), "--twin", arguments.twin,
-            "needs a study file whose [surface] has points, size_x and seeds");
+    require(std::holds_alternative<GeneratedSurfaces>(study.surfaces) && !surface.given(), "--twin",
+            arguments.twin, "needs a study file whose [surface] has points, size_x and seeds");
     require(study.ensemble.empty(), "--twin", arguments.twin,
             "is what it is; the [ensemble] of the study file has nothing to vary");
-    generated->tables = tables_of(read_twin_draws(arguments.twin), generated->grid);
   }
   if (!surface.given()) return study;
   return with_surface(std::move(study), surface.measured());

@@ -160,11 +160,16 @@ SpectrumTable read_psd_table(TomlTable& table, const std::filesystem::path& fold
   return psd;
 }
 
+/// twin: the draws that take the place of what the table says of the spectrum; empty: none.
 GeneratedSurfaces read_generated(TomlTable& table, const ParameterLists& lists,
-                                 const std::filesystem::path& folder) {
+                                 const std::filesystem::path& folder,
+                                 const std::filesystem::path& twin) {
   GeneratedSurfaces surfaces;
   surfaces.grid = read_grid(table);
-  if (table.has("psd_table")) {
+  if (!twin.empty()) {
+    if (!table.text("psd_table") && !table.text("twin")) read_self_affine(table, lists);
+    surfaces.tables = tables_of(read_twin_draws(twin), surfaces.grid);
+  } else if (table.has("psd_table")) {
     table.check(lists.hurst.empty() && lists.rolloff.empty() && lists.short_cutoff.empty(),
                 "psd_table", "has no hurst, rolloff or short_cutoff that [ensemble] could vary");
     surfaces.tables.push_back(read_psd_table(table, folder));
@@ -415,8 +420,15 @@ bool StudyConfiguration::of_twin() const {
   return generated && generated->tables.size() > 1;
 }
 
-StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
-                                             const std::filesystem::path& folder) {
+namespace {
+
+std::string content_of_study(const std::filesystem::path& file) {
+  constexpr std::uint64_t most = 4 << 20;
+  return detail::InputFile(file).content(most);
+}
+
+StudyConfiguration parse(const std::string& text, const std::string& name,
+                         const std::filesystem::path& folder, const std::filesystem::path& twin) {
   TomlTable root = TomlTable::parse(text, name);
   // Report a misspelt table as such, not as missing.
   for (const char* table : {"surface", "ensemble", "material", "conduction", "contact", "adhesion",
@@ -432,7 +444,7 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
     if (surface->has("file")) {
       configuration.surfaces = detail::read_measured(*surface, folder);
     } else {
-      configuration.surfaces = read_generated(*surface, configuration.ensemble, folder);
+      configuration.surfaces = read_generated(*surface, configuration.ensemble, folder, twin);
     }
     surface->require_no_other_keys();
   }
@@ -451,10 +463,20 @@ StudyConfiguration parse_study_configuration(const std::string& text, const std:
   return configuration;
 }
 
+}  // namespace
+
+StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
+                                             const std::filesystem::path& folder) {
+  return parse(text, name, folder, {});
+}
+
 StudyConfiguration read_study_configuration(const std::filesystem::path& file) {
-  constexpr std::uint64_t most = 4 << 20;
-  return parse_study_configuration(detail::InputFile(file).content(most), file.string(),
-                                   file.parent_path());
+  return parse(content_of_study(file), file.string(), file.parent_path(), {});
+}
+
+StudyConfiguration detail::read_study_of_twin(const std::filesystem::path& file,
+                                              const std::filesystem::path& twin) {
+  return parse(content_of_study(file), file.string(), file.parent_path(), twin);
 }
 
 ReadOptions MeasuredSurface::reading() const {

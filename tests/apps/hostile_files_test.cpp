@@ -351,6 +351,15 @@ TEST_CASE("Crafted twins are refused in one line, at a bounded cost", "[hostile]
     else
       check_harmless(result, part);
   }
+  // A file that the study names and the option replaces need not be there.
+  for (const std::string named : {"twin", "psd_table"}) {
+    std::string study = small_study;
+    const std::size_t spectrum = study.find("hurst");
+    study.replace(spectrum, study.find("seeds") - spectrum, named + " = \"missing.file\"\n");
+    test.write("named.toml", study);
+    check_harmless(test.run("study named.toml --dry-run"), "missing.file");
+    test.done("study named.toml --twin twin.h5 --dry-run");
+  }
   // A table that is sound is taken, though its curvatures cost the third power of its knots.
   std::vector<double> most(64);
   for (std::size_t k = 0; k < most.size(); ++k) most[k] = 1e5 * std::pow(1.12, k);
