@@ -120,8 +120,9 @@ void require_covered(const ContactLaw& law, double mean_indentation, double ampl
     return;
   std::ostringstream constraint;
   constraint.precision(9);
-  constraint << "m about the indentation " << mean_indentation << " m leaves the curve's range ["
-             << low << ", " << high << "] m; reduce the amplitude or extend the curve";
+  constraint << "m about the indentation " << mean_indentation << " m leaves the law's range ["
+             << low << ", " << high << "] m; reduce the amplitude"
+             << (std::isfinite(low) ? ", or give a curve that covers the motion" : "");
   require(false, "normal_amplitude", amplitude, constraint.str());
 }
 

@@ -40,10 +40,14 @@ void check_below_sliding(double force, double limit, const char* where) {
               ", at which the contact slides" + where + "; beyond it sliding is steady");
 }
 
-[[noreturn]] void refuse_deep_slip() {
+[[noreturn]] void refuse_deep_slip(const ContactLaw& law) {
+  if (!std::isfinite(law.lowest_indentation()))
+    throw InvalidInput("friction",
+                       "what still sticks is lost in the rounding of the tangential force; raise "
+                       "the friction or reduce the motion");
   throw InvalidInput("friction",
-                     "slip reaches indentation levels below the range of the law; extend the curve "
-                     "to lower forces, raise the friction or reduce the motion");
+                     "slip reaches indentation levels below the range of the law; raise the "
+                     "friction, reduce the motion, or give a curve from lower forces on");
 }
 
 // Quadratures over the levels that slip, of depth 0 … c below δ = high.
@@ -51,7 +55,7 @@ class SlippingLevels {
  public:
   SlippingLevels(const ContactLaw& law, double high, double depth, double tolerance)
       : law_(law), high_(high), depth_(depth), tolerance_(tolerance) {
-    if (!(high - depth >= law.lowest_indentation())) refuse_deep_slip();
+    if (!(high - depth >= law.lowest_indentation())) refuse_deep_slip(law);
     for (const double level : detail::sweep_breaks(law, high - depth, high))
       breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - level, 0.0)),
                                        std::sqrt(std::max(level - (high - depth), 0.0))));
@@ -101,7 +105,7 @@ double depth_of_slip(const ContactLaw& law, double high, double force, double fr
     end = law.tangential_stiffness(high - depth);
   }
   check_below_sliding(force, friction_coefficient * law.force(high), "");
-  refuse_deep_slip();
+  refuse_deep_slip(law);
 }
 
 void set_ratios(JointLoss& loss) {

@@ -217,8 +217,8 @@ struct TangentialContact::State {
     if (!(table->core() > negligible * table->at(table->highest()))) return;
     if (side != carried)
       throw InvalidInput("friction",
-                         "slip reaches indentation levels below the range of the law; extend the "
-                         "curve to lower forces, raise the friction or reduce the motion");
+                         "slip reaches indentation levels below the range of the law; raise the "
+                         "friction, reduce the motion, or give a curve from lower forces on");
     const double slipped = side * (new_anchor - core_anchor);
     if (!(slipped > 0)) return;
     const double stretch = slope_limit * (new_indentation - core_level);
@@ -302,7 +302,8 @@ TangentialContact::TangentialContact(const ContactLaw& law, double lowest, doubl
     std::ostringstream constraint;
     constraint.precision(9);
     constraint << "m to " << highest << " m is where the motion goes, but the law covers ["
-               << law_low << ", " << law_high << "] m; reduce the motion or extend the curve";
+               << law_low << ", " << law_high << "] m; reduce the motion"
+               << (std::isfinite(law_low) ? ", or give a curve that covers it" : "");
     require(false, "indentation", lowest, constraint.str());
   }
   const double ratio = law.stiffness_ratio(0.5 * (lowest + highest));

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Jenkins' sliders in parallel (Iwan's model) of a contact under a constant normal force.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,7 +115,11 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
   const double known = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
   set.resolved = std::min(resolved, known / set.force);
   require(smallest_force < set.resolved, "smallest_force", smallest_force,
-          "is beyond what the law covers; choose a smaller one or extend the curve");
+          fmt::format("must be below {:.4g}, {}", set.resolved,
+                      set.resolved < resolved
+                          ? "up to which slip stays within the law; give a smaller one, or a curve "
+                            "from lower forces on"
+                          : "beyond which all that sticks is one slider"));
   const double smallest = backbone.displacement(smallest_force * set.force);
   const double last =
       set.resolved < resolved ? backbone.end() : backbone.displacement(resolved * set.force);
@@ -133,8 +139,8 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
     set.sliders.push_back(slider);
   }
   require(rest_stiffness > 0 && rest_force > 0, "curve", "",
-          "has levels below its range that would slip before those within; extend it to smaller "
-          "forces");
+          "has levels below its range that would slip before those within; give one from lower "
+          "forces on");
   set.sliders.push_back({rest_stiffness, rest_force});
   set.loss_error = loss(set.sliders, smallest_force * set.force) / loss(backbone, smallest) - 1;
   return set;

@@ -360,7 +360,7 @@ TEST_CASE("A contact refuses motion that it was not made for", "[tangential]") {
   TangentialContact deep(table, 1e-7, 1e-6,
                          {.friction_coefficient = 0.01, .tangential_range = 2e-6});
   deep.start(1e-6, 0);
-  CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("extend the curve"));
+  CHECK_THROWS_WITH(deep.move_to(1e-6, 1e-6), Catch::Contains("give a curve from lower forces on"));
   // A force at which it slides, also where it slid before: there it went on for kilometres until
   // rounding met the force.
   TangentialContact slipping(ExponentialLaw(2, 1e-7, ratio), -1e-7, 1e-7,

@@ -109,7 +109,7 @@ struct TabulatedLaw::Splines {
       std::ostringstream constraint;
       constraint.precision(12);
       constraint << "lies outside the curve's range [" << low << ", " << high
-                 << "] m; reduce the amplitude or extend the curve";
+                 << "] m; reduce the amplitude, or give a curve that covers it";
       require(false, "indentation", indentation, constraint.str());
     }
     return std::clamp(indentation, low, high);
@@ -233,7 +233,7 @@ double TabulatedLaw::indentation_of(double force) const {
     std::ostringstream constraint;
     constraint.precision(12);
     constraint << "lies outside the curve's range [" << std::exp(low) << ", " << std::exp(high)
-               << "] N; choose a force within it or extend the curve";
+               << "] N; choose a force within it, or give a curve that covers it";
     require(false, "force", force, constraint.str());
   }
   return splines_->log_force.where(std::clamp(log_force, low, high));

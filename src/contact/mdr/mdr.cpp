@@ -79,7 +79,7 @@ double IndenterProfile::contact_radius(double indentation) const {
     std::ostringstream constraint;
     constraint.precision(9);
     constraint << "m is deeper than the profile reaches, " << image(largest)
-               << " m; reduce it or extend the profile";
+               << " m; reduce it, or give a profile that reaches further";
     require(false, "indentation", indentation, constraint.str());
   }
   double high = std::isfinite(largest) ? largest : std::max(2 * flat_radius(), 1e-9);
@@ -139,7 +139,7 @@ double IndenterLaw::indentation_of(double wanted) const {
     std::ostringstream constraint;
     constraint.precision(9);
     constraint << "N is more than the profile's " << force(highest)
-               << " N; reduce it or extend the profile";
+               << " N; reduce it, or give a profile that reaches further";
     require(false, "force", wanted, constraint.str());
   }
   while (force(high) < wanted) high *= 4;
