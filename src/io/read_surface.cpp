@@ -202,7 +202,6 @@ std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<
 }
 
 std::optional<double> metres_in(const std::string& unit) {
-  if (unit.empty()) return {};
   try {
     const double metres = parse_quantity("1 " + unit, Dimension::length, "unit");
     if (metres > 0) return metres;

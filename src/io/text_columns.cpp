@@ -65,7 +65,7 @@ using namespace meaning;
 constexpr Meaning heights = z | height | ordinate | values;
 constexpr Meaning along = position | plane | length | step | width;
 
-bool is_length(const std::string& unit) { return metres_in(unit).has_value(); }
+bool is_length(const std::string& unit) { return !unit.empty() && metres_in(unit).has_value(); }
 
 enum class Role { x, y, position, height, skipped, index, unknown };
 

@@ -500,7 +500,7 @@ class TextReader {
     remove_marks(file_, header_, loaded_);
     const std::string unit = unit_or_common(z_unit_, header_.value_unit);
     if (header_.height_factor) {
-      if (const auto metres = metres_in(unit);
+      if (const auto metres = unit.empty() ? std::nullopt : metres_in(unit);
           metres && std::abs(*metres / *header_.height_factor - 1) > 1e-6)
         refuse(file_, "states a height conversion factor and the unit '" + unit +
                           "', which differ; remove one");
