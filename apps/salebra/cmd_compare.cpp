@@ -77,7 +77,7 @@ Json comparison_json(const StudyResult& result, const StudyAnswer& found) {
 /// At most `count` of the pressures, evenly spread, and only those for which the boundary elements
 /// have a damping.
 std::vector<std::size_t> shown_pressures(const StudyResult& result, std::size_t count) {
-  const auto damping = result.damping(&DampingPoint::work_per_cycle);
+  const auto damping = result.damping(&DampingPoint::work_per_cycle_without_slip);
   std::vector<std::size_t> known, shown;
   for (std::size_t k = 0; k < damping.size(); ++k)
     if (result.configuration.adhesion || !std::isnan(damping[k].mean)) known.push_back(k);
@@ -153,7 +153,7 @@ std::string damping_table(const StudyResult& result, const StudyAnswer& found) {
   const std::pair<const char*, double DampingPoint::*> routes[] = {
       {drag ? "Eq. (16)" : "Eq. (12), l", &DampingPoint::work_per_cycle_closed_form},
       {drag ? "Eq. (15)" : "Eq. (12)", &DampingPoint::small_amplitude_work},
-      {"theorem", &DampingPoint::work_per_cycle}};
+      {"theorem", &DampingPoint::work_per_cycle_without_slip}};
   for (const StudyModel& model : result.models()) {
     std::string title = model.title;
     for (const auto& [route, quantity] : routes) {
@@ -164,7 +164,7 @@ std::string damping_table(const StudyResult& result, const StudyAnswer& found) {
     }
   }
   if (!std::isnan(result.configuration.known.friction_coefficient)) {
-    const auto reference = result.damping(&DampingPoint::work_per_cycle);
+    const auto reference = result.damping(&DampingPoint::work_per_cycle_without_slip);
     std::vector<std::string> row{"boundary elements with slip", "springs"};
     for (const std::size_t k : shown)
       row.push_back(number(found.work_per_cycle[k].mean / reference[k].mean));

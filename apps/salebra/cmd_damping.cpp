@@ -204,6 +204,11 @@ void lose(const DampingArguments& arguments, Session& session) {
   Json object = Json::object();
   if (!one) object[quantity] = values;
   object.add(answer_json(answer, answer.contact.nominal_area()));
+  // Without friction the numbers without slip repeat those above them.
+  if (!arguments.premises.friction_coefficient)
+    for (const char* name : {"work_per_cycle_without_slip", "damping_constant_without_slip",
+                             "damping_constant_without_slip_error"})
+      object.erase(name);
   const auto lost = std::ranges::count(answer.results, false, &DampingResult::converged);
   if (lost == 0) {
     write_tables(session, "damping", object, {});
@@ -213,11 +218,10 @@ void lose(const DampingArguments& arguments, Session& session) {
       plot_case(arguments, answer, session);
     arguments.maps.write(answer, arguments.steps, session);
   }
-  PremiseReport{.cases = answer.premises,
-                .list = !one,
-                .slip_followed = std::ranges::any_of(
-                    answer.slip_share, [](double share) { return !std::isnan(share); })}
-      .answer(session, object);
+  const bool slips = std::ranges::any_of(
+      answer.results, [](const DampingResult& result) { return !std::isnan(result.slip_work); });
+  PremiseReport{.cases = answer.premises, .list = !one, .slip_followed = slips}.answer(session,
+                                                                                       object);
   if (lost > 0)
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
                                    answer.results.size()));

@@ -32,10 +32,8 @@ Json damping_of_study(const StudyResult& result, const StudyAnswer& answer) {
   damping["force"] = forces;
   damping.add(damping_json(answer));
   damping["deviation"] = to_json(result.deviation());
-  // Of a name that is there already, the answer's numbers stay.
   damping.add(
       columns_json<DampingPoint>([&](const auto& number) { return result.damping(number); }));
-  damping.erase("damping_constant_error");
   return damping;
 }
 
@@ -125,7 +123,8 @@ std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
   std::vector<std::string> head{"nominal p", "force", slip ? "γ, " + name : "γ no slip, " + name};
   if (sample) head.push_back("95 % interval");
   head.push_back("error");
-  if (slip) head.insert(head.end(), {"by slip", "no slip"});
+  if (answer.slips()) head.push_back("by slip");
+  if (slip) head.push_back("no slip");
   head.push_back(law);
   if (!slip) head.push_back("off by");
   std::vector<std::vector<std::string>> rows{head};
@@ -142,12 +141,11 @@ std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
                         ? "n/a"
                         : rounded(main.low, unit, place) + " … " + rounded(main.high, unit, place));
     row.push_back(std::isfinite(relative) ? fmt::format("{:.2g} %", 100 * relative) : "n/a");
-    if (slip) {
+    if (answer.slips())
       row.push_back(std::isnan(answer.slip_share[k])
                         ? "n/a"
                         : fmt::format("{:.0f} %", 100 * answer.slip_share[k]));
-      row.push_back(digits_of(without[k].mean, without[k].error, unit));
-    }
+    if (slip) row.push_back(digits_of(without[k].mean, without[k].error, unit));
     row.push_back(digits_of(by_law[k].mean, ForceSample::unknown, unit));
     if (!slip) row.push_back(off_by(by_law[k].mean / without[k].mean));
     rows.push_back(std::move(row));
@@ -158,11 +156,10 @@ std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
 /// What a reader has to know before the numbers are of use, and after.
 std::string notes(const StudyResult& result, const StudyAnswer& answer) {
   std::string text;
-  if (!answer.needs.empty())
-    text += in_options(
-        fmt::format("γ is n/a: with friction it depends on the `{}`; give it.\n", answer.needs));
-  const auto& without = answer.damping_constant_without_slip;
-  const auto unstated = std::ranges::count_if(without, [](const StatedMean& one) {
+  if (!answer.unknown.empty()) text += wrapped(in_options("γ is n/a: " + answer.unknown + "."), 78) + "\n";
+  const auto& constants =
+      answer.unknown.empty() ? answer.damping_constant : answer.damping_constant_without_slip;
+  const auto unstated = std::ranges::count_if(constants, [](const StatedMean& one) {
     return std::isnan(one.mean) && !std::isnan(one.error);
   });
   if (unstated > 0)

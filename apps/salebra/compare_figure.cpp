@@ -13,7 +13,7 @@ namespace salebra::cli {
 namespace {
 
 std::vector<double> column(const std::vector<EnsembleMean>& estimates,
-                           double EnsembleMean::* member) {
+                           double EnsembleMean::*member) {
   std::vector<double> values;
   for (const EnsembleMean& estimate : estimates) values.push_back(estimate.*member);
   return values;
@@ -125,7 +125,7 @@ std::array<PlotPanel, 4> panels_of(const StudyResult& result) {
           return sample.normal_stiffness * r.heights.rms_height / sample.force;
         }));
     if (!result.configuration.adhesion)
-      add(damping, result.damping(&DampingPoint::damping_constant, model.id));
+      add(damping, result.damping(&DampingPoint::damping_constant_without_slip, model.id));
   }
   add_references(result, panels);
   if (!result.configuration.adhesion) add_answer(result, damping);

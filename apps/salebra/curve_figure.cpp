@@ -14,8 +14,8 @@ namespace salebra::cli {
 namespace {
 
 /// y over x of the samples that converged and know both.
-PlotCurve points_of(const ForceCurve& curve, std::string name, double ForceSample::* x,
-                    double ForceSample::* y) {
+PlotCurve points_of(const ForceCurve& curve, std::string name, double ForceSample::*x,
+                    double ForceSample::*y) {
   PlotCurve points{.name = std::move(name), .style = PlotStyle::line_and_points};
   for (const ForceSample& sample : curve.samples) {
     if (!sample.converged || !std::isfinite(sample.*x) || !std::isfinite(sample.*y)) continue;

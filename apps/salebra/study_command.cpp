@@ -498,7 +498,7 @@ void require_relative_error(const std::vector<StudyResult>& results) {
   double wanted = 0;
   for (const StudyResult& result : results) {
     wanted = result.configuration.relative_error;
-    const auto stated = result.stated_damping();
+    const auto stated = result.stated("damping_constant");
     const auto means = result.damping(&DampingPoint::damping_constant);
     for (std::size_t k = 0; k < stated.size(); ++k) {
       // Neither value nor error: the contact did not converge, or the oscillation leaves its range.

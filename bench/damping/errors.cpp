@@ -178,15 +178,15 @@ int main(int count, char** words) {
       const SurfaceDamping r =
           surface_damping(surface, material, slow,
                           sweep_pressures(surface, material, {pressure}, sweep), options)[0];
-      const double w = r.relaxation_work + r.slip_work;
+      const double w = r.work_per_cycle;
       const double converged = work_with_slip_by_contacts(
           dense_forces(refined(surface, 4), material, pressure, slow.normal_amplitude, 24),
           material, slow, options.friction_coefficient, options.excursion);
       const double actual = (converged - w) / w;
       std::printf("%zu %.2f %.3g %.5g %.4f %.3f %+.4f\n", kind, options.friction_coefficient, steps,
-                  w, r.work_with_slip_error / w, r.slip_work / w, actual);
+                  w, r.work_per_cycle_error() / w, r.slip_work / w, actual);
       std::fflush(stdout);
-      if (r.converged) count_case(r.work_with_slip_error / w, actual);
+      if (r.converged) count_case(r.work_per_cycle_error() / w, actual);
       continue;
     }
     sweep.stick = true;
@@ -200,12 +200,12 @@ int main(int count, char** words) {
         2;
     const double w = std::abs(r.work_per_cycle), actual = (converged - r.work_per_cycle) / w;
     std::printf("%zu %.4f %.4f %.5g %.4f %.4f %.4f %.4f %.4f %.2g %+.4f %d %.3g\n", kind, load,
-                amplitude, r.work_per_cycle, r.error / w, r.cell_error / w, r.scatter / w,
-                r.level_error / w, r.ratio_error / w, r.solver_error / w, actual, r.levels,
+                amplitude, r.work_per_cycle, r.work_per_cycle_error() / w, r.error.cells / w, r.error.noise / w,
+                r.error.intervals / w, r.error.stiffness_ratio / w, r.error.solver / w, actual, r.levels,
                 r.window / motion.normal_amplitude);
     std::fflush(stdout);
     if (!r.converged || !std::isfinite(converged)) continue;
-    count_case(r.error / w, actual);
+    count_case(r.work_per_cycle_error() / w, actual);
   }
   std::puts(
       "| surfaces | cases | n/a | error holds | missed by over 1.6 times | largest ratio | "

@@ -67,7 +67,7 @@ int main(int count, char** arguments) {
       for (std::size_t k = 0; k < halved.size(); ++k) {
         const double one = halved[k].damping_constant, error = halved[k].damping_constant_error();
         const double two = other[k].damping_constant;
-        const double scatter = other[k].scatter * two / other[k].work_per_cycle;
+        const double scatter = other[k].error.noise * two / other[k].work_per_cycle;
         const double share = std::abs(one - two) / std::hypot(error, scatter);
         std::printf("%d %.3f %.3f %.1f %8.4g %6.2g %8.4g %5.2f\n", seed,
                     coarse.first_loading.pressure / hardness,

@@ -2,7 +2,7 @@
 #pragma once
 
 // The questions that salebra answers, and what they are put together from: a surface that is made
-// or read, a curve that is swept or read, a study. For programs that link salebra::questions; the
+// or read, a curve that is swept or read, a study. For programs that link salebra::study; the
 // libraries below it have headers for each thing.
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>

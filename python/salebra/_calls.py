@@ -428,10 +428,6 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
         except (_core.InvalidInput, _core.IoError) as error:
             _missing_file(error, signatures.__signature__, arguments, keywords)
             raise
-        if type(result) is list and result and isinstance(result[0], _core.SurfaceDamping):
-            from ._show import ResultList
-
-            result = ResultList(result)
         _doubt(name, result, arguments, keywords)
         _warn(name, signatures, result)
         _remember(result, name, arguments, keywords)

@@ -269,6 +269,24 @@ def _(result: _core.StudyAnswer, ax: Axes | None = None, **keywords: Any) -> Axe
     return drawn
 
 
+@plot.register(_core.DampingCurve)
+def _(result: _core.DampingCurve, ax: Axes | None = None, **keywords: Any) -> Axes:
+    """Damping constant over the quantity that changes, with its numerical error, and that without slip."""
+    drawn = _axes(ax)
+    slip = not np.isnan(result.slip_work).all()
+    error = result.damping_constant_error
+    drawn.errorbar(
+        result.values, result.damping_constant, None if np.isnan(error).all() else error,
+        **({"marker": ".", "label": "as described" if slip else "without slip"} | keywords),
+    )  # fmt: skip
+    if slip:
+        drawn.plot(result.values, result.damping_constant_without_slip, "--", label="without slip")
+    unit, name = _core.quantity(result.coordinate)
+    _name_axes(drawn, (name, unit), ("damping constant γ", "N s/m"), "xy")
+    drawn.legend()
+    return drawn
+
+
 @plot.register(_core.SummitList)
 def _(result: _core.SummitList, ax: Axes | None = None, **keywords: Any) -> Axes:
     drawn = _axes(ax)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
+from ._show import columns
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -87,6 +88,8 @@ def to_xarray(result: Any) -> xarray.Dataset:
         return _study_dataset(result)
     if isinstance(result, _core.StudyAnswer):
         return _answer_dataset(result)
+    if isinstance(result, _core.DampingCurve):
+        return _damping_dataset(result)
     axes, variables, names = _DATASETS[type(result)]
     attributes = {name: getattr(result, name) for name in names}
     columns = {name: (dims, getattr(result, name)) for dims, of in variables.items() for name in of}
@@ -100,6 +103,14 @@ def to_xarray(result: Any) -> xarray.Dataset:
     if isinstance(result, _core.Surface):  # Surface(heights) of the array alone reads them
         data.heights.attrs.update({name: data.attrs[name] for name in ("size_x", "size_y", "periodic", "origin")})
     return data.sortby("wavenumber_x") if "wavenumber_x" in axes else data
+
+
+def _damping_dataset(curve: _core.DampingCurve) -> xarray.Dataset:
+    over = curve.coordinate
+    variables: dict[str, tuple[tuple[str, ...], Any]] = {
+        name: ((over,), column) for name, column in columns(curve).items() if name != over
+    }
+    return _dataset(variables, {over: curve.values}, {"validity": curve.validity})
 
 
 def points(grid: _core.Grid2D, axis: str) -> Any:
@@ -138,7 +149,7 @@ def _answer_dataset(answer: _core.StudyAnswer) -> xarray.Dataset:
     for name in ("relaxation_share", "slip_share"):
         if len(getattr(answer, name)):
             columns[name] = ("pressure",), getattr(answer, name)
-    attributes = {"slip_followed": int(answer.slip_followed), "needs": answer.needs, "validity": answer.validity}
+    attributes = {"slip_followed": int(answer.slip_followed), "unknown": answer.unknown, "validity": answer.validity}
     data = _dataset(columns, {"pressure": answer.pressures}, attributes)
     for column, name in texts.items():
         units, long_name = _core.quantity(name)

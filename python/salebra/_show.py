@@ -48,6 +48,9 @@ def meaning(kind: type, name: str) -> tuple[str, str]:
 
 def unit_of(result: Any, name: str) -> str:
     """Unit of a column of a result, which may name it in a property of its own, as converted spectra do; "" for pure numbers."""
+    if isinstance(result, _core.DampingCurve) and name == result.coordinate:
+        unit = _core.quantity(name)[0]
+        return "" if unit == "1" else unit
     return getattr(result, f"{name}_unit", None) or meaning(type(result), name)[0]
 
 
@@ -122,7 +125,11 @@ def html(result: Any) -> str:
 def columns(result: Any) -> dict[str, Any]:
     """The one-dimensional arrays of a result, all of the length of the first; those without any number are left out."""
     found: dict[str, Any] = {}
+    if isinstance(result, _core.DampingCurve):  # its coordinate first, by its name
+        found[result.coordinate] = result.values
     for name, value, _, _ in _values(result):
+        if name == "values":
+            continue
         if isinstance(value, np.ndarray) and value.ndim == 1 and (not found or len(value) == len(next(iter(found.values())))):
             found[name] = value
     return {name: value for name, value in found.items() if value.dtype.kind != "f" or not np.isnan(value).all()} or found
@@ -150,18 +157,3 @@ def to_dataframe(result: Any) -> pandas.DataFrame:
     frame = pandas.DataFrame({name: np.array(value) for name, value in table.items()})
     frame.attrs["units"] = {name: unit_of(result, name) or "1" for name in table}
     return frame
-
-
-class ResultList(list[Any]):
-    """Results of one kind, one for each load."""
-
-    def to_dataframe(self) -> pandas.DataFrame:
-        """A pandas.DataFrame with a row for each."""
-        try:
-            import pandas
-        except ImportError as error:
-            raise ImportError("to_dataframe needs pandas; install it") from error
-        numbers = [name for name, value, _, _ in _values(self[0]) if isinstance(value, (bool, int, float, str))]
-        frame = pandas.DataFrame({name: [getattr(one, name) for one in self] for name in numbers})
-        frame.attrs["units"] = {name: unit_of(self[0], name) or "1" for name in numbers}
-        return frame

@@ -7,9 +7,12 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cmath>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
+#include <salebra/questions/slip.hpp>
 
 #include "bindings.hpp"
 #include "damping/largest_motion.hpp"
@@ -19,13 +22,25 @@
 #include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
+#include "results/describe.hpp"
 
 namespace salebra::python {
+
+void warn_of_unknown(const Motion& motion, const ContactFacts* facts) {
+  const std::string why = why_loss_unknown(motion, known(facts));
+  if (!why.empty()) warn_user("the loss is unknown: " + why);
+}
+
 namespace {
 
 DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
                                double tolerance) {
   return {hold.value("hold"), amplitude.value("amplitude"), tolerance, {}};
+}
+
+std::string regime_of(const BoundDamping& one) {
+  const std::optional<Premises> premises = one.judged().premises;
+  return std::string(word_of(premises ? premises->regime : Regime::unknown));
 }
 
 /// An answer whose premises are still to be judged, of a law made of `curve` if there is one. Facts
@@ -51,11 +66,47 @@ void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results)
   if (const auto doubt = detail::doubt_of_held_indentation(hold, results)) warn_user(*doubt);
 }
 
+/// The quantity that changes from case to case, and its values: of the position, or one of the
+/// motion's; otherwise the number of the case.
+BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
+  BoundDampingCurve curve{force ? "force" : "indentation", {}, {}};
+  const auto changes = [](const std::vector<double>& values) {
+    return std::ranges::any_of(values, [&](double one) { return one != values.front(); });
+  };
+  for (const DampingCase& one : cases)
+    curve.values.push_back(force ? std::get<AtForce>(one.position).force
+                                 : std::get<AtIndentation>(one.position).indentation);
+  if (changes(curve.values) || cases.size() < 2) return curve;
+  const auto of_motion = [&]<class Kind>(std::type_identity<Kind>) {
+    if (!std::ranges::all_of(cases, [](const DampingCase& one) {
+          return std::holds_alternative<Kind>(one.motion);
+        }))
+      return false;
+    bool found = false;
+    salebra::for_each_number<Kind>([&](const NumberOf<Kind>& number, const Quantity& quantity) {
+      std::vector<double> values;
+      for (const DampingCase& one : cases) values.push_back(number(std::get<Kind>(one.motion)));
+      if (found || !changes(values)) return;
+      found = true;
+      curve.coordinate = quantity.name;
+      curve.values = std::move(values);
+    });
+    return found;
+  };
+  if (of_motion(std::type_identity<Drag>{}) || of_motion(std::type_identity<EqualFrequency>{}))
+    return curve;
+  curve.coordinate = "case";
+  for (std::size_t i = 0; i < cases.size(); ++i) curve.values[i] = double(i);
+  return curve;
+}
+
 void bind_damping_result(nb::module_& m) {
   nb::class_<BoundDamping> bound(
       m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.");
   describe([&](auto member, const auto& line) { described_property(bound, member, line); },
            std::type_identity<DampingResult>{});
+  bound.def_prop_ro(
+      "regime", &regime_of, "no slip, partial slip, sliding or unknown.");
   bound.def_prop_ro(
       "premises", [](const BoundDamping& self) { return self.judged().premises; },
       "whether the contact may be taken for one without slip, yielding and inertia; None where "
@@ -68,6 +119,79 @@ void bind_damping_result(nb::module_& m) {
       });
 }
 
+void bind_damping_curve(nb::module_& m) {
+  nb::class_<BoundDampingCurve> bound(
+      m, "DampingCurve",
+      "Losses over one quantity: a sequence of :class:`DampingResult`, with an array for each of "
+      "their numbers.");
+  const auto at = [](const BoundDampingCurve& self, Py_ssize_t index) {
+    const auto count = static_cast<Py_ssize_t>(self.results.size());
+    if (index < -count || index >= count) throw nb::index_error();
+    return self.results[static_cast<std::size_t>(index < 0 ? index + count : index)];
+  };
+  bound.def("__len__", [](const BoundDampingCurve& self) { return self.results.size(); })
+      .def("__getitem__", at, nb::arg("index"))
+      .def_prop_ro(
+          "coordinate", [](const BoundDampingCurve& self) { return self.coordinate; },
+          "The quantity that the losses are a curve over: pressure, force, indentation, a quantity "
+          "of the motion, or case.")
+      .def_prop_ro(
+          "values", [](const BoundDampingCurve& self) { return array_of(std::vector(self.values)); },
+          nb::rv_policy::automatic, "The coordinate of each loss.")
+      .def(
+          "__getattr__",
+          [](const BoundDampingCurve& self, const std::string& name) {
+            if (name != self.coordinate)
+              throw nb::attribute_error(("'DampingCurve' has no attribute '" + name + "'").c_str());
+            return array_of(std::vector(self.values));
+          },
+          nb::arg("name"), "The coordinate by its name, such as ``curve.pressure``.")
+      .def_prop_ro(
+          "regime",
+          [](const BoundDampingCurve& self) {
+            std::vector<std::string> regimes;
+            for (const BoundDamping& one : self.results) regimes.push_back(regime_of(one));
+            return regimes;
+          },
+          "Of each loss no slip, partial slip, sliding or unknown.")
+      .def_prop_ro(
+          "validity",
+          [](const BoundDampingCurve& self) {
+            std::vector<Premises> premises;
+            for (const BoundDamping& one : self.results)
+              if (const auto judged = one.judged().premises) premises.push_back(*judged);
+            if (premises.empty()) return std::string(word_of(Validity::not_checked));
+            const bool slips = std::ranges::any_of(self.results, [](const BoundDamping& one) {
+              return !std::isnan(one.slip_work);
+            });
+            return std::string(word_of(validity_of(conditions_of(premises, slips))));
+          },
+          "One word for the assumptions of all losses.");
+  salebra::for_each_number<DampingResult>([&](NumberOf<DampingResult> number, const Quantity& quantity) {
+    bound.def_prop_ro(
+        std::string(quantity.name).c_str(),
+        [number](const BoundDampingCurve& self) {
+          std::vector<double> values;
+          for (const BoundDamping& one : self.results) values.push_back(number(one));
+          return array_of(std::move(values));
+        },
+        nb::rv_policy::automatic, described_text(quantity).c_str());
+  });
+  value_methods(
+      bound,
+      [](const BoundDampingCurve& self) {
+        DampingCurve curve{self.coordinate, self.values, {}};
+        for (const BoundDamping& one : self.results) curve.results.push_back(one.judged());
+        return curve;
+      },
+      [](BoundDampingCurve* self, DampingCurve&& curve) {
+        new (self) BoundDampingCurve{std::move(curve.coordinate), std::move(curve.values), {}};
+        for (JudgedDamping& one : curve.results)
+          self->results.push_back({one, std::move(one.premises), {}});
+      });
+  result_methods(bound, true);
+}
+
 void bind_theorem(nb::module_& m) {
   m.def(
       "relaxation_damping",
@@ -77,10 +201,13 @@ void bind_theorem(nb::module_& m) {
         cite({"popov2015"});
         const Position position = position_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
+        warn_of_unknown(motion, facts);
         const DampingResult result = unlocked([&] {
-          return with_motion(motion, [&](const auto& one) {
+          DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping(law, position, one, options);
           });
+          add_slip(found, law, motion, known(facts));
+          return found;
         });
         warn_of_held_indentation(options.hold, {&result, 1});
         return to_be_judged(result, law, motion, facts, curve);
@@ -89,7 +216,9 @@ void bind_theorem(nb::module_& m) {
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
       nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("facts") = nb::none(),
       nb::arg("curve") = nb::none(),
-      R"(Work lost per cycle by a contact without slip that oscillates, at any amplitude.
+      R"(Work lost per cycle by a contact that oscillates, at any amplitude: with slip where `facts` have a coefficient of friction.
+
+Without slip it is
 
 .. math:: W = \tfrac12\oint s^2\,dK_t, \qquad s = x_{out} - x_{in}\text{ of each indentation level}
 
@@ -116,7 +245,8 @@ amplitude : {"finite", "small"}
 tolerance : float
     Relative, of the quadrature of W; 1e-13 … 1e-2.
 facts : ContactFacts, optional
-    Friction, hardness, density and the like, by which the premises are judged.
+    Friction, hardness, density and the like, by which the premises are judged. With friction the loss is that with slip; a slow motion
+    then needs its excursion. `damping_constant_without_slip` is the number without.
 curve : ForceCurve, optional
     The curve that the law is made of; says pressures and size.
 
@@ -144,27 +274,30 @@ InvalidInput
                 "motions for another number of positions; give one, or as many");
         std::vector<DampingCase> cases;
         cases.reserve(count);
+        std::vector<Motion> described;
         for (std::size_t i = 0; i < count; ++i) {
           const double place = places[places.size() == 1 ? 0 : i];
           cases.push_back({force ? Position(AtForce{place}) : Position(AtIndentation{place}),
                            motions[motions.size() == 1 ? 0 : i]});
+          described.push_back(
+              std::visit([](const auto& one) -> Motion { return one; }, cases[i].motion));
         }
+        if (count > 0) warn_of_unknown(described.front(), facts);
         DampingOptions options = damping_options(hold, amplitude, tolerance);
         const std::vector<DampingResult> results = interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
           const detail::StopCheck check([&] { return !options.on_progress({"damping"}); });
-          return relaxation_damping(law, cases, options);
+          std::vector<DampingResult> found = relaxation_damping(law, cases, options);
+          for (std::size_t i = 0; i < count; ++i) add_slip(found[i], law, described[i], known(facts));
+          return found;
         });
         warn_of_held_indentation(options.hold, results);
-        std::vector<BoundDamping> answers;
+        BoundDampingCurve curve_of = over(cases, force.has_value());
         for (std::size_t i = 0; i < count; ++i)
-          answers.push_back(
-              premises ? to_be_judged(results[i], law,
-                                      std::visit([](const auto& one) -> Motion { return one; },
-                                                 cases[i].motion),
-                                      facts, curve)
-                       : BoundDamping{results[i], {}, {}});
-        return answers;
+          curve_of.results.push_back(premises
+                                         ? to_be_judged(results[i], law, described[i], facts, curve)
+                                         : BoundDamping{results[i], {}, {}});
+        return curve_of;
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
@@ -176,8 +309,8 @@ InvalidInput
 
 Returns
 -------
-list of DampingResult
-    In the order of the cases.
+DampingCurve
+    A sequence of DampingResult in the order of the cases, with an array for each number, over the quantity that changes.
 )");
   m.def(
       "relaxation_damping_force_controlled",
@@ -187,11 +320,18 @@ list of DampingResult
         cite({"popov2015"});
         const DampingOptions options{.amplitude = amplitude.value("amplitude"),
                                      .tolerance = tolerance};
+        if (!std::isnan(known(facts).friction_coefficient))
+          warn_user("the loss is unknown: slip is not followed where the force is given");
         const DampingResult result = unlocked([&] {
-          return with_motion(motion, [&](const auto& one) {
+          DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
                                                        options);
           });
+          if (!std::isnan(known(facts).friction_coefficient)) {
+            found.forget();
+            found.power = Loss::unknown;
+          }
+          return found;
         });
         // The normal oscillation has the amplitude that the stiffness makes of the force's.
         Motion moved = motion;
@@ -272,6 +412,7 @@ void bind_damper(nb::module_& m) {
 
 void bind_damping(nb::module_& m) {
   bind_damping_result(m);
+  bind_damping_curve(m);
   bind_theorem(m);
   bind_damper(m);
 }

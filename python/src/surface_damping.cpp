@@ -1,56 +1,117 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the damping of one surface with its error, and of a surface on finer cells.
+// Bindings of the damping of one surface with its error.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
+#include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
+#include <salebra/questions/damping.hpp>
+#include <utility>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
+#include "interop/damping.hpp"
 #include "interop/described.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
 
 namespace salebra::python {
+namespace {
+
+/// The losses of a solution, whose premises are known.
+BoundDampingCurve curve_of(const DampingAnswer& answer, const std::vector<double>& pressures) {
+  BoundDampingCurve curve{"pressure", pressures, {}};
+  for (std::size_t i = 0; i < answer.results.size(); ++i)
+    curve.results.push_back({answer.results[i], answer.premises[i], {}});
+  return curve;
+}
+
+/// The losses at the loads of a curve, without premises.
+BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const ForceCurve& loads,
+                           const Oscillation& motion) {
+  BoundDampingCurve curve{"pressure", loads.column(&ForceSample::pressure), {}};
+  for (std::size_t k = 0; k < losses.size(); ++k) {
+    const ForceSample& load = loads.samples[k];
+    DampingResult result;
+    static_cast<Loss&>(result) = losses[k];
+    result.power = closed_form::power(result.work_per_cycle, motion);
+    result.normal_stiffness = load.normal_stiffness;
+    result.tangential_stiffness = load.tangential_stiffness;
+    result.force = load.force;
+    result.indentation = load.indentation;
+    result.error_estimate = losses[k].work_per_cycle_error();
+    result.converged = losses[k].converged;
+    curve.results.push_back({result, {}, {}});
+  }
+  return curve;
+}
+
+}  // namespace
 
 void bind_surface_damping(nb::module_& m) {
-  described_class<SurfaceDamping>(
-      m, "SurfaceDamping", "Damping of one surface at one load, with its error; NaN is unknown.");
   m.def(
       "surface_damping",
       [](const BoundSurface& surface, const Material& material,
-         const std::variant<EqualFrequency, Drag>& motion, const ForceCurve& curve,
+         const std::variant<EqualFrequency, Drag>& motion, const ForceCurve* curve,
+         const std::optional<Values>& pressures, const ContactFacts* facts,
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
          const Choice<Boundary>& boundary, double relative_error,
          const std::optional<Choice<SeamCheck>>& seam, double friction_coefficient,
          double excursion, const ProgressArgument& progress) {
         cite({"popov2015"});
+        require_one(curve != nullptr, "curve", pressures.has_value(), "pressures");
+        ContactFacts all = known(facts);
+        if (!std::isnan(friction_coefficient)) all.friction_coefficient = friction_coefficient;
+        if (!std::isnan(excursion)) all.excursion = excursion;
+        const Motion described = std::visit([](const auto& one) -> Motion { return one; }, motion);
+        warn_of_unknown(described, &all);
         SurfaceDampingOptions options{.hold = hold.value("hold"),
                                       .amplitude = amplitude.value("amplitude"),
                                       .boundary = boundary.value("boundary"),
                                       .relative_error = relative_error,
-                                      .friction_coefficient = friction_coefficient,
-                                      .excursion = excursion};
+                                      .friction_coefficient = all.friction_coefficient,
+                                      .excursion = all.excursion};
         if (seam) options.seam = seam->value("seam");
-        return interruptible(
-            progress,
-            [&](Progress told) {
-              options.on_progress = std::move(told);
-              return surface_damping(surface.surface, material, oscillation(motion), curve,
-                                     options);
-            },
-            surface.surface.ranks);
+        if (curve)
+          return interruptible(
+              progress,
+              [&](Progress told) {
+                options.on_progress = std::move(told);
+                return curve_of(surface_damping(surface.surface, material, oscillation(motion),
+                                                *curve, options),
+                                *curve, oscillation(motion));
+              },
+              surface.surface.ranks);
+        std::vector<std::string> warnings;
+        BoundDampingCurve found = interruptible(progress, [&](Progress told) {
+          SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
+          if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
+          const DampingAnswer answer = ask(DampingQuestion{.contact = std::move(contact),
+                                                           .motions = {described},
+                                                           .hold = options.hold,
+                                                           .amplitude = options.amplitude,
+                                                           .facts = all,
+                                                           .surface = options},
+                                           {.on_progress = std::move(told)});
+          warnings = answer.contact.doubts;
+          warnings.insert(warnings.end(), answer.doubts.begin(), answer.doubts.end());
+          return curve_of(answer, pressures->values);
+        });
+        for (const std::string& warning : warnings) warn_user(warning);
+        return found;
       },
-      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve"), nb::kw_only(),
+      nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve") = nb::none(),
+      nb::kw_only(), nb::arg("pressures") = nb::none(), nb::arg("facts") = nb::none(),
       nb::arg("hold") = "indentation", nb::arg("amplitude") = "finite",
       nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
-      nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = SurfaceDamping::unknown,
-      nb::arg("excursion") = SurfaceDamping::unknown, nb::arg("progress") = false,
-      R"(Relaxation damping of one surface at each load of its curve, from contacts inside the oscillation, with its error.
+      nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = Loss::unknown,
+      nb::arg("excursion") = Loss::unknown, nb::arg("progress") = false,
+      R"(Damping of one surface at each pressure, from contacts inside the oscillation, with its error.
 
 Nothing is interpolated between loads. The cells are halved once, which gives their error; relative_error > 0 halves them further
 where the error is above this part of W. A surface that is spread over processes is refined whole by the first of them.
@@ -60,8 +121,14 @@ Parameters
 surface : Surface
 material : Material
 motion : EqualFrequency or Drag
-curve : ForceCurve
-    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer. Where it has K_t of stick solves, so have the contacts.
+curve : ForceCurve, optional
+    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer, whose premises are not judged. Where it
+    has K_t of stick solves, so have the contacts.
+pressures : float or array, optional
+    Nominal pressures, Pa, in place of a curve: one is swept about each.
+facts : ContactFacts, optional
+    Friction, hardness, density and the like: a coefficient of friction makes the loss one with slip, a hardness loads the surface
+    plastically first, and the premises are judged by all.
 hold : {"indentation", "force"}
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}
@@ -70,14 +137,15 @@ relative_error : float
 seam : {"window", "free"}, optional
     Solves once more without the seam of a surface that is not periodic, and counts the change as an error.
 friction_coefficient : float
-    With it relaxation_work and slip_work are the loss with slip, and work_with_slip_error is their error; NaN: they are unknown.
+    As that of `facts`; NaN: infinite, no slip.
 excursion : float
-    Between the turning points of a Drag; without it its slip is not followed.
+    Between the turning points of a Drag, m, as that of `facts`; with friction a Drag needs it.
 
 Returns
 -------
-list of SurfaceDamping
-    In the order of the loads.
+DampingCurve
+    A sequence of DampingResult in the order of the loads, with an array for each number: ``found.damping_constant``,
+    ``found.damping_constant_error``, ``found.damping_constant_without_slip``, ``found.regime``.
 )");
 }
 

@@ -23,6 +23,7 @@
 #include <salebra/surface/scale_dependence.hpp>
 
 #include "bindings.hpp"
+#include "interop/damping.hpp"
 #include "interop/surface.hpp"
 #include "surface/psd_convention.hpp"
 
@@ -95,7 +96,7 @@ void bind_values(nb::module_& m) {
   table_classes<ForceCurve, LocalDecayLength, ContactSpots, SummitList, RadialSpectrum, ProfilePsd,
                 ConvertedPsd, Correlation, ScaleDependence, HeightHistogram, Profile,
                 MonteCarloCurve, AsperityDamping, TrajectoryDamping, CycleResult, SampledMotion,
-                SliderMotion>();
+                SliderMotion, BoundDampingCurve>();
 
   m.def(
       "_answer_constructor",

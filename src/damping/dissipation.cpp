@@ -184,9 +184,12 @@ void set_work(DampingResult& result, const detail::Integral& factor, const Kerne
   require(std::isfinite(work), "normal_amplitude", kernel.normal_amplitude,
           "m makes a loss beyond all measure with this tangential motion; reduce them");
   result.work_per_cycle = kernel.periodic ? work : unknown;
+  result.work_per_cycle_without_slip = result.work_per_cycle;
   result.error_estimate = factor.error * kernel.square_velocity;
   result.power = work * kernel.rate;
   result.damping_constant = factor.value * kernel.rate / kernel.mean_square_velocity;
+  result.damping_constant_without_slip = result.damping_constant;
+  result.damping_per_work = kernel.rate / (kernel.mean_square_velocity * kernel.square_velocity);
   require(!std::isinf(result.power) && !std::isinf(result.damping_constant), "angular_frequency",
           2 * pi * kernel.rate, "rad/s makes a damping beyond all measure");
   result.converged = factor.converged;

@@ -220,7 +220,7 @@ JudgedMotion case_of(const SampledMotion& path) {
   return one;
 }
 
-struct Loss {
+struct SpringLoss {
   double total = 0, permanent = 0;
 };
 
@@ -253,11 +253,11 @@ class Springs {
     stick_ = follow(stuck, 1, 1, 0).total;
   }
 
-  // Loss without slip at the displacement 1.
+  // SpringLoss without slip at the displacement 1.
   double stick() const { return stick_ > no_loss * scale_ ? stick_ : 0; }
   // The loss of the steady state at a displacement. ahead: how far the contact is dragged at its
   // least indentation before.
-  Loss at(double displacement, double ahead = 0) {
+  SpringLoss at(double displacement, double ahead = 0) {
     if (!contact_) return {};
     // Opening levels have no history.
     const int periods = closed_levels_ && ahead == 0 ? 2 : 1;
@@ -277,14 +277,14 @@ class Springs {
   double above_noise(double change) const {
     return std::clamp(1e-13 * scale_ / change, tolerance, 1e-3);
   }
-  Loss follow(TangentialContact& contact, double displacement, int periods, double ahead) const {
+  SpringLoss follow(TangentialContact& contact, double displacement, int periods, double ahead) const {
     // sample() begins at the least indentation.
     double x = displacement * path_.displacement.front();
     contact.start(path_.indentation.front(), x);
     const double before = x;
     if (ahead > 0) contact.move_to(path_.indentation.front(), x += ahead);
     const double offset = x - before;
-    Loss begun;
+    SpringLoss begun;
     for (int period = 0; period < periods; ++period) {
       begun = {contact.dissipated(), contact.dissipated_in_permanent_contact()};
       for (std::size_t i = 1; i < path_.time.size(); ++i)
@@ -797,9 +797,8 @@ Premises premises_of(const ContactLaw& law, const SampledMotion& path, const Con
   return all_premises(law, case_of(path), facts);
 }
 
-LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
-                            const Oscillation& motion, double friction_coefficient,
-                            double excursion) {
+Loss loss_with_slip(const ContactLaw& given, double mean_indentation, const Oscillation& motion,
+                    double friction_coefficient, double excursion) {
   require_positive(friction_coefficient, "friction_coefficient");
   if (!std::isnan(excursion)) require_positive(excursion, "excursion");
   const ContinuedLaw law(given);
@@ -809,10 +808,18 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
   const double full_stick = one.loss(one.amplitude) * one.displacement * one.displacement;
   const double limit = friction_coefficient / law.stiffness_ratio(one.mean), unit = limit * limit;
   const double displacement = std::abs(one.displacement) / limit;
+  const auto loss_of = [&](double relaxation, double slip) {
+    Loss loss;
+    loss.relaxation_work = unit * relaxation;
+    loss.slip_work = unit * slip;
+    loss.work_per_cycle = unit * (relaxation + slip);
+    loss.work_per_cycle_without_slip = full_stick;
+    loss.set_damping_constants(motion);
+    return loss;
+  };
   if (!one.drag) {
-    const Loss loss = Springs(law, *one.path, true, 2 * displacement).at(displacement);
-    return {unit * loss.total, unit * (loss.total - loss.permanent), unit * loss.permanent,
-            full_stick};
+    const SpringLoss loss = Springs(law, *one.path, true, 2 * displacement).at(displacement);
+    return loss_of(loss.total - loss.permanent, loss.permanent);
   }
   const double bottom = mean_indentation - one.amplitude, way = 2 * pi * displacement;
   double relaxation = Springs(law, *one.path, false, way).at(displacement).total, slip = 0;
@@ -825,7 +832,7 @@ LossWithSlip loss_with_slip(const ContactLaw& given, double mean_indentation,
     const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + way;
     slip = Springs(law, *one.path, true, ahead + way).at(displacement, ahead).permanent;
   }
-  return {unit * (relaxation + slip), unit * relaxation, unit * slip, full_stick};
+  return loss_of(relaxation, slip);
 }
 
 RegimeMap regime_map(const ContactLaw& given, double mean_indentation,

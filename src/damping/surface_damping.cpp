@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
@@ -47,17 +46,17 @@ constexpr double widest_piece = 1.5;
 // Part of the loss with slip that is left to levels below the deepest contact.
 constexpr double least_rest = 3e-3;
 
-/// A loss, J.
-struct KrigedLoss {
-  double work = SurfaceDamping::unknown;
+/// A work per cycle, J.
+struct KrigedWork {
+  double work = Loss::unknown;
   double deviation = std::numeric_limits<double>::infinity();  // standard
   double ratio_error = 0, solver_error = 0;
 };
 
 /// What one grid says of one load.
-struct GridValue : KrigedLoss {
-  KrigedLoss with_slip;
-  double relaxation_work = SurfaceDamping::unknown;  // of the loss with slip, J
+struct GridValue : KrigedWork {
+  KrigedWork with_slip;
+  double relaxation_work = Loss::unknown;  // of the loss with slip, J
   Index points = 0;
   bool converged = false;
 };
@@ -199,7 +198,7 @@ class Load {
                 const KrigedStiffness& kriged, double mean, double center, int intervals) {
     const bool first = values_.empty(), chooses = intervals == levels_;
     const double least = mean - amplitude_;
-    KrigedLoss sum{0, 0, 0, 0};
+    KrigedWork sum{0, 0, 0, 0};
     double by_half = 0, rest = 0;
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
@@ -390,7 +389,7 @@ class Load {
       if (std::abs(step) < 1e-9 * half_) break;
     }
     return std::abs(position - center) + amplitude_ <= (1 + 1e-9) * half_ ? position
-                                                                          : SurfaceDamping::unknown;
+                                                                          : Loss::unknown;
   }
 
   /// W = Σ weights × K(places).
@@ -438,15 +437,11 @@ class Load {
   std::vector<GridValue> values_;
 };
 
-double root_of_squares(std::initializer_list<double> parts) {
-  double sum = 0;
-  for (const double part : parts) sum += part * part;
-  return std::sqrt(sum);
-}
-
-void add_up(SurfaceDamping& result) {
-  result.error = root_of_squares({result.cell_error, result.scatter, result.level_error,
-                                  result.ratio_error, result.seam_error, result.solver_error});
+ErrorBudget budget_of(const KrigedWork& own, double by_intervals) {
+  return {.noise = stated_deviations * own.deviation,
+          .intervals = by_intervals,
+          .stiffness_ratio = own.ratio_error,
+          .solver = own.solver_error};
 }
 
 SurfaceDamping result_of(const Load& load, const Oscillation& motion,
@@ -461,30 +456,29 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   // one, they did not resolve it. (A loss with slip that is not asked for is NaN.)
   if (value.work < 0 || value.with_slip.work < 0) return result;
   result.converged = true;
-  result.work_per_cycle = value.work;
-  result.damping_constant = closed_form::damping_constant(value.work, motion);
-  result.level_error = load.level_error();
-  result.solver_error = value.solver_error;
-  result.ratio_error = value.ratio_error;
-  result.scatter = stated_deviations * value.deviation;
   result.stiffness_ratio = load.stiffness_ratio();
   result.window = load.window();
   result.levels = load.levels();
   result.points = value.points;
+  const bool no_slip = std::isnan(options.friction_coefficient);
+  const KrigedWork& described = no_slip ? value : value.with_slip;
+  result.work_per_cycle = described.work;
+  result.work_per_cycle_without_slip = value.work;
   result.relaxation_work = value.relaxation_work;
   result.slip_work = value.with_slip.work - value.relaxation_work;
+  result.set_damping_constants(motion);
+  result.error_without_slip = budget_of(value, load.level_error());
+  if (no_slip)
+    result.error = result.error_without_slip;
+  else if (load.follows_slip())
+    result.error = budget_of(described, load.level_error_with_slip());
   if (values.size() < 2) return result;
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // Forces converge at second order: of a halving a third remains on the finer cells.
   const double part = value.points < other.points ? 4.0 / 3 : 1.0 / 3;
-  result.cell_error = part * std::abs(value.work - other.work);
-  add_up(result);
-  if (!load.follows_slip()) return result;
-  const KrigedLoss& slip = value.with_slip;
-  result.slip_scatter = stated_deviations * slip.deviation;
-  result.work_with_slip_error =
-      root_of_squares({part * std::abs(slip.work - other.with_slip.work), result.slip_scatter,
-                       load.level_error_with_slip(), slip.ratio_error, slip.solver_error});
+  result.error_without_slip.cells = part * std::abs(value.work - other.work);
+  const KrigedWork& other_described = no_slip ? other : other.with_slip;
+  result.error.cells = part * std::abs(described.work - other_described.work);
   return result;
 }
 
@@ -601,8 +595,10 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     for (Load& load : loads) {
       if (!load.usable()) continue;
       const SurfaceDamping result = result_of(load, motion, options);
-      if (halving <= options.refinements ||
-          !(result.error <= options.relative_error * std::abs(result.work_per_cycle)))
+      const bool known = !std::isnan(result.work_per_cycle);
+      const double work = known ? result.work_per_cycle : result.work_per_cycle_without_slip;
+      const ErrorBudget& error = known ? result.error : result.error_without_slip;
+      if (halving <= options.refinements || !(error.total() <= options.relative_error * work))
         open.push_back(&load);
     }
     const Index factor = halving > 0 ? Index(1) << halving : 1;
@@ -628,14 +624,14 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
     if (!result.converged || !unseamed[k].converged) continue;
     const GridValue& own =
         values[std::min<std::size_t>(options.coarsen ? 1 : 0, values.size() - 1)];
-    result.seam_error =
-        beyond_scatter(unseamed[k].work_per_cycle - own.work, own.deviation, own.deviation);
-    add_up(result);
-    const double with_slip = unseamed[k].relaxation_work + unseamed[k].slip_work;
-    result.work_with_slip_error =
-        std::hypot(result.work_with_slip_error,
-                   beyond_scatter(with_slip - own.with_slip.work, own.with_slip.deviation,
-                                  own.with_slip.deviation));
+    const auto seam = [&](double without_seam, const KrigedWork& with_seam) {
+      return beyond_scatter(without_seam - with_seam.work, with_seam.deviation,
+                            with_seam.deviation);
+    };
+    result.error_without_slip.seam = seam(unseamed[k].work_per_cycle_without_slip, own);
+    result.error.seam = std::isnan(options.friction_coefficient)
+                            ? result.error_without_slip.seam
+                            : seam(unseamed[k].work_per_cycle, own.with_slip);
   }
   return results;
 }

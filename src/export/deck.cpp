@@ -40,7 +40,7 @@ void set_range(DeckContact& contact) {
   }
 }
 
-bool complete(const ForceCurve& curve, double ForceSample::* quantity) {
+bool complete(const ForceCurve& curve, double ForceSample::*quantity) {
   return std::ranges::all_of(curve.samples, [&](const ForceSample& sample) {
     return !sample.converged || std::isfinite(sample.*quantity);
   });

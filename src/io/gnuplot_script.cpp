@@ -156,7 +156,8 @@ class PanelScript {
           least = std::min(least, shown);
           most = std::max(most, shown);
         }
-    if (!(least < most)) return;  // gnuplot makes a range of one value
+    // Of one value, but for round-off, gnuplot makes a range.
+    if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
     const double room = margin * (most - least);
     // An axis of values of one sign ends at zero rather than just beyond it.
     if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - room) : least - room;

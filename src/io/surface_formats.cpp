@@ -102,7 +102,7 @@ const std::vector<SurfaceFormatEntry>& surface_format_table() {
 namespace salebra {
 namespace {
 
-std::string extensions_with(std::string_view SurfaceFormat::* use) {
+std::string extensions_with(std::string_view SurfaceFormat::*use) {
   std::string list;
   for (const SurfaceFormat& format : surface_formats())
     if (!(format.*use).empty())

@@ -118,64 +118,9 @@ Premises premises_of_case(const ContactAnswer& contact, const Case& one,
 
 /// Why the loss of a case with friction is not known; empty: it is.
 std::string why_unknown(const Case& one, const ContactFacts& facts) {
-  if (one.force_amplitude)
+  if (one.force_amplitude && !std::isnan(facts.friction_coefficient))
     return "slip is not followed where `force_amplitude` is given; give the `normal_amplitude`";
-  const auto* two = std::get_if<TwoFrequencies>(&one.motion);
-  if (two && common_period(*two).normal_cycles == 0)
-    return "slip is not followed in a motion that never repeats; give frequencies with a common "
-           "period";
-  const auto* drag = std::get_if<Drag>(&one.motion);
-  if (drag && std::isnan(facts.excursion))
-    return "with friction the loss of a slow motion depends on its `excursion`; give it";
-  if (drag && facts.excursion < drag->way_per_cycle())
-    return "the motion turns back within one normal cycle: it is not slow; give a longer "
-           "`excursion`, or a motion of equal frequencies";
-  return {};
-}
-
-TrajectoryDamping unknown_loss() {
-  TrajectoryDamping loss;
-  loss.work_per_cycle = loss.slip_work = loss.power = loss.damping_constant =
-      loss.storage_stiffness = loss.loss_factor = not_known;
-  return loss;
-}
-
-/// Of a loss that is known by its works alone, J.
-TrajectoryDamping loss_of_works(double total, double slip, const Oscillation& motion) {
-  TrajectoryDamping loss = unknown_loss();
-  loss.work_per_cycle = total;
-  loss.slip_work = slip;
-  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, motion);
-  if (omega > 0) loss.power = total * omega / (2 * std::numbers::pi);
-  loss.damping_constant = closed_form::damping_constant(total, motion);
-  return loss;
-}
-
-/// Of a law: a slow motion by its turning points, the others followed step by step.
-TrajectoryDamping loss_with_slip_of(const ContactLaw& law, const Motion& motion, double indentation,
-                                    const DampingQuestion& question, const Context& context) {
-  const double friction = question.facts.friction_coefficient;
-  const auto* drag = std::get_if<Drag>(&motion);
-  if (drag == nullptr)
-    return cycle_of(law, motion, indentation, question.steps, friction, context).loss;
-  const LossWithSlip loss =
-      loss_with_slip(law, indentation, *drag, friction, question.facts.excursion);
-  return loss_of_works(loss.work_per_cycle, loss.slip_work, *drag);
-}
-
-/// Puts the loss with slip of case i in the place of that without.
-void follow_slip(DampingAnswer& answer, std::size_t i, const TrajectoryDamping& loss) {
-  DampingResult& result = answer.results[i];
-  answer.work_per_cycle_without_slip.push_back(result.work_per_cycle);
-  answer.damping_constant_without_slip.push_back(result.damping_constant);
-  result.work_per_cycle = loss.work_per_cycle;
-  result.power = loss.power;
-  result.damping_constant = loss.damping_constant;
-  result.error_estimate = not_known;
-  answer.slip_share.push_back(loss.slip_work / loss.work_per_cycle);
-  answer.relaxation_share.push_back(1 - answer.slip_share.back());
-  answer.storage_stiffness.push_back(loss.storage_stiffness);
-  answer.loss_factor.push_back(loss.loss_factor);
+  return why_loss_unknown(one.motion, facts);
 }
 
 /// The place of a load, whose pressure came back with round-off.
@@ -202,77 +147,58 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
 /// A surface is not interpolated between loads: contacts inside the oscillation give W and its
 /// error.
 void resolve_on_surface(const DampingQuestion& question, const std::vector<double>& pressures,
-                        const Material& material, bool followed, const Context& context,
-                        DampingAnswer& answer) {
+                        const Material& material, const Context& context, DampingAnswer& answer) {
   const Oscillation one = *oscillation_of(question.motions.front());
-  const double omega = std::visit([](const auto& m) { return m.angular_frequency; }, one);
-  const bool slips = !std::isnan(question.facts.friction_coefficient);
+  const bool known = why_loss_unknown(question.motions.front(), question.facts).empty();
   const ForceCurve loads = loads_with_neighbours(*answer.contact.curve, pressures);
+  SurfaceDampingOptions options = question.surface;
+  options.hold = question.hold;
+  options.amplitude = question.amplitude;
+  options.friction_coefficient = question.facts.friction_coefficient;
+  options.excursion = question.facts.excursion;
+  options.on_progress = context.on_progress;
   const std::vector<SurfaceDamping> found =
-      surface_damping(*answer.contact.surface, material, one, loads,
-                      {.hold = question.hold,
-                       .amplitude = question.amplitude,
-                       .friction_coefficient = question.facts.friction_coefficient,
-                       .excursion = question.facts.excursion,
-                       .on_progress = context.on_progress});
+      surface_damping(*answer.contact.surface, material, one, loads, options);
   for (std::size_t i = 0; i < answer.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = answer.results[i];
-    result.work_per_cycle = load.work_per_cycle;
-    result.damping_constant = load.damping_constant;
-    result.error_estimate = load.error;
+    static_cast<Loss&>(result) = load;
+    result.error_estimate = load.work_per_cycle_error();
     result.converged = load.converged;
-    if (slips) {
-      answer.damping_constant_without_slip_error.push_back(
-          closed_form::damping_constant(load.error, one));
-      follow_slip(answer, i,
-                  followed
-                      ? loss_of_works(load.relaxation_work + load.slip_work, load.slip_work, one)
-                      : unknown_loss());
-      if (followed) result.error_estimate = load.work_with_slip_error;
-    }
-    if (followed && !(result.error_estimate < std::abs(result.work_per_cycle))) {
+    if (!known) {
+      result.forget();
+    } else if (!(load.work_per_cycle_error() < std::abs(load.work_per_cycle))) {
       answer.doubts.push_back(
           fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
                       "a study of the surface with a `relative_error` halves the cells further",
                       format_quantity(pressures[i], Dimension::pressure)));
       result.work_per_cycle = result.damping_constant = not_known;
     }
-    answer.damping_constant_error.push_back(
-        closed_form::damping_constant(result.error_estimate, one));
-    answer.error_estimate.push_back(result.error_estimate);
-    if (omega > 0) result.power = result.work_per_cycle * omega / (2 * std::numbers::pi);
+    result.power = closed_form::power(result.work_per_cycle, one);
   }
-}
-
-/// Of a damper: γ, its error, of it what slip dissipates, and γ without slip; NaN where not known.
-struct DamperConstant {
-  double value = not_known, error = not_known, slip_share = not_known, without_slip = not_known;
-};
-
-/// Why γ of a damper with friction is not known; empty: it is.
-std::string why_unknown(const DamperQuestion& question, double angular_frequency) {
-  if (std::isnan(question.drag_velocity))
-    return "with friction the damping constant depends on the `drag_velocity` and the `excursion` "
-           "of the slow motion; give both";
-  const Drag drag{0, question.drag_velocity, angular_frequency};
-  return why_unknown(Case{AtForce{}, drag, {}}, question.facts);
 }
 
 bool slips(const DamperQuestion& question) {
   return !std::isnan(question.facts.friction_coefficient);
 }
 
-/// Of a law, about its mean indentation; `without` is γ without slip.
-DamperConstant constant_with_slip(const DamperQuestion& question, const ContactLaw& law,
-                                  double indentation, const Drag& drag, double without) {
-  DamperConstant found{.without_slip = without};
-  if (!why_unknown(question, drag.angular_frequency).empty()) return found;
-  const LossWithSlip loss = loss_with_slip(
-      law, indentation, drag, question.facts.friction_coefficient, question.facts.excursion);
-  found.value = closed_form::damping_constant(loss.work_per_cycle, drag);
-  found.slip_share = loss.slip_work / loss.work_per_cycle;
-  return found;
+/// Why γ of a damper with friction is not known; empty: it is.
+std::string why_unknown(const DamperQuestion& question, double angular_frequency) {
+  if (slips(question) && std::isnan(question.drag_velocity))
+    return "with friction the damping constant depends on the `drag_velocity` and the `excursion` "
+           "of the slow motion; give both";
+  return why_loss_unknown(Drag{0, question.drag_velocity, angular_frequency}, question.facts);
+}
+
+/// Of a law, about its mean indentation, whose γ without slip is known.
+Loss loss_of(const DamperQuestion& question, const ContactLaw& law, double indentation,
+             const Drag& drag, double without_slip) {
+  Loss loss;
+  if (why_unknown(question, drag.angular_frequency).empty())
+    loss = loss_with_slip(law, indentation, drag, question.facts.friction_coefficient,
+                          question.facts.excursion);
+  loss.damping_constant_without_slip = without_slip;
+  return loss;
 }
 
 /// What a damper of a surface does: γ of each amplitude from contacts inside the oscillation, and
@@ -292,14 +218,19 @@ class SurfaceDamper {
   }
 
   /// Without slip γω is a number of the amplitude alone, and is solved once.
-  DamperConstant at(double amplitude, double angular_frequency) {
-    if (slips(question_) && why_unknown(question_, angular_frequency).empty())
-      return with_slip({amplitude, question_.drag_velocity, angular_frequency});
+  Loss at(double amplitude, double angular_frequency) {
+    const bool known = why_unknown(question_, angular_frequency).empty();
+    if (slips(question_) && known)
+      return stated(solved({amplitude, question_.drag_velocity, angular_frequency}, options_),
+                    amplitude);
     if (!(solved_amplitude_ == amplitude)) solved_ = without_slip(amplitude);
     solved_amplitude_ = amplitude;
-    const double constant = solved_.value / angular_frequency;
-    if (slips(question_)) return {.without_slip = constant};
-    return {.value = constant, .error = solved_.error / angular_frequency};
+    Loss loss = solved_;
+    for (double* number : {&loss.damping_constant, &loss.damping_constant_without_slip,
+                           &loss.damping_per_work})
+      *number /= angular_frequency;
+    if (!known) loss.forget();
+    return loss;
   }
 
   void decay(double contact_stiffness) {
@@ -313,7 +244,7 @@ class SurfaceDamper {
     OscillatorDecay& off = answer_.decay_error.emplace();
     off.damping_constant = error;
     off.contact_stiffness = off.natural_frequency = off.frequency_ratio = not_known;
-    for (double OscillatorDecay::* const number :
+    for (double OscillatorDecay::*const number :
          {&OscillatorDecay::damping_ratio, &OscillatorDecay::quality_factor,
           &OscillatorDecay::decay_time, &OscillatorDecay::logarithmic_decrement})
       off.*number = std::abs(more.*number - found.*number);
@@ -328,8 +259,8 @@ class SurfaceDamper {
       answer_.stabilising_amplitude_error.push_back(not_known);
     };
     if (!std::isfinite(by_law)) return lost();
-    const DamperConstant there = at(by_law, 1);
-    const double constant = there.value, error = there.error;
+    const Loss there = at(by_law, 1);
+    const double constant = there.damping_constant, error = there.damping_constant_error();
     const Field about =
         damper_map(*answer_.contact.law, answer_.contact.positions.front(), {by_law, 1.05 * by_law},
                    {angular_frequency}, {.hold = question_.hold, .amplitude = question_.amplitude})
@@ -344,36 +275,26 @@ class SurfaceDamper {
   }
 
  private:
-  DamperConstant with_slip(const Drag& drag) {
-    const SurfaceDamping load = solved(drag, options_);
-    const auto constant_of = [&](double work) { return closed_form::damping_constant(work, drag); };
-    const double work = load.relaxation_work + load.slip_work;
-    return stated({constant_of(work), constant_of(load.work_with_slip_error), load.slip_work / work,
-                   load.damping_constant},
-                  drag.normal_amplitude);
-  }
-
   /// γω: W is in proportion to v², and any velocity serves.
-  DamperConstant without_slip(double amplitude) {
+  Loss without_slip(double amplitude) {
     SurfaceDampingOptions options = options_;
     options.friction_coefficient = options.excursion = not_known;
-    const SurfaceDamping load = solved({amplitude, 1e-6, 1}, options);
-    return stated({.value = load.damping_constant, .error = load.damping_constant_error()},
-                  amplitude);
+    return stated(solved({amplitude, 1e-6, 1}, options), amplitude);
   }
 
-  SurfaceDamping solved(const Drag& drag, const SurfaceDampingOptions& options) const {
+  Loss solved(const Drag& drag, const SurfaceDampingOptions& options) const {
     return surface_damping(*answer_.contact.surface, material_, drag, about_, options)[0];
   }
 
   /// With its error where this is smaller.
-  DamperConstant stated(const DamperConstant& found, double amplitude) {
-    if (found.error < std::abs(found.value)) return found;
+  Loss stated(Loss loss, double amplitude) {
+    if (loss.damping_constant_error() < std::abs(loss.damping_constant)) return loss;
     answer_.doubts.push_back(fmt::format(
         "the error of the damping constant under {} exceeds it, and neither is given; a finer "
         "surface helps",
         format_quantity(amplitude, Dimension::length)));
-    return {.without_slip = found.without_slip};
+    loss.forget();
+    return loss;
   }
 
   const DamperQuestion& question_;
@@ -382,7 +303,7 @@ class SurfaceDamper {
   ForceCurve about_;  // the load
   SurfaceDampingOptions options_;
   double solved_amplitude_ = not_known;
-  DamperConstant solved_;  // γω there, without slip
+  Loss solved_;  // at ω = 1, without slip
 };
 
 void require_motion_of_surface(const DampingQuestion& question) {
@@ -414,24 +335,20 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
   answer.results = results_of(law, cases, options, context);
   if (const auto doubt = detail::doubt_of_held_indentation(question.hold, answer.results))
     answer.doubts.push_back(*doubt);
-  const bool slips = !std::isnan(question.facts.friction_coefficient);
   std::string unknown;  // why, one line for all cases
-  if (surface) {
-    if (slips) unknown = why_unknown(cases.front(), question.facts);
-    resolve_on_surface(question, pressures, material, unknown.empty(), context, answer);
-  }
+  if (surface) resolve_on_surface(question, pressures, material, context, answer);
   std::vector<std::string> doubts;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
-    const DampingResult& result = answer.results[i];
+    DampingResult& result = answer.results[i];
     answer.motions.push_back(one.motion);
-    if (!surface && slips) {
-      const std::string why = why_unknown(one, question.facts);
-      if (unknown.empty()) unknown = why;
-      follow_slip(answer, i,
-                  why.empty()
-                      ? loss_with_slip_of(law, one.motion, result.indentation, question, context)
-                      : unknown_loss());
+    const std::string why = why_unknown(one, question.facts);
+    if (unknown.empty()) unknown = why;
+    if (!why.empty()) {
+      result.forget();
+      result.power = not_known;
+    } else if (!surface) {
+      add_slip(result, law, one.motion, question.facts, question.steps, context);
     }
     answer.ratio.push_back(1 / small_over_exact(result, one.motion));
     answer.premises.push_back(premises_of_case(answer.contact, one, result, question.facts));
@@ -452,20 +369,6 @@ DampingAnswer ask(DampingQuestion question, const Context& context) {
   if (!unknown.empty()) doubts.insert(doubts.begin(), unknown);
   answer.doubts.insert(answer.doubts.end(), doubts.begin(), doubts.end());
   return answer;
-}
-
-DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
-                      double friction_coefficient, const Context& context) {
-  DampingCycle cycle;
-  cycle.path = std::visit([&](const auto& m) { return sample(m, indentation, steps); }, motion);
-  TrajectoryDampingOptions options{.on_progress = context.on_progress};
-  if (!std::isnan(friction_coefficient)) options.friction_coefficient = friction_coefficient;
-  cycle.loss = trajectory_damping(law, cycle.path, options);
-  const auto* equal = std::get_if<EqualFrequency>(&motion);
-  // Its frequency is not known.
-  if (equal && !(equal->angular_frequency > 0))
-    cycle.loss.power = cycle.loss.damping_constant = not_known;
-  return cycle;
 }
 
 StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,
@@ -537,15 +440,14 @@ void fill_map(const DamperQuestion& question, const std::vector<double>& indenta
       const auto row = Index(i), column = Index(j);
       const Drag drag{map.normal_amplitude[i], question.drag_velocity, map.angular_frequency[j]};
       double& constant = map.damping_constant(row, column);
-      const DamperConstant found =
-          of_surface
-              ? of_surface->at(drag.normal_amplitude, drag.angular_frequency)
-              : constant_with_slip(question, *answer.contact.law, indentations[i], drag, constant);
-      constant = found.value;
-      if (of_surface) answer.damping_constant_error(row, column) = found.error;
+      const Loss found = of_surface
+                             ? of_surface->at(drag.normal_amplitude, drag.angular_frequency)
+                             : loss_of(question, *answer.contact.law, indentations[i], drag, constant);
+      constant = found.damping_constant;
+      if (of_surface) answer.damping_constant_error(row, column) = found.damping_constant_error();
       if (!slips(question)) continue;
-      answer.damping_constant_without_slip(row, column) = found.without_slip;
-      answer.slip_share(row, column) = found.slip_share;
+      answer.damping_constant_without_slip(row, column) = found.damping_constant_without_slip;
+      answer.slip_share(row, column) = found.slip_share();
     }
 }
 

@@ -104,9 +104,11 @@ class Point {
     }
     add(json, "premises", premises());
     add(json, "spots", spots());
-    add(json, "over_bem",
-        by_model("comparison/",
-                 {"mean_gap", "contact_area_fraction", "normal_stiffness", "work_per_cycle"}));
+    const std::string work = without_slip("work_per_cycle");
+    Json over_bem = by_model("comparison/",
+                             {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
+    if (!over_bem.is_null() && over_bem.contains(work)) over_bem["work_per_cycle"] = over_bem[work];
+    add(json, "over_bem", std::move(over_bem));
     if (const auto surfaces = column("convergence/surfaces")) {
       json["convergence"] =
           estimate("convergence/decay_length_over_rms_height", 0, surfaces->size());
@@ -116,6 +118,12 @@ class Point {
   }
 
  private:
+  /// The name of a loss without slip: in files of 1.0 it was the plain one.
+  std::string without_slip(const std::string& loss) const {
+    const std::string name = loss + "_without_slip";
+    return has("damping/" + name) ? name : loss;
+  }
+
   /// In words, one for each pressure.
   Json regimes() const {
     Json words = Json::array();
@@ -339,20 +347,21 @@ class Point {
     if (!has("damping/force")) return json;
     json["force"] = list(part("damping/force", 0, pressures_.size()));
     struct Route {
-      const char *name, *work, *constant;  // the columns of a study
+      std::string name, work, constant;  // the columns of a study
     };
     for (const Route& route :
          {Route{"law", "work_per_cycle_closed_form", "damping_constant_closed_form"},
           Route{"small", "small_amplitude_work", "small_amplitude_damping_constant"},
-          Route{"curve", "work_per_cycle", "damping_constant"}}) {
+          Route{"curve", without_slip("work_per_cycle"), without_slip("damping_constant")}}) {
       Json found;
       for (const auto& [name, column] :
            {std::pair{"work_per_cycle", route.work}, {"damping_constant", route.constant}})
         if (Json means = by_model("damping/ensemble_", {column}); !means.is_null())
           found[name] = std::move(means[column]);
-      add(json, route.name, std::move(found));
+      add(json, route.name.c_str(), std::move(found));
     }
-    if (const std::string errors = "damping/ensemble_damping_constant_error_mean";
+    if (const std::string errors =
+            "damping/ensemble_" + without_slip("damping_constant") + "_error_mean";
         has(errors) && bem() < models_.size() && json.contains("curve"))
       json["curve"]["damping_constant"]["bem"]["error"] =
           list(part(errors, bem(), pressures_.size()));

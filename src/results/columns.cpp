@@ -2,6 +2,7 @@
 // Columns of described structs, and objects made of them.
 #include "columns.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace salebra::detail {
@@ -23,12 +24,13 @@ Dimension over_area(Dimension dimension) {
 }  // namespace
 
 void add_column(std::vector<Column>& columns, const Quantity& quantity, bool list, bool extensive,
-                std::function<Json(const void*)> value) {
+                bool where_known, std::function<Json(const void*)> value) {
   const std::string name(quantity.name), long_name(quantity.long_name);
-  columns.push_back({name, quantity.dimension, long_name, list, false, value});
+  columns.push_back({name, quantity.dimension, long_name, list, false, where_known, value});
   if (extensive)
     columns.push_back({name + "_per_area", over_area(quantity.dimension),
-                       long_name + " over nominal area", list, true, std::move(value)});
+                       long_name + " over nominal area", list, true, where_known,
+                       std::move(value)});
 }
 
 Json numbers_of(const std::vector<Column>& columns, const Rows& rows, bool several,
@@ -40,6 +42,10 @@ Json numbers_of(const std::vector<Column>& columns, const Rows& rows, bool sever
       const Json value = column.value(static_cast<const char*>(rows.first) + row * rows.stride);
       return column.per_area ? Json(value.number() / nominal_area) : value;
     };
+    bool known = !column.where_known;
+    for (std::size_t row = 0; !known && row < rows.count; ++row)
+      known = !std::isnan(value_of(row).number());
+    if (!known) continue;
     Json& member = object[column.name] = several ? Json::array() : value_of(0);
     for (std::size_t row = 0; several && row < rows.count; ++row) member.push_back(value_of(row));
   }

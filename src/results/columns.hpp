@@ -21,6 +21,7 @@ struct Column {
   std::string long_name;
   bool list = false;      ///< several values, of a table
   bool per_area = false;  ///< the value is to be divided by the nominal area
+  bool where_known = false;  ///< answers leave it out where no row knows its value
   /// The value at an address: a number, a truth, a word or a list of them, null where there is
   /// none. Empty for fields, which no answer prints.
   std::function<Json(const void* whole)> value;
@@ -57,7 +58,7 @@ constexpr bool is_list<std::vector<Item>> = true;
 
 /// With the column per area of an extensive one.
 void add_column(std::vector<Column>& columns, const Quantity& quantity, bool list, bool extensive,
-                std::function<Json(const void*)> value);
+                bool where_known, std::function<Json(const void*)> value);
 
 template <class Whole>
 std::vector<Column> all_columns() {
@@ -71,7 +72,8 @@ std::vector<Column> all_columns() {
             value = [member](const void* whole) {
               return json_value(std::invoke(member, *static_cast<const Whole*>(whole)));
             };
-          add_column(all, line, is_list<Value>, std::is_same_v<Line, Extensive>, std::move(value));
+          add_column(all, line, is_list<Value>, std::is_same_v<Line, Extensive>,
+                     std::is_same_v<Line, WhereKnown>, std::move(value));
         } else if constexpr (std::is_same_v<Line, Part> && Described<Value>) {
           for (Column column : all_columns<Value>()) {
             column.value = [member, inner = column.value](const void* whole) {

@@ -46,7 +46,7 @@ const Column* entry_of(std::string_view name) {
       WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
       CycleFrame, CycleMesh, LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
       EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, Premise,
-      LossWithSlip, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider,
+      Loss, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider,
       SliderMotion, SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap,
       RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy,
       NonGaussianSurface, Conductances, ContactDistributions, FlowFactors, AdhesionOfState,

@@ -10,6 +10,7 @@
 #include <salebra/base/share.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
+#include <salebra/questions/slip.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <type_traits>
@@ -100,6 +101,10 @@ double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& wind
   return curve.rms_height * product / square;
 }
 
+Motion motion_of(const StudyConfiguration& configuration) {
+  return std::visit([](const auto& one) -> Motion { return one; }, configuration.motion);
+}
+
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
   const double modulus_ratio = configuration.material.modulus_ratio();
@@ -134,11 +139,14 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
             relaxation_damping(*curve_law, position, configuration.motion, small);
         point.small_amplitude_work = by_curvature.work_per_cycle;
         point.small_amplitude_damping_constant = by_curvature.damping_constant;
-        const auto by_curve =
+        auto by_curve =
             relaxation_damping(*curve_law, position, configuration.motion, configuration.damping);
         if (by_curve.converged) {
-          point.work_per_cycle = by_curve.work_per_cycle;
-          point.damping_constant = by_curve.damping_constant;
+          // Slip may reach below the curve: the loss without slip stays.
+          static_cast<Loss&>(point) = by_curve;
+          if (!std::isnan(configuration.known.friction_coefficient)) point.forget();
+          add_slip(by_curve, *curve_law, motion_of(configuration), configuration.known);
+          static_cast<Loss&>(point) = by_curve;
         }
       } catch (const InvalidInput&) {
         // Near its ends the curve does not cover the whole cycle: no value there.
@@ -159,26 +167,14 @@ void resolve_damping(ModelResult& result, const Surface& surface,
   options.excursion = configuration.known.excursion;
   const std::vector<SurfaceDamping> resolved =
       surface_damping(surface, configuration.material, configuration.motion, result.curve, options);
+  // One surface has no other number to average with.
+  const bool alone = detail::seeds_of(configuration).size() == 1;
+  const bool known = why_loss_unknown(motion_of(configuration), configuration.known).empty();
   for (std::size_t k = 0; k < resolved.size(); ++k) {
-    const SurfaceDamping& one = resolved[k];
-    DampingPoint& point = result.damping[k];
-    const double per_work = one.damping_constant / one.work_per_cycle;
-    point.work_per_cycle = one.work_per_cycle;
-    point.damping_constant = one.damping_constant;
-    point.damping_constant_error = one.error * per_work;
-    point.cell_error = one.cell_error * per_work;
-    point.scatter_error = one.scatter * per_work;
-    point.level_error = one.level_error * per_work;
-    point.ratio_error = one.ratio_error * per_work;
-    if (options.seam) point.seam_error = one.seam_error * per_work;
-    point.relaxation_work = one.relaxation_work;
-    point.slip_work = one.slip_work;
-    point.work_with_slip_error = one.work_with_slip_error;
-    point.slip_scatter = one.slip_scatter;
-    // One surface has no other number to average with.
-    if (detail::seeds_of(configuration).size() == 1 &&
-        point.damping_constant_error >= std::abs(point.damping_constant))
-      point.work_per_cycle = point.damping_constant = ForceSample::unknown;
+    Loss& loss = result.damping[k];
+    loss = resolved[k];
+    if (alone) loss.drop_uncertain();
+    if (!known) loss.forget();
   }
 }
 

@@ -15,7 +15,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr std::string_view magic = "salebra realisation 12\n";
+constexpr std::string_view magic = "salebra realisation 13\n";
 
 /// Checksum of a file; 0 where there is none.
 std::uint64_t checksum_of(const std::filesystem::path& file) {

@@ -36,7 +36,7 @@ void warn(StudyResult& result) {
   for (const Realisation& realisation : result.realisations) {
     lost += int(std::ranges::count_if(
         realisation.of(ContactModel::bem).damping,
-        [](const DampingPoint& point) { return std::isnan(point.work_per_cycle); }));
+        [](const DampingPoint& point) { return std::isnan(point.work_per_cycle_without_slip); }));
     unconverged += int(std::ranges::count(realisation.of(ContactModel::bem).curve.samples, false,
                                           &ForceSample::converged));
   }

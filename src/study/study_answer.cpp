@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/closed_form.hpp>
+#include <salebra/questions/slip.hpp>
 #include <salebra/study/study_answer.hpp>
 
 namespace salebra {
@@ -45,32 +45,15 @@ ContactFacts facts_of(const StudyResult& result) {
   return facts;
 }
 
-StatedMean scaled(StatedMean mean, double factor) {
-  for (double* number : {&mean.mean, &mean.low, &mean.high, &mean.error}) *number *= factor;
-  return mean;
-}
-
-/// Puts the loss with slip in the place of that without: of contacts where levels slip.
-void follow_slip(StudyAnswer& answer, const StudyResult& result) {
+/// Parts of the mean work, where slip is followed.
+void set_shares(StudyAnswer& answer, const StudyResult& result) {
   const auto relaxation = result.damping(&DampingPoint::relaxation_work);
   const auto slip = result.damping(&DampingPoint::slip_work);
-  answer.damping_constant = result.stated_work_with_slip();
   for (std::size_t k = 0; k < slip.size(); ++k) {
-    StatedMean& constant = answer.damping_constant[k];
-    constant = scaled(constant, closed_form::damping_constant(1, result.configuration.motion));
-    if (std::isnan(constant.mean)) continue;
+    if (std::isnan(answer.work_per_cycle[k].mean)) continue;
     answer.slip_share[k] = slip[k].mean / (relaxation[k].mean + slip[k].mean);
     answer.relaxation_share[k] = 1 - answer.slip_share[k];
   }
-}
-
-/// Of one pressure, by the mean curve between pressures, whose error is not known.
-void follow_slip(StudyAnswer& answer, std::size_t k, const LossWithSlip& loss) {
-  answer.damping_constant[k] =
-      scaled(answer.damping_constant[k], loss.work_per_cycle / loss.full_stick_work);
-  answer.damping_constant[k].error = ForceSample::unknown;
-  answer.relaxation_share[k] = loss.relaxation_share();
-  answer.slip_share[k] = loss.slip_share();
 }
 
 }  // namespace
@@ -78,11 +61,13 @@ void follow_slip(StudyAnswer& answer, std::size_t k, const LossWithSlip& loss) {
 StudyAnswer answer_of(const StudyResult& result) {
   const StudyConfiguration& configuration = result.configuration;
   const std::size_t count = result.pressures.size();
-  const std::vector<StatedMean> without_slip = result.stated_damping();
+  const Motion motion =
+      std::visit([](const auto& one) -> Motion { return one; }, configuration.motion);
   StudyAnswer answer{
       .pressures = result.pressures,
-      .damping_constant = without_slip,
-      .damping_constant_without_slip = without_slip,
+      .damping_constant = result.stated("damping_constant"),
+      .work_per_cycle = result.stated("work_per_cycle"),
+      .damping_constant_without_slip = result.stated("damping_constant_without_slip"),
       .relaxation_share = std::vector<double>(count, ContactFacts::unknown),
       .slip_share = std::vector<double>(count, ContactFacts::unknown),
       .thermal_conductance = result.conductance(&Conductances::thermal_conductance),
@@ -90,17 +75,13 @@ StudyAnswer answer_of(const StudyResult& result) {
       .slip_followed = !std::isnan(configuration.known.friction_coefficient),
       .premises = std::vector<Premises>(count)};
   if (configuration.adhesion) return answer;
-  const auto* drag = std::get_if<Drag>(&configuration.motion);
-  if (drag != nullptr && answer.slip_followed && std::isnan(configuration.known.excursion))
-    answer.needs = "excursion";
-  const bool by_contacts = configuration.levels != 0;
-  if (answer.slips() && by_contacts) follow_slip(answer, result);
+  answer.unknown = why_loss_unknown(motion, configuration.known);
+  if (answer.slips()) set_shares(answer, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
     const ContactFacts known = facts_of(result);
-    const double amplitude = std::visit([](const auto& motion) { return motion.normal_amplitude; },
-                                        configuration.motion);
+    const double amplitude = std::visit([](const auto& one) { return one.normal_amplitude; }, motion);
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;
@@ -109,19 +90,8 @@ StudyAnswer answer_of(const StudyResult& result) {
       facts.nominal_pressure = sample.pressure;
       facts.loaded_size = known.loaded_size;
       answer.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
-      if (answer.slips() && !by_contacts)
-        follow_slip(answer, k,
-                    loss_with_slip(law, -sample.mean_gap, configuration.motion,
-                                   facts.friction_coefficient, facts.excursion));
     }
   }
-  // An excursion that one normal cycle covers is no slow motion.
-  if (!answer.needs.empty() || (drag && configuration.known.excursion < drag->way_per_cycle()))
-    answer.damping_constant.assign(count, StatedMean());
-  // γ of a loss of 1 J.
-  const double per_work = closed_form::damping_constant(1, configuration.motion);
-  for (const StatedMean& constant : answer.damping_constant)
-    answer.work_per_cycle.push_back(scaled(constant, 1 / per_work));
   answer.conditions = conditions_of(answer.premises, answer.slips(), result.pressures);
   answer.validity = validity_of(answer.conditions);
   return answer;
@@ -130,7 +100,7 @@ StudyAnswer answer_of(const StudyResult& result) {
 std::vector<double> surfaces_for(const StudyResult& result, double precision) {
   require_positive(precision, "precision");
   std::vector<double> counts;
-  for (const StatedMean& constant : result.stated_damping()) {
+  for (const StatedMean& constant : result.stated("damping_constant")) {
     const double excess = constant.relative_precision() / precision;
     counts.push_back(
         std::isnan(excess)

@@ -8,7 +8,7 @@
 #include <functional>
 #include <map>
 #include <numbers>
-#include <numeric>
+#include <salebra/base/error.hpp>
 #include <salebra/contact/theories.hpp>
 #include <salebra/study/study.hpp>
 
@@ -21,6 +21,27 @@ namespace {
 
 EnsembleMean estimate(const StudyConfiguration& configuration, const std::vector<double>& values) {
   return configuration.of_twin() ? prediction(values) : Bootstrap().mean(values);
+}
+
+/// A number of a loss with a numerical error, that of its work; a damping constant is a work times
+/// damping_per_work.
+struct StatedNumber {
+  std::string_view name;
+  bool constant;
+  double Loss::*value;
+  ErrorBudget Loss::*error;
+};
+constexpr StatedNumber stated_numbers[] = {
+    {"work_per_cycle", false, &Loss::work_per_cycle, &Loss::error},
+    {"damping_constant", true, &Loss::damping_constant, &Loss::error},
+    {"work_per_cycle_without_slip", false, &Loss::work_per_cycle_without_slip,
+     &Loss::error_without_slip},
+    {"damping_constant_without_slip", true, &Loss::damping_constant_without_slip,
+     &Loss::error_without_slip}};
+
+const StatedNumber* stated_number(std::string_view name) {
+  const auto found = std::ranges::find(stated_numbers, name, &StatedNumber::name);
+  return found == std::end(stated_numbers) ? nullptr : found;
 }
 
 }  // namespace
@@ -86,25 +107,27 @@ std::vector<EnsembleMean> StudyResult::damping(const NumberOf<DampingPoint>& num
 std::vector<EnsembleMean> StudyResult::damping(std::string_view quantity,
                                                ContactModel model) const {
   if (quantity == "deviation") return deviation(model);
-  const bool error = quantity == "damping_constant_error";
-  if (!error && quantity != "damping_constant")
-    return damping(number_of<DampingPoint>(quantity, "quantity"), model);
+  constexpr std::string_view of_error = "_error";
+  const bool error = quantity.ends_with(of_error);
+  const std::string_view number = quantity.substr(0, quantity.size() - error * of_error.size());
+  if (!stated_number(number)) return damping(number_of<DampingPoint>(quantity, "quantity"), model);
   std::vector<EnsembleMean> means;
-  for (const StatedMean& stated : stated_damping(model))
-    means.push_back(error ? EnsembleMean{.mean = stated.error} : EnsembleMean(stated));
+  for (const StatedMean& one : stated(number, model))
+    means.push_back(error ? EnsembleMean{.mean = one.error} : EnsembleMean(one));
   return means;
 }
 
 std::vector<EnsembleMean> StudyResult::deviation(ContactModel model) const {
   const auto law = damping(&DampingPoint::damping_constant_closed_form, model);
-  const auto computed = stated_damping(model);
+  const auto computed = stated("damping_constant_without_slip", model);
   std::vector<EnsembleMean> deviations;
   for (std::size_t k = 0; k < pressures.size(); ++k) {
     const double constant = computed[k].mean, ratio = law[k].mean / constant;
     const EnsembleMean scatter = mean([&](const Realisation& r) {
       const auto& points = r.of(model).damping;
       if (k >= points.size()) return ForceSample::unknown;
-      return (points[k].damping_constant_closed_form - ratio * points[k].damping_constant) /
+      return (points[k].damping_constant_closed_form -
+              ratio * points[k].damping_constant_without_slip) /
              constant;
     });
     // Where both are known on all surfaces, the mean of the scatter is 0.
@@ -159,7 +182,8 @@ std::vector<EnsembleMean> StudyResult::damping_over_bem(const NumberOf<DampingPo
                                                         ContactModel model) const {
   return at_pressures([&](const Realisation& r, std::size_t k) {
     const auto& points = r.of(model).damping;
-    return k < points.size() ? number(points[k]) / r.of(ContactModel::bem).damping[k].work_per_cycle
+    return k < points.size() ? number(points[k]) /
+                                   r.of(ContactModel::bem).damping[k].work_per_cycle_without_slip
                              : ForceSample::unknown;
   });
 }
@@ -169,57 +193,42 @@ std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comp
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
   for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
     ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
-  for (const char* name : {"work_per_cycle_closed_form", "small_amplitude_work", "work_per_cycle"})
+  for (const char* name : {"work_per_cycle_closed_form", "small_amplitude_work", "work_per_cycle_without_slip",
+                           "work_per_cycle"})
     ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
   return ratios;
 }
 
-std::vector<StatedMean> StudyResult::stated_damping(ContactModel model) const {
-  const auto means = damping(&DampingPoint::damping_constant, model);
-  std::vector<StatedMean> stated;
-  for (std::size_t k = 0; k < means.size(); ++k) {
-    StatedMean& mean = stated.emplace_back(StatedMean{means[k]});
-    std::vector<double> relative;
+std::vector<StatedMean> StudyResult::stated(std::string_view quantity, ContactModel model) const {
+  const StatedNumber* number = stated_number(quantity);
+  if (!number)
+    throw InvalidInput("quantity", "'" + std::string(quantity) + "'",
+                       "has no numerical error; ask damping() for it");
+  // Noise is another on each surface, the other errors are alike.
+  const double alike = 1 - 1 / double(realisations.size());
+  std::vector<StatedMean> means;
+  for (const EnsembleMean& value : damping(number->value, model)) {
+    const std::size_t k = means.size();
+    StatedMean& mean = means.emplace_back(StatedMean{value});
+    double sum = 0, count = 0;
     for (const Realisation& realisation : realisations) {
       const auto& points = realisation.of(model).damping;
-      if (k >= points.size() || std::isnan(points[k].damping_constant_error)) continue;
-      const DampingPoint& point = points[k];
-      if (realisations.size() == 1) mean.error = point.damping_constant_error;
-      // The chance at which cells touch is another on each surface.
-      const double scatter = point.scatter_error / std::sqrt(double(realisations.size()));
-      relative.push_back(std::hypot(scatter, point.cell_error, point.level_error) /
-                         std::abs(point.damping_constant));
-      relative.back() =
-          std::hypot(relative.back(), point.ratio_error / point.damping_constant,
-                     std::isnan(point.seam_error) ? 0 : point.seam_error / point.damping_constant);
+      if (k >= points.size()) continue;
+      const ErrorBudget& error = points[k].*number->error;
+      const double absolute =
+          std::sqrt(std::pow(error.total(), 2) - alike * std::pow(error.noise, 2)) *
+          (number->constant ? points[k].damping_per_work : 1);
+      // That of one surface is stated although the number may not be.
+      if (realisations.size() == 1) mean.error = absolute;
+      const double relative = absolute / std::abs(points[k].*number->value);
+      if (std::isnan(relative)) continue;
+      sum += relative;
+      ++count;
     }
-    if (realisations.size() > 1 && !relative.empty())
-      mean.error = std::accumulate(relative.begin(), relative.end(), 0.0) /
-                   double(relative.size()) * std::abs(mean.mean);
+    if (realisations.size() > 1 && count > 0) mean.error = sum / count * std::abs(mean.mean);
     if (mean.error >= std::abs(mean.mean)) mean.mean = mean.low = mean.high = ForceSample::unknown;
   }
-  return stated;
-}
-
-std::vector<StatedMean> StudyResult::stated_work_with_slip() const {
-  std::vector<StatedMean> stated;
-  for (const EnsembleMean& work : damping(&DampingPoint::work_with_slip)) {
-    StatedMean& mean = stated.emplace_back(StatedMean{work});
-    const std::size_t k = stated.size() - 1;
-    const EnsembleMean relative = this->mean([&](const Realisation& r) {
-      const auto& points = r.of(ContactModel::bem).damping;
-      if (k >= points.size()) return ForceSample::unknown;
-      const DampingPoint& point = points[k];
-      // The chance at which cells touch is another on each surface.
-      const double alike = 1 - 1 / double(realisations.size());
-      return std::sqrt(std::pow(point.work_with_slip_error, 2) -
-                       alike * std::pow(point.slip_scatter, 2)) /
-             point.work_with_slip();
-    });
-    mean.error = std::abs(relative.mean * mean.mean);
-    if (mean.error >= std::abs(mean.mean)) mean.mean = mean.low = mean.high = ForceSample::unknown;
-  }
-  return stated;
+  return means;
 }
 
 DeviationRange StudyResult::deviation_range(ContactModel model) const {

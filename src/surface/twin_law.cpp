@@ -9,7 +9,6 @@
 #include <salebra/base/error.hpp>
 
 #include "base/special_values.hpp"
-#include "surface/dense_systems.hpp"
 #include "surface/twin_kernels.hpp"
 
 namespace salebra {
@@ -36,7 +35,7 @@ Eigen::MatrixXd spline_curvatures(const std::vector<double>& knots) {
     right(k, k) = -1 / step(k - 1) - 1 / step(k);
     right(k, k + 1) = 1 / step(k);
   }
-  return detail::pseudo_inverse(left) * right;
+  return left.partialPivLu().solve(right);  // dominant on its diagonal, hence regular
 }
 
 /// Row of the spline's basis at x, straight beyond the first and the last knot.

@@ -201,7 +201,7 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     drag.drag_velocity = friction / ratio * drag.normal_amplitude * drag.angular_frequency / number;
     const TurningLoss simulated = loss_of_turning(law, drag, 0, cycles, friction);
     const double excursion = cycles * 2 * pi * drag.drag_velocity / drag.angular_frequency;
-    const LossWithSlip loss = loss_with_slip(law, 0, drag, friction, excursion);
+    const Loss loss = loss_with_slip(law, 0, drag, friction, excursion);
     INFO(loss.slip_work / simulated.slip_work - 1 << ' '
                                                   << loss.work_per_cycle / simulated.work - 1);
     // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.
@@ -297,13 +297,13 @@ TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
        {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
     const TrajectoryDamping path =
         trajectory_damping(law, sample(motion, 1e-6, 2000), {.friction_coefficient = 0.3});
-    const LossWithSlip loss = loss_with_slip(law, 1e-6, motion, 0.3);
+    const Loss loss = loss_with_slip(law, 1e-6, motion, 0.3);
     // 360 steps in place of 2000, of second order.
     CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));
     CHECK(loss.relaxation_work == Approx(path.relaxation_work).epsilon(1e-3));
     CHECK(loss.slip_work == Approx(path.slip_work).epsilon(1e-3));
     const double stuck = relaxation_damping(law, AtIndentation{1e-6}, motion).work_per_cycle;
-    CHECK(loss.full_stick_work == Approx(stuck).epsilon(1e-6));
+    CHECK(loss.work_per_cycle_without_slip == Approx(stuck).epsilon(1e-6));
   }
 }
 
@@ -514,7 +514,7 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   // The table ends four lengths below, and the exponential that continues it meets it to round-off;
   // what is left are the tables of K_t that are followed, good to 1e-9.
   const auto same = [&](const Oscillation& motion, double excursion) {
-    const LossWithSlip table = loss_with_slip(own, 0, motion, friction, excursion),
+    const Loss table = loss_with_slip(own, 0, motion, friction, excursion),
                        formula = loss_with_slip(like, 0, motion, friction, excursion);
     CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(1e-6));
     CHECK(table.slip_work == Approx(formula.slip_work).epsilon(1e-6));
@@ -812,7 +812,7 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
     const Premises slides =
         premises_of(*law, rest, drag, {.friction_coefficient = friction, .excursion = excursion});
     CHECK(slides.regime == Regime::sliding);
-    const LossWithSlip loss = loss_with_slip(*law, rest, drag, friction, excursion);
+    const Loss loss = loss_with_slip(*law, rest, drag, friction, excursion);
     CHECK(closed_form::damping_constant(loss.work_per_cycle, drag) ==
           Approx(friction * force / drag.drag_velocity).epsilon(0.01));
     CHECK(word(slides));

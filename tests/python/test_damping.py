@@ -86,7 +86,7 @@ def test_a_damping_constant_carries_its_premises() -> None:
     # At the largest velocity the loss with slip is 5 % off: a chord of 360 steps is good to 1e-3 of it.
     slow = salebra.Drag(normal_amplitude=1e-8, drag_velocity=result.premises.largest[0].drag_velocity, angular_frequency=1e5)
     loss = salebra.loss_with_slip(law, slow, 1e-6, friction_coefficient=0.3)
-    assert abs(loss.relaxation_work / loss.full_stick_work - 1) == pytest.approx(0.05, rel=0.02)
+    assert abs(loss.relaxation_work / loss.work_per_cycle_without_slip - 1) == pytest.approx(0.05, rel=0.02)
     assert salebra.damping_curve(law, [fast], indentation=[1e-6], premises=False)[0].premises is None
     assert salebra.damping_curve(law, [fast], indentation=[1e-6], facts=facts)[0] == result
     with pytest.raises(salebra.InvalidInput, match="friction_coefficient: -0.3"):
@@ -115,9 +115,15 @@ def test_damping_of_a_surface_has_its_error_and_needs_no_interpolation() -> None
     answers = salebra.surface_damping(surface, material, motion, curve)
     assert len(answers) == 4 and all(answer.converged for answer in answers)
     for answer in answers:
-        parts = (answer.cell_error, answer.scatter, answer.level_error, answer.ratio_error, answer.seam_error, answer.solver_error)
-        assert answer.error == pytest.approx(math.hypot(*parts), rel=1e-12)
-        assert answer.damping_constant_error == pytest.approx(answer.error * answer.damping_constant / answer.work_per_cycle, rel=1e-12)
+        parts = [getattr(answer.error, name) for name in ("cell_error", "noise_error", "interval_error", "ratio_error", "seam_error", "solver_error")]
+        error = answer.work_per_cycle_error
+        assert error == pytest.approx(math.hypot(*parts), rel=1e-12)
+        assert answer.damping_constant_error == pytest.approx(error * answer.damping_constant / answer.work_per_cycle, rel=1e-12)
+    assert list(answers.pressure) == list(curve.pressure) and answers.coordinate == "pressure"
+    assert list(answers.damping_constant) == [answer.damping_constant for answer in answers]
+    data = answers.to_xarray()
+    assert data.damping_constant.dims == ("pressure",) and data.damping_constant.attrs["units"] == "N s/m"
+    assert pickle.loads(pickle.dumps(answers)) == answers
     # The answer of a load does not depend on the others, but for the slope of K_t/K between them.
     few = salebra.surface_damping(surface, material, motion, salebra.sweep_pressures(surface, material, [1e6, 5e6]))
     assert few[-1].damping_constant == pytest.approx(answers[-1].damping_constant, abs=answers[-1].damping_constant_error)

@@ -166,6 +166,6 @@ def test_an_oscillation_takes_its_frequency_and_losses_are_a_table() -> None:
     surface, material = generated(32), salebra.Material(1e9, poisson=0.3)
     curve = salebra.sweep_pressures(surface, material, np.geomspace(1e6, 5e6, 4))
     answers = salebra.surface_damping(surface, material, by_frequency, curve)
-    frame = answers.to_dataframe()  # type: ignore[attr-defined]
+    frame = answers.to_dataframe()
     assert list(frame["damping_constant"]) == [answer.damping_constant for answer in answers]
     assert frame.attrs["units"]["damping_constant"] == "N s/m"

@@ -107,7 +107,7 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
         Approx(law->law_off_closest).epsilon(1e-6));
   CHECK_THAT(page,
              Contains(law->fair ? "law is a fair description." : "law is a poor description."));
-  const auto curve = result.stated_damping();
+  const auto curve = result.stated("damping_constant_without_slip");
   for (std::size_t k = 0; k < curve.size(); ++k) {
     const Json& value = point["damping"]["curve"]["damping_constant"]["bem"]["mean"][k];
     CHECK(value.is_null() == std::isnan(curve[k].mean));

@@ -224,9 +224,10 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
     const auto of = quantity;
     file.of_loads(std::string("damping/") + name,
                   [=](const auto& model, std::size_t k) { return model.damping[k].*of; });
-    file.interval_of_loads(std::string("damping/ensemble_") + name, [&](auto model) {
-      if (of != &DampingPoint::damping_constant) return result.damping(of, model);
-      const auto stated = result.stated_damping(model);
+    file.interval_of_loads(std::string("damping/ensemble_") + name, [&, name = name](auto model) {
+      if (of != &DampingPoint::damping_constant && of != &DampingPoint::work_per_cycle)
+        return result.damping(of, model);
+      const auto stated = result.stated(name, model);
       return std::vector<EnsembleMean>(stated.begin(), stated.end());
     });
   }

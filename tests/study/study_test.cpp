@@ -80,8 +80,8 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
   for (std::size_t i = 0; i < 3; ++i) {
     DampingPoint& point = result.realisations[i].of(ContactModel::bem).damping[5];
     point.damping_constant_closed_form = law[i];
-    point.damping_constant = computed[i];
-    point.damping_constant_error = ForceSample::unknown;
+    point.damping_constant_without_slip = computed[i];
+    point.error_without_slip = {};
   }
   const auto deviation = result.deviation();
   const double ratio = 10.0 / 7;
@@ -96,7 +96,7 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
   CHECK(deviation[5].high == Approx(ratio - 1 + student * std::sqrt(variance)).epsilon(1e-10));
   // Of every load, as it came out.
   const auto by_law = result.damping("damping_constant_closed_form"),
-             stated = result.damping("damping_constant");
+             stated = result.damping("damping_constant_without_slip");
   for (std::size_t k = 0; k < deviation.size(); ++k)
     if (!std::isnan(deviation[k].mean))
       CHECK(deviation[k].mean == Approx(by_law[k].mean / stated[k].mean - 1).epsilon(1e-12));
@@ -112,7 +112,7 @@ TEST_CASE("Eight surfaces say how many an interval needs", "[study]") {
   };
   const StudyResult few = study(8), many = study(32);
   CHECK_THROWS_WITH(surfaces_for(few, 0), Catch::Contains("precision"));
-  const auto reached = many.stated_damping();
+  const auto reached = many.stated("damping_constant");
   std::vector<double> counts;
   for (std::size_t k = 0; k < reached.size(); ++k)
     if (!std::isnan(reached[k].low))

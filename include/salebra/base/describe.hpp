@@ -17,7 +17,8 @@
 ///     }
 /// which calls visit(member, line) in the order of the declarations. A line is
 ///     Quantity   a column: a number, a word, or a list of them, with its name, unit and meaning
-///     Extensive  a column that proportional to the nominal area; NAME_per_area is a column too
+///     Extensive  a column that is proportional to the nominal area; NAME_per_area is a column too
+///     WhereKnown a column that answers leave out where no row knows its value
 ///     Part       a described struct, whose columns are columns of this one too
 ///     Table      a list of described structs, whose columns are columns of this one too
 ///     Kept       anything else that belongs to the result; without a name no property of Python
@@ -34,6 +35,8 @@ struct Quantity {
 };
 
 struct Extensive : Quantity {};
+
+struct WhereKnown : Quantity {};
 
 struct Part {
   std::string_view name, meaning;

@@ -5,6 +5,7 @@
 #include <salebra/base/progress.hpp>
 #include <salebra/base/words.hpp>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/damping/loss.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <span>
@@ -53,13 +54,9 @@ constexpr void describe(auto&& visit, std::type_identity<DampingOptions>) {
        &DampingOptions::on_progress);
 }
 
-/// Relaxation damping of one contact under one motion.
-struct DampingResult {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double work_per_cycle = unknown;  ///< W at the amplitude asked for, J
-  double power = unknown;           ///< P = Wω/2π, W; NaN where the motion has no ω
-  double damping_constant =
-      unknown;  ///< γ = P/⟨ẋ²⟩ with ⟨ẋ²⟩ = v² or (u_x ω)²/2, N s/m; NaN where the motion has no ω
+/// The loss of one contact under one motion, and the state about which it oscillates.
+struct DampingResult : Loss {
+  double power = unknown;  ///< P = Wω/2π, W; NaN where the motion has no ω
   double normal_stiffness = unknown;      ///< K at the mean indentation, N/m
   double tangential_stiffness = unknown;  ///< K_t there: with γ the contact as a spring and damper
   double force_curvature = unknown;       ///< F'' at the mean indentation, N/m²
@@ -72,6 +69,8 @@ struct DampingResult {
   double tangential_curvature =
       unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its
                 ///< own
+  /// Of a loop with friction that is followed step by step, N/m; NaN otherwise.
+  double storage_stiffness = unknown, loss_factor = unknown;
   double error_estimate =
       unknown;  ///< of work_per_cycle, J: quadrature and round-off, not the law's own error
   bool converged =
@@ -81,9 +80,8 @@ struct DampingResult {
 constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   using enum Dimension;
   using S = DampingResult;
-  visit(&S::work_per_cycle, Extensive{quantity::work_per_cycle});
+  describe(visit, std::type_identity<Loss>{});
   visit(&S::power, quantity::power);
-  visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::normal_stiffness, Extensive{quantity::normal_stiffness});
   visit(&S::tangential_stiffness, Extensive{quantity::tangential_stiffness});
   visit(&S::force_curvature, quantity::force_curvature);
@@ -94,6 +92,8 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   visit(&S::tangential_curvature,
         Kept{"tangential_curvature", "derivative of the tangential stiffness by indentation",
              force_curvature});
+  visit(&S::storage_stiffness, WhereKnown{quantity::storage_stiffness});
+  visit(&S::loss_factor, WhereKnown{quantity::loss_factor});
   visit(&S::error_estimate,
         Kept{"error_estimate",
              "estimated error of the energy dissipated in a cycle, of quadrature and round-off",

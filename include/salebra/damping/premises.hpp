@@ -282,34 +282,13 @@ Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFr
 Premises premises_of(const ContactLaw& law, const SampledMotion& path,
                      const ContactFacts& facts = {});
 
-/// Energy lost in a cycle with friction, J.
-struct LossWithSlip {
-  double work_per_cycle = ContactFacts::unknown;
-  double relaxation_work = ContactFacts::unknown;  ///< of it, by levels that open and close
-  double slip_work = ContactFacts::unknown;        ///< of it, by levels that stay closed
-  double full_stick_work = ContactFacts::unknown;  ///< of the same springs without slip
-
-  double relaxation_share() const { return relaxation_work / work_per_cycle; }
-  double slip_share() const { return slip_work / work_per_cycle; }
-};
-
-constexpr void describe(auto&& visit, std::type_identity<LossWithSlip>) {
-  using S = LossWithSlip;
-  visit(&S::work_per_cycle, quantity::work_per_cycle);
-  visit(&S::relaxation_work, quantity::relaxation_work);
-  visit(&S::slip_work, quantity::slip_work);
-  visit(&S::full_stick_work, quantity::full_stick_work);
-  visit(&S::relaxation_share, quantity::relaxation_share);
-  visit(&S::slip_share, quantity::slip_share);
-}
-
-/// Takes the same springs with friction. Case (b) without an excursion: sliding that goes on, all
+/// The loss of a law with slip: Coulomb's law holds for each of the springs that lose energy without
+/// slip. Case (b) without an excursion: sliding that goes on, all
 /// levels slip; with one: mean of a cycle on the way there and back, and over the phases of the
 /// turning points, to first order in the way of a cycle over the excursion.
 /// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
-LossWithSlip loss_with_slip(const ContactLaw& law, double mean_indentation,
-                            const Oscillation& motion, double friction_coefficient,
-                            double excursion = ContactFacts::unknown);
+Loss loss_with_slip(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
+                    double friction_coefficient, double excursion = ContactFacts::unknown);
 
 /// Regimes of case (b) over velocity and excursion of the slow motion, with borders from the
 /// springs of the law.

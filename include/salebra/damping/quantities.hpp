@@ -9,6 +9,8 @@ namespace salebra::quantity {
 inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angular_frequency,
                                             "angular frequency"},
     damping_constant{"damping_constant", Dimension::damping, "damping constant P/v^2"},
+    damping_constant_error{"damping_constant_error", Dimension::damping,
+                           "numerical error of the damping constant"},
     damping_constant_without_slip{"damping_constant_without_slip", Dimension::damping,
                                   "damping constant P/v^2 without slip"},
     dissipated{"dissipated", Dimension::energy, "energy dissipated since the start"},
@@ -37,8 +39,6 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
                      "part of the energy dissipated by levels that open and close"},
     relaxation_work{"relaxation_work", Dimension::energy,
                     "energy dissipated in a cycle by contacts that open"},
-    slip_scatter{"slip_scatter", Dimension::energy,
-                 "part of work_with_slip_error by the chance at which cells and spots touch"},
     slip_share{"slip_share", Dimension::dimensionless,
                "part of the energy dissipated by slip in permanent contact"},
     slip_work{"slip_work", Dimension::energy,
@@ -54,7 +54,7 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
                          "tangential stiffness in full stick"},
     time{"time", Dimension::time, "time"},
     work_per_cycle{"work_per_cycle", Dimension::energy, "energy dissipated in a cycle"},
-    work_with_slip_error{"work_with_slip_error", Dimension::energy,
-                         "error of relaxation_work and slip_work together"};
+    work_per_cycle_error{"work_per_cycle_error", Dimension::energy,
+                         "numerical error of work_per_cycle"};
 
 }  // namespace salebra::quantity

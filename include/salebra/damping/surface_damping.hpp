@@ -61,73 +61,34 @@ struct SurfaceDampingOptions {
   /// Solves once more, on the cells as they are, and takes the change of W for the error of the
   /// seam.
   std::optional<SeamCheck> seam = {};
-  /// μ, with which the loss is computed a second time, with slip; NaN: it is not.
+  /// μ, with which the loss has slip; NaN: infinite, no slip.
   double friction_coefficient = std::numeric_limits<double>::quiet_NaN();
-  /// Between the turning points of a drag, m; NaN: without them its slip is not followed.
+  /// Between the turning points of a drag, m. Without it the loss of a drag with friction is NaN.
   double excursion = std::numeric_limits<double>::quiet_NaN();
   Index most_refined =
       8;  ///< times as many points along each side, at the most, that relative_error may ask for
   Progress on_progress = {};
 };
 
-/// Damping of one surface at one load, with its error. All errors but one are of work_per_cycle, J;
-/// NaN where not known.
-struct SurfaceDamping {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double work_per_cycle = unknown;    ///< W, J
-  double damping_constant = unknown;  ///< γ, N s/m
-  /// All that follow together: the root of the sum of their squares.
-  double error = unknown;
-  double cell_error = unknown;  ///< of the cells: a third of the change of W by their last halving
-  /// Of the chance at which whole cells, and spots, touch: 1.8 standard deviations.
-  double scatter = unknown;
-  double level_error = unknown;  ///< change of W by the last doubling of the levels
-  double ratio_error = unknown;  ///< of the bend of K_t/((G*/E*)K) over the oscillation
-  double seam_error = 0;  ///< change of W without the seam, beyond scatter; 0 where not asked for
-  double solver_error = unknown;     ///< correction of the forces, as it enters W
+/// The loss of one surface at one load, with its error.
+struct SurfaceDamping : Loss {
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
   double window = unknown;  ///< half the range of indentations that were solved, m; at least u_z
-  double relaxation_work = unknown;       ///< with slip, by levels that open and close, J
-  double slip_work = unknown;             ///< by levels that stay closed, J
-  double work_with_slip_error = unknown;  ///< of the sum of both, J
-  double slip_scatter = unknown;          ///< the part of it that is chance, as `scatter`, J
-  int levels = 0;
-  Index points = 0;  ///< along x, of the grid that W belongs to
+  int levels = 0;           ///< intervals of the oscillation
+  Index points = 0;         ///< along x, of the grid that the loss belongs to
   bool converged =
       false;  ///< every contact did, the cycle lies within the range of the contact, and W >= 0
-
-  double damping_constant_error() const { return error * damping_constant / work_per_cycle; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   using enum Dimension;
   using S = SurfaceDamping;
-  visit(&S::work_per_cycle, quantity::work_per_cycle);
-  visit(&S::damping_constant, quantity::damping_constant);
-  visit(&S::error,
-        Kept{"error", "error of work_per_cycle: root of the sum of the squares of all that follow",
-             energy});
-  visit(&S::cell_error, Kept{"cell_error", "error by the size of the cells", energy});
-  visit(&S::scatter,
-        Kept{"scatter", "error by the chance at which whole cells, and spots, touch", energy});
-  visit(&S::level_error, Kept{"level_error", "error by the number of levels", energy});
-  visit(&S::ratio_error, Kept{"ratio_error", "error of K_t/((G*/E*)K)", energy});
-  visit(
-      &S::seam_error,
-      Kept{"seam_error",
-           "error by the edges of a surface that is not periodic; 0 where not asked for", energy});
-  visit(&S::solver_error, Kept{"solver_error", "error by the solver's tolerance", energy});
+  describe(visit, std::type_identity<Loss>{});
   visit(&S::stiffness_ratio, Kept{"stiffness_ratio", "K_t/((G*/E*)K)"});
   visit(&S::window, Kept{"window", "half the range of indentations that were solved", length});
-  visit(&S::relaxation_work, quantity::relaxation_work);
-  visit(&S::slip_work, quantity::slip_work);
-  visit(&S::work_with_slip_error, quantity::work_with_slip_error);
-  visit(&S::slip_scatter, quantity::slip_scatter);
   visit(&S::levels, Kept{"levels", "intervals between contact levels"});
   visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
-  visit(&S::damping_constant_error,
-        Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
 }
 
 /// Relaxation damping of one surface at each load of its curve, from contacts at indentations
@@ -151,8 +112,8 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
 /// n/2 and n, nested, on the first grid. Of ρ: what W changes by where ρ is a straight line. Of the
 /// solver: what each force was corrected by for the gaps left in its contact, as it enters W.
 ///
-/// With a coefficient of friction, besides: the loss of the same springs with slip, as
-/// loss_with_slip() of a law, W = −∫K_t w' dζ with the loss w of one spring at each level, which
+/// With a coefficient of friction: the loss of the same springs with slip, as loss_with_slip() of a
+/// law, W = −∫K_t w' dζ with the loss w of one spring at each level, which
 /// slips at μ/(ρG*/E*) times its depth, so that a contact that slides as a whole carries μF. Where
 /// levels slip that stay closed, about X/2 of stretch below δ0 − u_z in a drag or down to first
 /// touch, further contacts give K, in pieces over which F falls by e^1.5. The loss is that at finite

@@ -11,8 +11,9 @@
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/stress_map.hpp>
-#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/damping/surface_damping.hpp>
 #include <salebra/questions/contact.hpp>
+#include <salebra/questions/slip.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -31,6 +32,8 @@ struct DampingQuestion {
   /// For the premises; with a coefficient of friction the loss is that with slip.
   ContactFacts facts = {};
   int steps = 2000;  ///< straight ones in a normal cycle where slip is followed; >= 8
+  /// Of a surface: its boundary, relative error and seam; what is above holds for the rest.
+  SurfaceDampingOptions surface = {};
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DampingQuestion>) {
@@ -42,24 +45,14 @@ constexpr void describe(auto&& visit, std::type_identity<DampingQuestion>) {
 struct DampingAnswer {
   ContactAnswer contact;
   std::vector<Motion> motions = {};
-  /// Of the contact as described. With friction work, power and damping constant are those with
-  /// slip: followed step by step, of a slow motion by its turning points, of a surface by contacts
-  /// where levels slip. Unknown where a fact is missing that decides, the excursion of a slow
-  /// motion, where the motion is not slow at all, never repeats, or has its force given.
+  /// The loss of each case as described (questions/slip.hpp): of a law by its springs, of a surface
+  /// by contacts inside the oscillation, with their numerical error.
   std::vector<DampingResult> results = {};
-  /// Of a surface, whose loss comes from contacts inside the oscillation, N s/m and J.
-  std::vector<double> damping_constant_error = {}, error_estimate = {};
   std::vector<double> ratio = {};             ///< of the loss to its small-amplitude form
   std::vector<CommonPeriod> periods = {};     ///< of two frequencies
   std::vector<double> slow_limit_power = {};  ///< of two frequencies, without slip, W
   /// Of a slow motion with a known excursion X: W·2X/w, w = 2πv/ω, J.
   std::vector<double> work_there_and_back = {};
-  /// With friction, parts of the loss, and the numbers without slip beside it, J and N s/m.
-  std::vector<double> relaxation_share = {}, slip_share = {}, work_per_cycle_without_slip = {},
-                      damping_constant_without_slip = {};
-  std::vector<double> damping_constant_without_slip_error = {};  ///< of a surface, N s/m
-  /// With friction, of a loop that is followed step by step, N/m.
-  std::vector<double> storage_stiffness = {}, loss_factor = {};
   std::vector<Premises> premises = {};
   std::vector<std::string> doubts = {};  ///< beside those of the contact
 
@@ -70,21 +63,8 @@ constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
   using enum Dimension;
   using S = DampingAnswer;
   visit(&S::results, Table{"results", "losses of the contact as described"});
-  visit(&S::damping_constant_error,
-        Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
-  visit(&S::error_estimate, quantity::error_estimate);
   visit(&S::ratio,
         Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
-  visit(&S::relaxation_share, quantity::relaxation_share);
-  visit(&S::slip_share, quantity::slip_share);
-  visit(&S::work_per_cycle_without_slip, Quantity{"work_per_cycle_without_slip", energy,
-                                                  "energy dissipated in a cycle without slip"});
-  visit(&S::damping_constant_without_slip, quantity::damping_constant_without_slip);
-  visit(&S::damping_constant_without_slip_error,
-        Quantity{"damping_constant_without_slip_error", damping,
-                 "numerical error of the damping constant without slip"});
-  visit(&S::storage_stiffness, quantity::storage_stiffness);
-  visit(&S::loss_factor, quantity::loss_factor);
   visit(&S::work_there_and_back,
         Quantity{"work_there_and_back", energy,
                  "energy dissipated on the way there and back over the excursion"});
@@ -99,15 +79,6 @@ constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
 /// cost    of a case some hundred evaluations of the law, 10 ms for its premises and one step of
 ///         the law for each of `steps` with friction; of a surface surface_damping() beside
 DampingAnswer ask(DampingQuestion question, const Context& context = {});
-
-/// One period of a motion about a result, and its loss along it: what a picture shows.
-struct DampingCycle {
-  SampledMotion path;
-  TrajectoryDamping loss;
-};
-/// friction_coefficient: NaN: no slip.
-DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
-                      double friction_coefficient, const Context& context = {});
 
 /// Stresses under an indenter in the first case, a motion of one frequency.
 StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,

@@ -12,7 +12,7 @@
 #include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/normal/flow_factors.hpp>
-#include <salebra/damping/quantities.hpp>
+#include <salebra/damping/loss.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/moments.hpp>
 #include <salebra/surface/summits.hpp>
@@ -21,43 +21,29 @@
 
 namespace salebra {
 
-/// Damping at one pressure of a curve, by the three routes that a user must see side by side.
-struct DampingPoint {
+/// The loss at one pressure of a curve, and beside it two forms for small amplitudes without slip.
+///
+/// Boundary elements: from contacts inside the oscillation, surface_damping(). Other models: on
+/// their curve, whose loads are joined smoothly; NaN where the motion leaves it. Of a single surface
+/// a number is NaN whose error is not smaller.
+struct DampingPoint : Loss {
   double pressure = 0;  ///< Pa
   double force = 0;     ///< F = pA0, N
   /// Eq. (16), or (12) with F'' = F/l², with the l fitted to the curve.
-  double work_per_cycle_closed_form = ForceSample::unknown;    ///< J
-  double damping_constant_closed_form = ForceSample::unknown;  ///< N s/m
+  double work_per_cycle_closed_form = unknown;    ///< J
+  double damping_constant_closed_form = unknown;  ///< N s/m
   /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
-  double small_amplitude_work = ForceSample::unknown;              ///< J
-  double small_amplitude_damping_constant = ForceSample::unknown;  ///< N s/m
-  /// The theorem at the amplitude given. Boundary elements: from contacts inside the oscillation,
-  /// surface_damping(). Other models: on their curve, whose loads are joined smoothly; NaN where
-  /// the motion leaves it, and of a single surface where the error is no smaller.
-  double work_per_cycle = ForceSample::unknown;    ///< J
-  double damping_constant = ForceSample::unknown;  ///< N s/m
-  /// Numerical error of damping_constant, N s/m, and its parts (SurfaceDamping); NaN where it was
-  /// not computed.
-  double damping_constant_error = ForceSample::unknown;
-  double cell_error = ForceSample::unknown;
-  double scatter_error = ForceSample::unknown;
-  double level_error = ForceSample::unknown;
-  double ratio_error = ForceSample::unknown;
-  double seam_error = ForceSample::unknown;
-  /// With slip, where a coefficient of friction and, of a drag, an excursion are known; of boundary
-  /// elements, J.
-  double relaxation_work = ForceSample::unknown;
-  double slip_work = ForceSample::unknown;
-  double work_with_slip_error = ForceSample::unknown;
-  double slip_scatter = ForceSample::unknown;  ///< the part of it that is chance
+  double small_amplitude_work = unknown;              ///< J
+  double small_amplitude_damping_constant = unknown;  ///< N s/m
 
-  double work_with_slip() const { return relaxation_work + slip_work; }
-  double deviation() const { return work_per_cycle_closed_form / work_per_cycle - 1; }
+  const ErrorBudget& error_by_cause() const { return error; }
+  double deviation() const { return work_per_cycle_closed_form / work_per_cycle_without_slip - 1; }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   using enum Dimension;
   using S = DampingPoint;
+  describe(visit, std::type_identity<Loss>{});
   visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
   visit(&S::force, Quantity{"force", Dimension::force, "normal force"});
   visit(&S::work_per_cycle_closed_form,
@@ -69,26 +55,10 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
   visit(&S::small_amplitude_damping_constant,
         Quantity{"small_amplitude_damping_constant", damping,
                  "damping constant P/v^2, by F'' of the curve"});
-  visit(&S::work_per_cycle, Quantity{"work_per_cycle", energy, "energy dissipated in a cycle"});
-  visit(&S::damping_constant, Quantity{"damping_constant", damping, "damping constant P/v^2"});
-  visit(&S::damping_constant_error,
-        Quantity{"damping_constant_error", damping, "numerical error of the damping constant"});
-  visit(&S::cell_error,
-        Quantity{"cell_error", damping, "error of the damping constant by the size of the cells"});
-  visit(&S::scatter_error, Quantity{"scatter_error", damping,
-                                    "error of the damping constant by whole cells that touch"});
-  visit(&S::level_error,
-        Quantity{"level_error", damping, "error of the damping constant by the number of levels"});
-  visit(&S::ratio_error, Quantity{"ratio_error", damping,
-                                  "error of the damping constant by the ratio of the stiffnesses"});
-  visit(&S::seam_error,
-        Quantity{"seam_error", damping, "error of the damping constant by the seam of a scan"});
-  visit(&S::relaxation_work, quantity::relaxation_work);
-  visit(&S::slip_work, quantity::slip_work);
-  visit(&S::work_with_slip_error, quantity::work_with_slip_error);
-  visit(&S::slip_scatter, quantity::slip_scatter);
-  visit(&S::deviation, Quantity{"deviation", dimensionless,
-                                "damping by the fitted law over the damping computed, less 1"});
+  visit(&S::error_by_cause, Part{"error_by_cause", "numerical error of work_per_cycle"});
+  visit(&S::deviation,
+        Quantity{"deviation", dimensionless,
+                 "damping by the fitted law over the damping computed without slip, less 1"});
 }
 
 /// What one contact model says about one surface.

@@ -146,13 +146,13 @@ struct StudyResult {
                                   ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> damping(const NumberOf<DampingPoint>& number,
                                     ContactModel model = ContactModel::bem) const;
-  /// A quantity of DampingPoint as answers and files have it: the mean over the surfaces, but for
-  /// damping_constant and its error, which are those of stated_damping(), and for deviation(). Throws
-  /// InvalidInput for another name.
+  /// A quantity of DampingPoint as answers and files have it: stated() where it has a numerical
+  /// error, deviation(), and otherwise the mean over the surfaces. Throws InvalidInput for another
+  /// name.
   std::vector<EnsembleMean> damping(std::string_view quantity,
                                     ContactModel model = ContactModel::bem) const;
-  /// The mean of damping_constant_closed_form over the mean of damping_constant, less 1: what the two
-  /// columns say, which is not the mean of the ratios of single surfaces. Its interval is that of
+  /// The mean of damping_constant_closed_form over that of damping_constant_without_slip, less 1: what
+  /// the two columns say, which is not the mean of the ratios of single surfaces. Its interval is that of
   /// the mean of γ16/⟨γ⟩ − r(γ/⟨γ⟩ − 1) over the surfaces, r the ratio of the means: the ratio to
   /// first order in the scatter.
   std::vector<EnsembleMean> deviation(ContactModel model = ContactModel::bem) const;
@@ -169,20 +169,19 @@ struct StudyResult {
   std::vector<EnsembleMean> conductance(double Conductances::*kind) const;
   /// A quantity of a model over that of the boundary elements on the same surface.
   std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
-  /// A route to the loss of a model over the theorem on the boundary-element curve of the same
-  /// surface.
+  /// A loss of a model over that of the boundary elements on the same surface without slip.
   std::vector<EnsembleMean> damping_over_bem(const NumberOf<DampingPoint>& number,
                                              ContactModel model) const;
   /// Those ratios of a model that files and answers have, by the names of their quantities.
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> comparison(
       ContactModel model) const;
 
-  /// DampingPoint::damping_constant at each pressure with its error: that of the surface, or, of n,
-  /// the relative error of those that have one, its scatter over √n, times the mean. The mean is
-  /// NaN where the error is not smaller.
-  std::vector<StatedMean> stated_damping(ContactModel model = ContactModel::bem) const;
-  /// DampingPoint::work_with_slip() of the boundary elements likewise, J.
-  std::vector<StatedMean> stated_work_with_slip() const;
+  /// work_per_cycle, damping_constant or one of both without slip, at each pressure with its
+  /// numerical error: the mean relative error of the surfaces that have one, with their noise over
+  /// √n, times the mean. The mean is NaN where the error is not smaller. Throws InvalidInput for
+  /// another name.
+  std::vector<StatedMean> stated(std::string_view quantity,
+                                 ContactModel model = ContactModel::bem) const;
 
   /// Over the pressures.
   DeviationRange deviation_range(ContactModel model = ContactModel::bem) const;

@@ -13,14 +13,11 @@ namespace salebra {
 /// stiffnesses averaged over the surfaces at each pressure.
 struct StudyAnswer {
   std::vector<double> pressures = {};  ///< nominal, Pa
-  /// γ = P/⟨ẋ²⟩, N s/m, of the contact as described: with slip where the coefficient of friction is
-  /// known, by contacts where levels slip (stated_work_with_slip()), else without. A study without
-  /// levels has stated_damping() times the ratio of both losses on the mean curve, interpolated
-  /// between pressures, and no error. Unknown where a fact is missing that decides (`needs`), and
-  /// where the motion is not slow at all.
-  std::vector<StatedMean> damping_constant = {};
-  std::vector<StatedMean> work_per_cycle = {};                 ///< J, of a normal cycle
-  std::vector<StatedMean> damping_constant_without_slip = {};  ///< stated_damping()
+  /// StudyResult::stated() of the boundary elements: the loss of the motion as described, and the
+  /// damping constant without slip. A loss is unknown where `unknown` says why.
+  std::vector<StatedMean> damping_constant = {};               ///< γ = P/⟨ẋ²⟩, N s/m
+  std::vector<StatedMean> work_per_cycle = {};                 ///< J
+  std::vector<StatedMean> damping_constant_without_slip = {};  ///< N s/m
   /// Parts of the work by levels that open and close, and by slip of those that stay closed; unknown
   /// where slip is not followed.
   std::vector<double> relaxation_share = {}, slip_share = {};
@@ -28,13 +25,13 @@ struct StudyAnswer {
   /// not ask.
   std::vector<EnsembleMean> thermal_conductance = {}, electrical_conductance = {};
   bool slip_followed = false;  ///< the coefficient of friction is known
-  std::string needs = {};      ///< the fact that decides and is missing: "excursion"; empty: none
+  std::string unknown = {};    ///< why_loss_unknown(); empty: the loss is known
   std::vector<Premises> premises = {};
   std::vector<Condition> conditions = {};  ///< worst first
   Validity validity = Validity::not_checked;
 
   /// Whether damping_constant is with slip.
-  bool slips() const { return slip_followed && needs.empty(); }
+  bool slips() const { return slip_followed && unknown.empty(); }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
@@ -51,7 +48,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
         Quantity{"electrical_conductance", Dimension::conductance_per_area,
                  "electrical conductance over nominal area"});
   visit(&S::slip_followed, Kept{"slip_followed", "whether the coefficient of friction is known"});
-  visit(&S::needs, Kept{"needs", "the fact that decides and is missing"});
+  visit(&S::unknown, Kept{"unknown", "why the loss is unknown; empty: it is known"});
   visit(&S::premises, Kept{"premises", "premises at each pressure"});
   visit(&S::conditions, Kept{"conditions", "premises in words, worst first"});
   visit(&S::validity, Kept{"validity", "one word for all conditions"});
@@ -64,7 +61,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
 /// Cost: 10 ms for each pressure.
 StudyAnswer answer_of(const StudyResult& result);
 
-/// How many surfaces the mean of the damping constant without slip would need at each pressure for
+/// How many surfaces the mean of the damping constant would need at each pressure for
 /// 95 % intervals of ±precision, by that of the n surfaces at hand: n (half its
 /// width/(precision·mean))², and not below 2. The variance of few surfaces is itself known to √(2/(n
 /// − 1)) at the best. NaN where no interval is known. Throws InvalidInput for a precision that is

@@ -6,6 +6,7 @@
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <string>
+#include <vector>
 
 namespace salebra::python {
 
@@ -35,7 +36,28 @@ struct BoundDamping : DampingResult {
   }
 };
 
+/// Losses over one quantity, as pickles hold them and as Python knows them: a sequence of results with
+/// an array for each of their numbers.
+struct DampingCurve {
+  std::string coordinate;  ///< the quantity: "pressure", "force", …
+  std::vector<double> values;
+  std::vector<JudgedDamping> results;
+};
+
+constexpr void describe(auto&& visit, std::type_identity<DampingCurve>) {
+  keep(visit, &DampingCurve::coordinate, &DampingCurve::values, &DampingCurve::results);
+}
+
+struct BoundDampingCurve {
+  std::string coordinate;
+  std::vector<double> values;
+  std::vector<BoundDamping> results;
+};
+
 inline ContactFacts known(const ContactFacts* facts) { return facts ? *facts : ContactFacts{}; }
+
+/// Says why a loss with friction is unknown, before it is returned as NaN.
+void warn_of_unknown(const Motion& motion, const ContactFacts* facts);
 
 /// "slip_of_opening_levels broken, amplitude doubtful", or that none is.
 std::string verdicts(const Premises& premises);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <salebra/base/describe.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/quantities.hpp>
+
+namespace salebra {
+
+/// Numerical error of a loss by its causes, J. A cause that was not examined is NaN, and so is the
+/// total.
+struct ErrorBudget {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double cells = unknown;      ///< discretisation: what cells of another size change
+  double noise = unknown;      ///< 1.8 standard deviations, as cells and patches enter one at a time
+  double intervals = unknown;  ///< what half as many intervals of the oscillation change
+  double stiffness_ratio = unknown;  ///< what a straight K_t/((G*/E*)K) over the oscillation changes
+  double seam = 0;                   ///< of the periodic continuation of a scan; 0: not asked for
+  double solver = unknown;           ///< of the tolerance of the contact solver
+
+  /// Root of the sum of the squares of all causes, J.
+  double total() const {
+    return std::sqrt(cells * cells + noise * noise + intervals * intervals +
+                     stiffness_ratio * stiffness_ratio + seam * seam + solver * solver);
+  }
+};
+
+constexpr void describe(auto&& visit, std::type_identity<ErrorBudget>) {
+  using enum Dimension;
+  using S = ErrorBudget;
+  visit(&S::cells, Quantity{"cell_error", energy, "error of work_per_cycle by the size of cells"});
+  visit(&S::noise, Quantity{"noise_error", energy,
+                            "error of work_per_cycle by cells and patches that enter singly"});
+  visit(&S::intervals, Quantity{"interval_error", energy,
+                                "error of work_per_cycle by the intervals of the oscillation"});
+  visit(&S::stiffness_ratio,
+        Quantity{"ratio_error", energy, "error of work_per_cycle by the ratio of stiffnesses"});
+  visit(&S::seam,
+        Quantity{"seam_error", energy, "error of work_per_cycle by the seam of a scan"});
+  visit(&S::solver,
+        Quantity{"solver_error", energy, "error of work_per_cycle by the solver's tolerance"});
+}
+
+/// Energy that a contact loses in a cycle of a motion, and the damping constant γ = P/⟨ẋ²⟩ that
+/// follows. NaN is unknown.
+///
+/// `work_per_cycle` and `damping_constant` describe the motion as the user described it: with slip
+/// where a coefficient of friction is known, without slip where none is given, which means an
+/// infinite one. The numbers without slip are always those with `_without_slip` in their names.
+struct Loss {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double work_per_cycle = unknown;                 ///< W, J
+  double damping_constant = unknown;               ///< γ, N s/m
+  double work_per_cycle_without_slip = unknown;    ///< J
+  double damping_constant_without_slip = unknown;  ///< N s/m
+  double relaxation_work = unknown;  ///< part of W of springs that open and close, J; NaN without μ
+  double slip_work = unknown;        ///< part of W of springs that stay closed, J; NaN without μ
+  ErrorBudget error = {};            ///< of work_per_cycle
+  ErrorBudget error_without_slip = {};  ///< of work_per_cycle_without_slip
+  double damping_per_work = unknown;    ///< γ of a loss of 1 J, N s/m
+
+  double work_per_cycle_error() const { return error.total(); }
+  double damping_constant_error() const { return error.total() * damping_per_work; }
+  double damping_constant_without_slip_error() const {
+    return error_without_slip.total() * damping_per_work;
+  }
+  /// Sets γ = P/⟨ẋ²⟩ of the works, ⟨ẋ²⟩ = v² or (u_x ω)²/2; NaN where the motion has no ω.
+  void set_damping_constants(const Oscillation& motion);
+  /// Makes a number NaN whose error is not smaller; the error stays.
+  void drop_uncertain();
+  /// Makes the loss unknown, but for what it is without slip.
+  void forget();
+  double relaxation_share() const { return relaxation_work / work_per_cycle; }
+  double slip_share() const { return slip_work / work_per_cycle; }
+};
+
+constexpr void describe(auto&& visit, std::type_identity<Loss>) {
+  using enum Dimension;
+  using S = Loss;
+  visit(&S::work_per_cycle, Extensive{quantity::work_per_cycle});
+  visit(&S::damping_constant, quantity::damping_constant);
+  visit(&S::work_per_cycle_without_slip,
+        WhereKnown{"work_per_cycle_without_slip", energy,
+                   "energy dissipated in a cycle without slip"});
+  visit(&S::damping_constant_without_slip, WhereKnown{quantity::damping_constant_without_slip});
+  visit(&S::relaxation_work, WhereKnown{quantity::relaxation_work});
+  visit(&S::slip_work, WhereKnown{quantity::slip_work});
+  visit(&S::error, Kept{"error", "numerical error of work_per_cycle by its causes"});
+  visit(&S::error_without_slip,
+        Kept{"error_without_slip",
+             "numerical error of work_per_cycle_without_slip by its causes"});
+  visit(&S::damping_per_work, Kept{});
+  visit(&S::work_per_cycle_error, WhereKnown{quantity::work_per_cycle_error});
+  visit(&S::damping_constant_error, WhereKnown{quantity::damping_constant_error});
+  visit(&S::damping_constant_without_slip_error,
+        WhereKnown{"damping_constant_without_slip_error", damping,
+                   "numerical error of the damping constant without slip"});
+  visit(&S::relaxation_share, WhereKnown{quantity::relaxation_share});
+  visit(&S::slip_share, WhereKnown{quantity::slip_share});
+}
+
+}  // namespace salebra

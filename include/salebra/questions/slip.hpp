@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <salebra/damping/dissipation.hpp>
+#include <salebra/damping/oscillation.hpp>
+#include <salebra/damping/premises.hpp>
+#include <salebra/damping/trajectory_damping.hpp>
+#include <salebra/questions/contact.hpp>
+#include <string>
+
+/// The one place where slip enters a loss: the program, studies, Python and the report call it.
+namespace salebra {
+
+/// Why the loss of a motion with a known coefficient of friction is unknown, in a sentence that says
+/// what to give; empty: it is known, or friction is infinite.
+std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts);
+
+/// Makes the loss without slip of a law that of the motion as described: with slip where the
+/// coefficient of friction is known, NaN where why_loss_unknown() gives a reason. A slow motion goes
+/// through loss_with_slip(), with its turning points; the other motions are followed along `steps`
+/// straight steps of their period.
+///
+///     DampingResult result = relaxation_damping(law, AtForce{1}, motion);
+///     add_slip(result, law, motion, {.friction_coefficient = 0.3, .excursion = 1e-5});
+///
+/// Throws InvalidInput as loss_with_slip() and trajectory_damping(), and Interrupted.
+/// Cost: some milliseconds; one step of the law for each of `steps`.
+void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion,
+              const ContactFacts& facts, int steps = 2000, const Context& context = {});
+
+/// One period of a motion about a mean indentation, and the loss along it: the data of a picture.
+struct DampingCycle {
+  SampledMotion path;
+  TrajectoryDamping loss;
+};
+/// friction_coefficient: NaN: no slip.
+DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
+                      double friction_coefficient, const Context& context = {});
+
+}  // namespace salebra

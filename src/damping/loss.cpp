@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Damping constants of a loss.
+#include <cmath>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/damping/loss.hpp>
+
+namespace salebra {
+
+void Loss::set_damping_constants(const Oscillation& motion) {
+  damping_constant = closed_form::damping_constant(work_per_cycle, motion);
+  damping_constant_without_slip =
+      closed_form::damping_constant(work_per_cycle_without_slip, motion);
+  damping_per_work = closed_form::damping_constant(1, motion);
+}
+
+void Loss::drop_uncertain() {
+  if (error.total() >= std::abs(work_per_cycle)) work_per_cycle = damping_constant = unknown;
+  if (error_without_slip.total() >= std::abs(work_per_cycle_without_slip))
+    work_per_cycle_without_slip = damping_constant_without_slip = unknown;
+}
+
+void Loss::forget() {
+  work_per_cycle = damping_constant = relaxation_work = slip_work = unknown;
+  error = {};
+}
+
+}  // namespace salebra

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Slip in the loss of a law, where the coefficient of friction is known.
+#include <cmath>
+#include <salebra/damping/closed_form.hpp>
+#include <salebra/questions/slip.hpp>
+#include <variant>
+
+namespace salebra {
+std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts) {
+  if (std::isnan(facts.friction_coefficient)) return {};
+  const auto* two = std::get_if<TwoFrequencies>(&motion);
+  if (two && common_period(*two).normal_cycles == 0)
+    return "slip is not followed in a motion that never repeats; give frequencies with a common "
+           "period";
+  const auto* drag = std::get_if<Drag>(&motion);
+  if (drag && std::isnan(facts.excursion))
+    return "with friction the loss of a slow motion depends on its `excursion`; give it";
+  if (drag && facts.excursion < drag->way_per_cycle())
+    return "the motion turns back within one normal cycle: it is not slow; give a longer "
+           "`excursion`, or a motion of equal frequencies";
+  return {};
+}
+
+void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion,
+              const ContactFacts& facts, int steps, const Context& context) {
+  const double friction = facts.friction_coefficient;
+  if (std::isnan(friction)) return;
+  result.forget();
+  result.power = result.error_estimate = Loss::unknown;
+  if (!why_loss_unknown(motion, facts).empty()) return;
+  const auto take = [&](const auto& loss) {
+    result.work_per_cycle = loss.work_per_cycle;
+    result.damping_constant = loss.damping_constant;
+    result.relaxation_work = loss.relaxation_work;
+    result.slip_work = loss.slip_work;
+  };
+  if (const auto* drag = std::get_if<Drag>(&motion)) {
+    take(loss_with_slip(law, result.indentation, *drag, friction, facts.excursion));
+    result.power = closed_form::power(result.work_per_cycle, *drag);
+  } else {
+    const TrajectoryDamping cycle =
+        cycle_of(law, motion, result.indentation, steps, friction, context).loss;
+    take(cycle);
+    result.power = cycle.power;
+    result.storage_stiffness = cycle.storage_stiffness;
+    result.loss_factor = cycle.loss_factor;
+  }
+}
+
+DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
+                      double friction_coefficient, const Context& context) {
+  DampingCycle cycle;
+  cycle.path = std::visit([&](const auto& m) { return sample(m, indentation, steps); }, motion);
+  TrajectoryDampingOptions options{.on_progress = context.on_progress};
+  if (!std::isnan(friction_coefficient)) options.friction_coefficient = friction_coefficient;
+  cycle.loss = trajectory_damping(law, cycle.path, options);
+  const auto* equal = std::get_if<EqualFrequency>(&motion);
+  // Its frequency is not known.
+  if (equal && !(equal->angular_frequency > 0))
+    cycle.loss.power = cycle.loss.damping_constant = Loss::unknown;
+  return cycle;
+}
+
+}  // namespace salebra
