@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The questions that salebra answers, and what they are put together from: a surface that is made
-// or read, a curve that is swept or read, a study. For programs that link salebra::study; the
-// libraries below it have headers for each thing.
+// Everything to solve contact and damping problems, including their inputs: surfaces (generated or
+// read), curves (swept or read) and studies. For programs that link salebra::study; each
+// library below it has its own headers.
+//
+//     DampingAnswer answer = ask(DampingQuestion{.contact = ExponentialContact{30e-9, 0.8, {1}},
+//                                                .motions = {Drag{1e-9, 1e-6, 1e5}}});
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/fit.hpp>

@@ -2,6 +2,7 @@
 // Forms of the spectrum of a surface twin: densities, slopes in the parameters, moments, tables.
 #include "surface/twin_law.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -8,15 +8,15 @@
 
 namespace salebra {
 
-/// The relaxation damping of every summit of a surface, moved by one body.
+/// Relaxation damping of all summits of a surface under the motion of one body.
 struct AsperityDamping {
   std::vector<double> work;      ///< W_i of each summit, in the order given, J
   double work_per_cycle = 0;     ///< Σ W_i, J
-  double intermittent_work = 0;  ///< of it, by summits that lose contact during the cycle, J
+  double intermittent_work = 0;  ///< part of it by summits that lose contact during the cycle, J
   /// Eq. (12) or (15) with F'' of all summits at the mean separation, J.
   double small_amplitude_work = 0;
-  int contacts_most = 0;        ///< summits in contact where the body is closest …
-  int contacts_least = 0;       ///< … and farthest
+  int contacts_most = 0;        ///< summits in contact at the smallest separation …
+  int contacts_least = 0;       ///< … and at the largest
   double power = 0;             ///< P, W; NaN where ω is not known
   double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
 };
@@ -38,15 +38,18 @@ constexpr void describe(auto&& visit, std::type_identity<AsperityDamping>) {
   visit(&S::damping_constant, Kept{"damping_constant", "damping constant", damping});
 }
 
-/// Each summit is an elastic foundation of its own (docs/theory.md, section 6, g = x²/R) that
-/// sticks: a spring of width dx touched at the level ζ = x²/R is released by the distance s of Eq.
-/// (7) or (13), so that
+/// Computes the loss of every summit in full stick as an elastic foundation of its own
+/// (docs/theory.md, section 6, g = x²/R). A spring of width dx that touches at the depth ζ = x²/R
+/// is released by the distance s of Eq. (7) or (13), so
 ///     W_i = G* ∫ s(ζ(x) − δ_i)² dx over the springs that open and close, at any amplitude.
-/// By the theorem of docs/theory.md, section 7 the sum is relaxation_damping() of the
-/// GreenwoodWilliamsonLaw of the same summits, mean indentation held; this way of computing it uses
-/// no force law at all. separation: mean, from the mean of the summits' heights, m.
+/// By the theorem of docs/theory.md, section 7, the sum is relaxation_damping() of the
+/// GreenwoodWilliamsonLaw of the same summits, mean indentation held; no force law enters here.
+///
+///     AsperityDamping loss = asperity_damping(summits, material, 3e-8, Drag{1e-9, 1e-6, 1e5});
+///
+/// separation is the mean one, from the mean of the summits' heights, m.
 /// Throws InvalidInput as DeterministicSummits, for an unknown G*, u_z < 0, or ω <= 0 in Drag.
-/// Cost: 50 to 500 evaluations of s a summit.
+/// Cost: 50 to 500 evaluations of s per summit.
 AsperityDamping asperity_damping(const std::vector<Summit>& summits, const Material& material,
                                  double separation, const Oscillation& motion,
                                  SummitShape shape = SummitShape::circular);

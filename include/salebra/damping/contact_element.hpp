@@ -14,26 +14,29 @@ namespace salebra {
 struct LawLevelsOptions {
   /// μ >= 0; infinite: full stick, the case of the paper.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  int levels = 64;  ///< 8 … 4096. Half of them lie in the range of the motion, half below it
+  int levels = 64;  ///< 8 … 4096; half of them lie in the range of the motion, half below it
 };
 
-/// A contact law as a stack of indentation levels, each a spring with a limit of friction, made for
-/// contacts by the thousand: immutable, and shared between elements and threads. Between its nodes
-/// the force has the law's F and K at both ends: it is a cubic where that is convex, and a power of
-/// the distance from one end where no cubic is. A level of K_t acts at one depth c, the middle of its
-/// springs. Its stretch is limited to μ(F/G)(δ − c), with G(δ) = ∫K_t dζ up to δ, so that all levels
-/// together carry μF, whatever K_t/K is. All that lies below the lowest node is one level; there F
-/// falls to 0 along its tangent, which is where the surfaces part.
-/// Springs cannot have a negative stiffness. Where K_t scatters and falls from one node to the next,
-/// these nodes share their mean.
+/// A contact law as a stack of springs at increasing depth, each with a friction limit, made for
+/// thousands of contacts: it is immutable, and elements and threads share it.
+///
+///     auto levels = std::make_shared<const LawLevels>(law, 0, 2e-8, LawLevelsOptions{0.3});
+///
+/// Between its nodes the force has the law's F and K at both ends: it is a cubic where that is
+/// convex, and otherwise a power of the distance from one end. The spring K_t of a level acts at
+/// one depth c, the middle of the level. Its stretch is limited to μ(F/G)(δ − c), with G(δ) = ∫K_t
+/// dζ up to δ, so that all levels together carry μF, whatever K_t/K is. Everything below the lowest
+/// node is one level; there F falls to 0 along its tangent, where the surfaces separate.
+/// Springs cannot have a negative stiffness: nodes between which K_t falls because of scatter share
+/// their mean.
 class LawLevels {
  public:
-  /// lowest, highest   δ between which the contact will move with the accuracy asked for, m. Levels
-  ///                   reach down from there to 1e-6 of the highest force, or to the end of the law.
-  ///                   Other indentations are allowed in a step: below, levels are coarser; above,
-  ///                   the force goes on along its tangent
+  /// lowest, highest   range of δ, m, in which the contact will move at full accuracy. Levels reach
+  ///                   down from there to 1e-6 of the highest force, or to the end of the law. A
+  ///                   step may leave the range: below it levels are coarser, above it the force
+  ///                   continues along its tangent
   /// throws            InvalidInput for options out of range, indentations that the law does not
-  ///                   cover, and a K_t that falls by more than scatter does: the mean of the nodes
+  ///                   cover, and a K_t that falls by more than scatter: the mean of the nodes
   ///                   differs from one of them by more than a quarter
   LawLevels(const ContactLaw& law, double lowest, double highest,
             const LawLevelsOptions& options = {});
@@ -43,9 +46,9 @@ class LawLevels {
   const std::vector<double>& nodes() const { return node_; }         ///< δ, m, increasing
   const std::vector<double>& forces() const { return force_; }       ///< F at the nodes, N
   const std::vector<double>& stiffnesses() const { return slope_; }  ///< K at the nodes, N/m
-  /// K_t of each level, N/m: the first that below the lowest node, then those between nodes.
+  /// K_t of each level, N/m: first that below the lowest node, then those between nodes.
   const std::vector<double>& level_stiffnesses() const { return stiffness_; }
-  const std::vector<double>& level_depths() const { return depth_; }  ///< c of each level, m
+  const std::vector<double>& level_depths() const { return depth_; }  ///< depth c of each level, m
 
   struct Normal {
     double force = 0, stiffness = 0, curvature = 0;  ///< F, K, K'
@@ -64,45 +67,49 @@ class LawLevels {
   std::vector<double> held_, sum_;         // G and K_t at the nodes
 };
 
-/// What a contact answers to a step, and how that depends on its end: what Newton's method needs.
+/// Forces at the end of a step, and their derivatives by its end point for Newton's method.
 struct ElementForces {
   double normal_force = 0;                   ///< F, N, >= 0
-  std::array<double, 2> tangential_force{};  ///< F_x, F_y, N: what holds the displaced body
+  std::array<double, 2> tangential_force{};  ///< F_x, F_y, N, that hold the displaced body
   /// ∂(F, F_x, F_y)/∂(δ, x, y) by rows, N/m, from the same state before the step.
   std::array<std::array<double, 3>, 3> stiffness{};
 };
 
 /// A contact as an element of a finite element, multibody or particle program, with both tangential
-/// directions: an implicit step of
+/// directions. A step is the implicit update
 ///     F_t = Σ_i k_i(δ)(x − a_i),   |k_i(x − a_i)| <= μN_i(δ),   ΣN_i = F,
-/// over the levels i of LawLevels. A spring is anchored where it touches, lets go where it
-/// parts, and slips by the return along its own stretch, as bodies of Coulomb and plasticity do
-/// [Simo and Hughes (1998)]; all of them slip at |F_t| = μF, and no path leads beyond that.
-/// TangentialContact is the limit of many levels for one direction, without an error of the step. On
-/// a law with a K_t of its own the two differ in the stretch at which a spring slips, by K_t/K:
-/// TangentialContact and joint_loss() take it at one indentation, an element takes G/F, of the whole
-/// contact, with which it carries μF when it slides. They differ in K_t where it falls too. With a noise
-/// of 1 % in F and K_t of 60 loads on a sphere each loss is 17 % off that of the sphere (standard
-/// deviation), and the two are up to a quarter apart, with a standard deviation of less than half of that.
-/// A copy of an element is a state to come back to; copies share their levels.
-/// cost  of a step some nanoseconds for each level that slips, touches or parts, and one for each of
-///       the rest; 32 bytes a level of memory
+/// over the levels i of LawLevels.
+///
+///     ContactElement element(levels);
+///     ElementForces forces = element.move_to(1e-8, 1e-9, 0);
+///
+/// A spring is anchored where it touches, is released where it separates, and slips by the return
+/// mapping of Coulomb friction along its own stretch [Simo and Hughes (1998)]; at |F_t| = μF all
+/// springs slip, and no path leads beyond that. TangentialContact is the limit of many levels for
+/// one direction, without a step error. If the law has its own K_t, the two differ by K_t/K in the
+/// stretch at which a spring slips: TangentialContact and joint_loss() take it at one indentation, an
+/// element takes G/F of the whole contact, so that it carries μF in gross sliding. They also differ
+/// where K_t falls. With 1 % noise in F and K_t of 60 loads on a sphere, each loss is 17 % off that of
+/// the sphere (standard deviation), and the two differ by up to a quarter, with a standard deviation
+/// of less than half of that. A copy of an element saves its state; copies share their levels.
+/// cost  for a step some nanoseconds per level that slips, touches or separates, and one for each
+///       other level; 32 bytes of memory per level
 class ContactElement {
  public:
-  /// Apart, at x = y = 0. Throws InvalidInput without levels.
+  /// The contact is open at first, at x = y = 0. Throws InvalidInput without levels.
   explicit ContactElement(std::shared_ptr<const LawLevels> levels);
 
-  /// Puts the body down at (indentation, x, y), all springs free of stress.
+  /// Puts the body down at (indentation, x, y), with all springs free of stress.
   void start(double indentation, double x, double y);
-  /// The forces at the end of a step on a straight line to (indentation, x, y), which is not taken:
-  /// for the iterations of a step, and for one that may be rejected. Apart, all forces are 0.
+  /// Returns the forces at the end of a straight step to (indentation, x, y) without taking it, for
+  /// iterations and for steps that may be rejected. In an open contact all forces are 0.
   ElementForces forces(double indentation, double x, double y) const;
-  /// Takes the step.
+  /// Takes the step and returns the forces at its end.
   ElementForces move_to(double indentation, double x, double y);
 
-  /// δ, x, y, and x and y of the anchors of every level: 3 + 2 size() numbers for restart files.
+  /// δ, x, y, and the anchors x and y of every level: 3 + 2 size() numbers for restart files.
   const std::vector<double>& state() const { return state_; }
-  /// Throws InvalidInput unless there are as many numbers, all finite.
+  /// Restores a state(). Throws InvalidInput unless it has this many numbers, all finite.
   void restore(std::span<const double> state);
   const LawLevels& levels() const { return *levels_; }
 

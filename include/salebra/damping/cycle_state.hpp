@@ -10,11 +10,14 @@
 
 namespace salebra {
 
-/// What a cycle remembers at one of its steps: from it the simulation continues to the same bits.
+/// A restart point of a cycle: from it the simulation continues with the same bits.
+///
+///     options.on_state = [&](CycleState state) { saved = std::move(state); };
 struct CycleState {
   int period = 0;                ///< periods finished
-  int step = 0;                  ///< 0 … steps, of the last sample
-  ContactSet smallest, largest;  ///< cells in contact at every, at any step of the period so far
+  int step = 0;                  ///< index of the last sample, 0 … steps
+  ContactSet smallest, largest;  ///< cells in contact at every, and at any step of the period so
+                                 ///< far
   double tangential = 0;         ///< x of the trajectory, m
   double energy_at_period_start = 0;       ///< stored, J
   double work_at_period_start = 0;         ///< ∫F_x dx, J

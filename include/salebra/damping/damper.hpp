@@ -7,10 +7,11 @@
 #include <salebra/damping/dissipation.hpp>
 #include <vector>
 
-/// A contact under fast normal oscillation is a linear damper that can be tuned.
+/// Under slow shear, a contact under fast normal oscillation is a linear damper, tuned by the
+/// vibration amplitude.
 namespace salebra {
 
-/// Fast normal oscillation of a contact.
+/// A fast normal oscillation of a contact.
 struct NormalOscillation {
   double normal_amplitude = 0;   ///< u_z >= 0, m
   double angular_frequency = 0;  ///< ω > 0, rad/s
@@ -19,21 +20,22 @@ struct NormalOscillation {
 /// A mass on a spring and on the contact: m ẍ + γ ẋ + (k + K_t,min) x = 0.
 struct TangentialOscillator {
   double mass = 0;              ///< m > 0, kg
-  double spring_stiffness = 0;  ///< k >= 0, N/m, beside the contact's own stiffness
+  double spring_stiffness = 0;  ///< k >= 0, N/m, without the contact's own stiffness
 };
 
 struct OscillatorDecay {
   double damping_constant = 0;  ///< γ, N s/m
   double contact_stiffness =
-      0;  ///< K_t of what is never let go, K_t(δ0 − u_z), N/m; 0 where the contact opens
+      0;  ///< K_t(δ0 − u_z), of the springs that never separate, N/m; 0 where the contact opens
   double natural_frequency = 0;  ///< ω0 = √((k + K_t,min)/m), rad/s
   double damping_ratio = 0;      ///< ζ = γ/(2mω0); >= 1: no oscillation
   double quality_factor = 0;     ///< 1/(2ζ)
   double decay_time =
-      0;  ///< in which the amplitude falls by e, 2m/γ (ζ < 1) or the slower of two times, s
+      0;  ///< time in which the amplitude falls by e, 2m/γ for ζ < 1, otherwise the slower of two,
+          ///< s
   double logarithmic_decrement = 0;  ///< 2πζ/√(1 − ζ²); NaN for ζ >= 1
-  /// ω0/ω: the description assumes that it is small. It is off by its square or so, and by more
-  /// where it is near a simple fraction.
+  /// ω0/ω, which the description assumes to be small. The relative error is about its square, and
+  /// larger near a simple fraction.
   double frequency_ratio = 0;
 };
 
@@ -56,18 +58,22 @@ constexpr void describe(auto&& visit, std::type_identity<OscillatorDecay>) {
         Quantity{"frequency_ratio", dimensionless, "tangential over normal frequency"});
 }
 
-/// Decay of a tangential oscillator under fast normal oscillation of its contact. Throws
-/// InvalidInput as relaxation_damping, and for an oscillator without mass or without any stiffness.
+/// Computes the decay of a tangential oscillator under fast normal oscillation of its contact.
+///
+///     OscillatorDecay decay = oscillator_decay(law, AtForce{1}, {1e-9, 1e5}, {.mass = 1});
+///
+/// Throws InvalidInput as relaxation_damping(), and for an oscillator without mass or without any
+/// stiffness.
 OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
                                  const NormalOscillation& normal,
                                  const TangentialOscillator& oscillator,
                                  const DampingOptions& options = {});
 
-/// The same of a γ and a K_t(δ0 − u_z) that are known.
+/// The same for a known γ and K_t(δ0 − u_z).
 OscillatorDecay oscillator_decay(double damping_constant, double contact_stiffness,
                                  double angular_frequency, const TangentialOscillator& oscillator);
 
-/// γ over normal amplitudes × angular frequencies, and where it stabilises a slider.
+/// The damping constant over normal amplitudes × angular frequencies.
 struct DamperMap {
   std::vector<double> normal_amplitude;   ///< m
   std::vector<double> angular_frequency;  ///< rad/s
@@ -86,17 +92,17 @@ constexpr void describe(auto&& visit, std::type_identity<DamperMap>) {
         Kept{"damping_constant", "damping constant (amplitudes, frequencies)", damping});
 }
 
-/// γ = (const of the amplitude)/ω exactly, so that each amplitude is computed once.
+/// Computes the map. At each amplitude γ is exactly a constant over ω, so each is computed once.
 DamperMap damper_map(const ContactLaw& law, const Position& position,
                      const std::vector<double>& normal_amplitudes,
                      const std::vector<double>& angular_frequencies,
                      const DampingOptions& options = {});
 
-/// The least normal amplitude, m, at which γ >= falling_slope: an estimate, without slip, of what
-/// keeps a slider from stick–slip whose friction force falls with velocity, F_f = F_0 − bv, b =
-/// falling_slope > 0, N s/m, which is a damping constant of −b for small disturbances of steady
-/// sliding. NaN where no amplitude up to largest_amplitude is enough: under a dead weight γ has a
-/// maximum over u_z.
+/// Returns the smallest normal amplitude, m, at which γ >= falling_slope. It estimates, without
+/// slip, the oscillation that prevents stick–slip of a slider whose friction force falls with
+/// velocity, F_f = F_0 − bv, with b = falling_slope > 0, N s/m: for small disturbances of steady
+/// sliding this is a damping constant of −b. NaN where no amplitude up to largest_amplitude
+/// suffices: under a dead weight γ has a maximum over u_z.
 double stabilising_amplitude(const ContactLaw& law, const Position& position,
                              double angular_frequency, double falling_slope,
                              double largest_amplitude, const DampingOptions& options = {});

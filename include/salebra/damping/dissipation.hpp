@@ -14,18 +14,17 @@
 
 namespace salebra {
 
-/// Where a contact stands before or while it oscillates: at an indentation δ on the law's own
-/// scale, m …
+/// The operating point of a contact: an indentation δ on the law's own scale, m, …
 struct AtIndentation {
   double indentation = 0;
 };
-/// … or at a force, N, > 0.
+/// … or a normal force > 0, N.
 struct AtForce {
   double force = 0;
 };
 using Position = std::variant<AtIndentation, AtForce>;
 
-/// δ of a position, m.
+/// Returns the indentation δ of a position, m.
 double indentation_of(const ContactLaw& law, const Position& position);
 
 enum class Amplitude {
@@ -40,13 +39,13 @@ struct Words<Amplitude> {
 };
 
 struct DampingOptions {
-  /// Hold::indentation: the position is that of mean indentation. Hold::force: the cycle mean of F
-  /// equals the force of the position (its F(δ) where an indentation was given); at
+  /// Hold::indentation: the position is the mean indentation of the cycle. Hold::force: the cycle
+  /// mean of F equals the force at the position (F(δ) where an indentation is given). At
   /// Amplitude::small the two coincide.
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
-  double tolerance = 1e-10;   ///< relative, of the quadrature of W; 1e-13 … 1e-2
-  Progress on_progress = {};  ///< of the form that takes many cases; a stop throws Interrupted
+  double tolerance = 1e-10;   ///< relative, for the quadrature of W; 1e-13 … 1e-2
+  Progress on_progress = {};  ///< used by the overload for many cases; a stop throws Interrupted
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DampingOptions>) {
@@ -56,23 +55,22 @@ constexpr void describe(auto&& visit, std::type_identity<DampingOptions>) {
 
 /// The loss of one contact under one motion, and the state about which it oscillates.
 struct DampingResult : Loss {
-  double power = unknown;  ///< P = Wω/2π, W; NaN where the motion has no ω
+  double power = unknown;                 ///< P = Wω/2π, W; NaN where the motion has no ω
   double normal_stiffness = unknown;      ///< K at the mean indentation, N/m
-  double tangential_stiffness = unknown;  ///< K_t there: with γ the contact as a spring and damper
+  double tangential_stiffness = unknown;  ///< K_t there, N/m; γ is the damper in parallel
   double force_curvature = unknown;       ///< F'' at the mean indentation, N/m²
   double force = unknown;                 ///< F at the mean indentation, N
-  double mean_force = unknown;   ///< mean of F over the cycle, N; that of a finite amplitude always
-  double indentation = unknown;  ///< mean indentation of the cycle, m
-  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. What Hold::force does to the mean
-  /// indentation is not in it.
+  double mean_force = unknown;            ///< cycle mean of F at finite amplitude, N
+  double indentation = unknown;           ///< mean indentation of the cycle, m
+  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. It does not include the shift of
+  /// the mean indentation by Hold::force.
   double small_amplitude_work = unknown;
   double tangential_curvature =
       unknown;  ///< K_t' at the mean indentation, N/m²; (G*/E*)F'' unless the law has a K_t of its
                 ///< own
-  /// Of a loop with friction that is followed step by step, N/m; NaN otherwise.
+  /// Known where a friction loop is followed step by step, N/m and dimensionless; NaN otherwise.
   double storage_stiffness = unknown, loss_factor = unknown;
-  double error_estimate =
-      unknown;  ///< of work_per_cycle, J: quadrature and round-off, not the law's own error
+  double error_estimate = unknown;  ///< error of work_per_cycle, J: quadrature and round-off only
   bool converged =
       false;  ///< whether the quadratures reached the tolerance; false: do not use work_per_cycle
 };
@@ -101,41 +99,44 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
 }
 
-/// Work lost per cycle by
-///     W = ½∮ s² dK_t,  s = x_out − x_in of each indentation level, in the by-parts forms that need K_t alone:
+/// Computes the energy lost per cycle, and γ, from the contact law alone:
+///     W = ½∮ s² dK_t,  s = x_out − x_in at each spring depth, in by-parts forms of K_t alone:
 ///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
 ///     (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
-/// δ(θ) = δ0 + u_z cosθ, adaptively, with first touch as a break point: the contact may open during
-/// the cycle. No slip, contact sets that grow with δ, quasi-static.
+/// with δ(θ) = δ0 + u_z cosθ. The quadrature is adaptive and breaks at first touch, so the contact
+/// may open during the cycle. It assumes no slip, contact sets that grow with δ, and quasi-static
+/// motion.
+///
+///     DampingResult result = relaxation_damping(law, AtForce{1}, Drag{1e-9, 1e-6, 1e5});
+///
 /// throws  InvalidInput for u_z < 0, an ω that is not > 0 in Drag or < 0 in EqualFrequency, values
-///         that are not finite, a force <= 0,
-///         and a motion that leaves the range of a tabulated law
+///         that are not finite, a force <= 0, and a motion that leaves the range of a tabulated law
 /// cost    about 100 to 1000 evaluations of the law; 50 times that with Hold::force
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
                                  const Oscillation& motion, const DampingOptions& options = {});
 
-/// Two frequencies, W over their common period of p normal cycles,
+/// The same for two frequencies: W over their common period of p normal cycles is
 ///     W = 2u_x² S r ∫_0^π sin(2rθ) [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ,
-/// r = ω_x/ω_z and S as closed_form::frequency_ratio_phase_sum. Without a common period
+/// with r = ω_x/ω_z and S = closed_form::frequency_ratio_phase_sum(). Without a common period
 /// work_per_cycle is NaN and power is the mean power, with S/p = 1/2; small_amplitude_work and
 /// error_estimate are then means per normal cycle.
 DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
                                  const TwoFrequencies& motion, const DampingOptions& options = {});
 
-/// One case of a damping curve: over force, amplitude, frequency, velocity or phase.
+/// One point of a damping curve over force, amplitude, frequency, velocity or phase.
 struct DampingCase {
   Position position;
   Oscillation motion;
 };
 
-/// relaxation_damping() of each case, in parallel, in the order of the cases.
+/// Computes relaxation_damping() of all cases in parallel and returns the results in their order.
 std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
                                               std::span<const DampingCase> cases,
                                               const DampingOptions& options = {});
 
-/// Normal motion by force, F = F0 + F_a cosωt with 0 <= F_a <= F0; a table must cover the whole
-/// range of F. motion.normal_amplitude is not used; indentation is that of F0, mean_force is F0,
-/// small_amplitude_work is Eq. (12) or (15) with u_z = F_a/K.
+/// The same for a force-controlled normal motion, F = F0 + F_a cosωt with 0 <= F_a <= F0. A table
+/// must cover the whole range of F. motion.normal_amplitude is not used; indentation is that at F0,
+/// mean_force is F0, and small_amplitude_work is Eq. (12) or (15) with u_z = F_a/K.
 DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double mean_force,
                                                   double force_amplitude, const Oscillation& motion,
                                                   const DampingOptions& options = {});
@@ -144,12 +145,13 @@ DampingResult relaxation_damping_force_controlled(const ContactLaw& law, double 
                                                   const TwoFrequencies& motion,
                                                   const DampingOptions& options = {});
 
-/// Mean of F over a cycle δ0 + u_z cosθ, N. Throws InvalidInput where the law does not cover the
-/// cycle.
+/// Returns the mean of F over a cycle δ0 + u_z cosθ, N. Throws InvalidInput where the law does not
+/// cover the cycle.
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double normal_amplitude);
 
-/// The mean indentation δ0 at which the cycle mean of F is mean_force: where a dead weight settles
-/// under the oscillation. Throws InvalidInput where the law's range does not hold such a cycle.
+/// Returns the mean indentation δ0 at which the cycle mean of F is mean_force: a dead weight
+/// settles there under the oscillation. Throws InvalidInput where no such cycle fits into the law's
+/// range.
 double indentation_at_mean_force(const ContactLaw& law, double mean_force, double normal_amplitude);
 
 }  // namespace salebra

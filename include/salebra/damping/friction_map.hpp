@@ -11,18 +11,18 @@
 namespace salebra {
 
 struct FrictionMapOptions {
-  int steps = 1000;  ///< straight steps a cycle; W(μ)/W(∞) is met at second order in them
+  int steps = 1000;  ///< straight steps per cycle; W(μ)/W(∞) converges at second order in them
   Progress on_progress = {};
 };
 
-/// How far the paper's "infinite" friction reaches, for equal frequencies: losses over the
-/// full-stick loss at the same u_z, u_x and phase.
+/// Validity of the paper's "infinite" friction at equal frequencies: losses over the full-stick
+/// loss at the same u_z, u_x and phase.
 struct FrictionMap {
   std::vector<double> friction_number;  ///< M = μE*u_z/(G*u_x)
   std::vector<double> phase;            ///< φ0, rad
   Field loss_ratio;                     ///< W(μ)/W(∞), (friction numbers, phases)
-  Field relaxation_ratio;               ///< its part from levels that open and close
-  Field slip_ratio;                     ///< its part from slip in permanent contact
+  Field relaxation_ratio;               ///< part of it from springs that open and close
+  Field slip_ratio;                     ///< part of it from slip in permanent contact
 };
 
 constexpr void describe(auto&& visit, std::type_identity<FrictionMap>) {
@@ -37,8 +37,12 @@ constexpr void describe(auto&& visit, std::type_identity<FrictionMap>) {
         Quantity{"slip_ratio", dimensionless, "part of it from slip in permanent contact"});
 }
 
-/// Phases with sin φ0 = 0 have no relaxation loss and give NaN. Cost: steps × 2 for each entry, in
-/// parallel.
+/// Computes the losses for all friction numbers and phases, in parallel. Phases with sin φ0 = 0
+/// have no relaxation loss and give NaN.
+///
+///     FrictionMap map = friction_map(law, 1e-8, 1e-9, 1e-10, {0.3, 1, 3, 10}, {1.57});
+///
+/// Cost: steps × 2 for each entry.
 /// Throws InvalidInput for friction numbers < 0, amplitudes that are not > 0, and motion outside
 /// the law.
 FrictionMap friction_map(const ContactLaw& law, double mean_indentation, double normal_amplitude,

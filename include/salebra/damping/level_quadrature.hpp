@@ -7,30 +7,30 @@
 namespace salebra {
 
 struct LevelQuadratureOptions {
-  int levels = 0;        ///< 0: 16 for equal frequencies, 32 for drag; otherwise >= 4
-  double direction = 0;  ///< of the tangential motion against x, rad
+  int levels = 0;        ///< contacts; 0: 16 for equal frequencies, 32 for drag; otherwise >= 4
+  double direction = 0;  ///< angle of the tangential motion against x, rad
   StickOptions stick = {.tolerance = 1e-5};
   Progress on_progress = {};
 };
 
 /// The loss of a cycle from a few contact sets.
 struct LevelQuadratureResult {
-  /// W with K_t = ρ(δ)(G*/E*)F'(δ): F and K of the levels give F', ρ = K_t/((G*/E*)K) of each level
-  /// the tangential part; J. Both stiffnesses of a level see the same cells, so that the resolution
-  /// of the contact's edge drops out of ρ.
+  /// W with K_t = ρ(δ)(G*/E*)F'(δ), J: F' comes from F and K of the contacts, and ρ from
+  /// K_t/((G*/E*)K) of each. Both stiffnesses of a contact use the same cells, so the resolution of
+  /// the contact's edge cancels in ρ.
   double work_per_cycle = 0;
   double error_estimate =
-      0;  ///< of work_per_cycle, J: scatter of ρ, and F' against K of the levels as they are
-  double work_by_levels = 0;  ///< W by the by-parts form from the K_t of the levels as they are, J
-  double work_by_force = 0;   ///< W with K_t = (G*/E*)F', normal contacts alone, J
+      0;  ///< error of work_per_cycle, J: scatter of ρ, and F' against the given K of the contacts
+  double work_by_levels = 0;        ///< W by parts from the given K_t of the contacts, J
+  double work_by_force = 0;         ///< W with K_t = (G*/E*)F', from normal contacts alone, J
   double small_amplitude_work = 0;  ///< Eq. (12) or (15) with F'' of the same fit, J
   double force = 0;                 ///< F at the mean indentation, N
   double force_curvature = 0;       ///< F'' there, N/m²
   double stiffness_ratio = 0;       ///< work_per_cycle / work_by_force
-  ForceCurve curve;                 ///< the levels; K_t is that along the motion
+  ForceCurve curve;                 ///< the solved contacts; K_t is that along the motion
   long iterations = 0;              ///< of all linear solves on contact sets
   long fft_count = 0;
-  /// Of all levels; unless converged, do not use the numbers.
+  /// Worst outcome of all contacts; unless converged, do not use the numbers.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -58,20 +58,20 @@ constexpr void describe(auto&& visit, std::type_identity<LevelQuadratureResult>)
   visit(&S::converged, Kept{"converged", "whether every level converged"});
 }
 
-/// The loss of an oscillating contact by steps and by levels, beside what the equations say of it.
-/// Empty where they say nothing: of a contact that loses nothing, and where F'' is below 0.
+/// The loss of an oscillating contact by steps and by level quadrature, and the paper's equations
+/// for it. Those are empty where they do not apply: without a loss, and where F'' < 0.
 struct OscillationLoss {
-  double work_per_cycle = 0;        ///< of the steps, or of the levels where there are none, J
+  double work_per_cycle = 0;        ///< by steps, or by level quadrature if there are no steps, J
   double error_estimate = 0;        ///< J
   double work_by_levels = 0;        ///< LevelQuadratureResult::work_per_cycle, J
   double work_by_levels_error = 0;  ///< J
   double work_by_whole_cells = 0;   ///< LevelQuadratureResult::work_by_levels, J
   std::optional<double> small_amplitude_work = {}, ratio = {};  ///< Eq. (12) or (15), J; W over it
-  double work_by_force = 0;                                     ///< by K_t = (G*/E*)K, J
+  double work_by_force = 0;                                     ///< with K_t = (G*/E*)K, J
   std::optional<double> ratio_finite = {};
   double work_over_elastic_energy = 0;
   double indentation = 0;                      ///< mean, m
-  double force = 0;                            ///< at it, N
+  double force = 0;                            ///< at the mean indentation, N
   std::optional<double> force_curvature = {};  ///< N/m²
   std::size_t levels = 0;
 };
@@ -103,7 +103,7 @@ constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
   visit(&S::levels, Quantity{"levels", dimensionless, "contact levels"});
 }
 
-/// What the exponential law of a decay length says of the same.
+/// The same by the exponential law with a decay length.
 struct ExponentialLoss {
   double decay_length = 0;           ///< l, m
   double predicted_exponential = 0;  ///< with F'' = F/l², J
@@ -128,12 +128,17 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialLoss>) {
                                                "the same over predicted_exponential_finite"});
 }
 
-/// Relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t by parts
-/// (docs/theory.md, section 7):
-///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ        (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ
+/// Computes the relaxation damping of a contact without stepping through the cycle, W = ½∮ s² dK_t
+/// by parts (docs/theory.md, section 7):
+///     (a) W = 2u_x² sin²φ0 ∫_0^π K_t(δ(θ)) sin2θ dθ
+///     (b) W = 4(v/ω)² ∫_0^π θ [K_t(δ(θ)) − K_t(δ0 − u_z)] dθ
 /// on Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch
 /// solve at each.
-/// cost  levels + 2 normal contacts, and for each but one a stick and a punch solve
+///
+///     ContactLevels contacts = boundary_element_levels(surface, material.contact_modulus);
+///     auto loss = level_quadrature(contacts, surface.grid, material, Drag{1e-9, 1e-6, 1e5}, 1e-8);
+///
+/// cost  levels + 2 normal contacts, and for all but one of them a stick and a punch solve
 LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D& grid,
                                        const Material& material, const Oscillation& motion,
                                        double mean_indentation,

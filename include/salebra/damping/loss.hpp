@@ -13,14 +13,14 @@ namespace salebra {
 /// total.
 struct ErrorBudget {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double cells = unknown;      ///< discretisation: what cells of another size change
-  double noise = unknown;      ///< 1.8 standard deviations, as cells and patches enter one at a time
-  double intervals = unknown;  ///< what half as many intervals of the oscillation change
-  double stiffness_ratio = unknown;  ///< what a straight K_t/((G*/E*)K) over the oscillation changes
-  double seam = 0;                   ///< of the periodic continuation of a scan; 0: not asked for
-  double solver = unknown;           ///< of the tolerance of the contact solver
+  double cells = unknown;      ///< discretisation: change on cells of another size
+  double noise = unknown;      ///< 1.8 standard deviations: cells and patches enter one at a time
+  double intervals = unknown;  ///< change with half as many intervals of the oscillation
+  double stiffness_ratio = unknown;  ///< change with a straight K_t/((G*/E*)K)
+  double seam = 0;                   ///< periodic continuation of a scan; 0: not requested
+  double solver = unknown;           ///< tolerance of the contact solver
 
-  /// Root of the sum of the squares of all causes, J.
+  /// Root of the sum of squares of all causes, J.
   double total() const {
     return std::sqrt(cells * cells + noise * noise + intervals * intervals +
                      stiffness_ratio * stiffness_ratio + seam * seam + solver * solver);
@@ -43,20 +43,22 @@ constexpr void describe(auto&& visit, std::type_identity<ErrorBudget>) {
         Quantity{"solver_error", energy, "error of work_per_cycle by the solver's tolerance"});
 }
 
-/// Energy that a contact loses in a cycle of a motion, and the damping constant γ = P/⟨ẋ²⟩ that
-/// follows. NaN is unknown.
+/// Energy that a contact loses in a cycle of a motion, and the damping constant γ = P/⟨ẋ²⟩. Unknown
+/// numbers are NaN.
+///
+///     double relative_error = loss.damping_constant_error() / loss.damping_constant;
 ///
 /// `work_per_cycle` and `damping_constant` describe the motion as the user described it: with slip
-/// where a coefficient of friction is known, without slip where none is given, which means an
-/// infinite one. The numbers without slip are always those with `_without_slip` in their names.
+/// if a coefficient of friction is known, without slip if none is given, which means an infinite
+/// one. The numbers without slip always have `_without_slip` in their names.
 struct Loss {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double work_per_cycle = unknown;                 ///< W, J
   double damping_constant = unknown;               ///< γ, N s/m
   double work_per_cycle_without_slip = unknown;    ///< J
   double damping_constant_without_slip = unknown;  ///< N s/m
-  double relaxation_work = unknown;  ///< part of W of springs that open and close, J; NaN without μ
-  double slip_work = unknown;        ///< part of W of springs that stay closed, J; NaN without μ
+  double relaxation_work = unknown;  ///< part of W by springs that open and close, J; NaN without μ
+  double slip_work = unknown;        ///< part of W by springs that stay closed, J; NaN without μ
   ErrorBudget error = {};            ///< of work_per_cycle
   ErrorBudget error_without_slip = {};  ///< of work_per_cycle_without_slip
   double damping_per_work = unknown;    ///< γ of a loss of 1 J, N s/m
@@ -66,11 +68,11 @@ struct Loss {
   double damping_constant_without_slip_error() const {
     return error_without_slip.total() * damping_per_work;
   }
-  /// Sets γ = P/⟨ẋ²⟩ of the works, ⟨ẋ²⟩ = v² or (u_x ω)²/2; NaN where the motion has no ω.
+  /// Computes γ = P/⟨ẋ²⟩ from the works, ⟨ẋ²⟩ = v² or (u_x ω)²/2; NaN where the motion has no ω.
   void set_damping_constants(const Oscillation& motion);
-  /// Makes a number NaN whose error is not smaller; the error stays.
+  /// Sets numbers to NaN that are no larger than their error; the error stays.
   void drop_uncertain();
-  /// Makes the loss unknown, but for what it is without slip.
+  /// Sets the loss to NaN, except the numbers without slip.
   void forget();
   double relaxation_share() const { return relaxation_work / work_per_cycle; }
   double slip_share() const { return slip_work / work_per_cycle; }

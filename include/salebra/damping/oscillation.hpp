@@ -29,14 +29,14 @@ constexpr void describe(auto&& visit, std::type_identity<EqualFrequency>) {
   visit(&S::angular_frequency, quantity::angular_frequency);
 }
 
-/// Case (b): z = u_z cos ωt and a slow oscillation along x, velocity v, excursion far below
-/// (μE*/G*)F/K. Motion that goes on slides.
+/// Case (b): z = u_z cos ωt and a slow oscillation along x with velocity v, and an excursion far
+/// below (μE*/G*)F/K. A motion that never reverses ends in sliding.
 struct Drag {
   double normal_amplitude = 0;   ///< u_z >= 0, m
   double drag_velocity = 0;      ///< v, m/s
   double angular_frequency = 0;  ///< ω > 0, rad/s
 
-  /// w = |v|/f, m: slow is what turns back after many of them.
+  /// w = |v|/f, m. The motion is slow if it reverses after many of these distances.
   double way_per_cycle() const {
     return 2 * std::numbers::pi * std::abs(drag_velocity) / angular_frequency;
   }
@@ -50,7 +50,7 @@ constexpr void describe(auto&& visit, std::type_identity<Drag>) {
 
 using Oscillation = std::variant<EqualFrequency, Drag>;
 
-/// Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal ones are case (a), slow
+/// Two frequencies: z = u_z cos ω_z t, x = u_x cos(ω_x t + φ0). Equal ones are case (a); a slow
 /// tangential motion tends to case (b).
 struct TwoFrequencies {
   double normal_amplitude = 0;              ///< u_z >= 0, m
@@ -74,15 +74,16 @@ constexpr void describe(auto&& visit, std::type_identity<TwoFrequencies>) {
              angular_frequency});
 }
 
-/// Every motion that has a name.
+/// Any motion given by its parameters.
+///
+///     Motion motion = EqualFrequency{1e-9, 1e-10, std::numbers::pi / 2, 1e5};
 using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
 
-/// The motion where it is of one frequency; none for two.
+/// Returns the motion if it has one frequency; empty for two.
 std::optional<Oscillation> oscillation_of(const Motion& motion);
 
-/// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms; 0/0 where no ratio with at most
-/// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means take the
-/// place of sums.
+/// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms. It is 0/0 where no ratio with at most
+/// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means replace sums.
 struct CommonPeriod {
   int normal_cycles = 0;      ///< p
   int tangential_cycles = 0;  ///< q
@@ -98,9 +99,9 @@ constexpr void describe(auto&& visit, std::type_identity<CommonPeriod>) {
 }
 CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles = 1000);
 
-/// One period of any motion, straight between the samples; the last sample closes the period. δ
-/// returns to its first value; x may have moved on by a drift, which every period repeats (case
-/// (b)).
+/// One period of any motion, with straight lines between the samples; the last sample closes the
+/// period. δ returns to its first value; x may have advanced by a drift, which every period repeats
+/// (case (b)).
 struct SampledMotion {
   std::vector<double> time;          ///< s, strictly increasing
   std::vector<double> indentation;   ///< δ, m
@@ -108,8 +109,8 @@ struct SampledMotion {
 
   double period() const { return time.back() - time.front(); }
   double drift() const { return displacement.back() - displacement.front(); }
-  /// Throws InvalidInput unless the columns have one length >= 3, all values are finite, time
-  /// grows, and δ closes to 1e-9 of its range.
+  /// Throws InvalidInput unless the columns have equal length >= 3, all values are finite, time
+  /// increases, and δ closes to 1e-9 of its range.
   void validate() const;
 };
 
@@ -123,14 +124,14 @@ constexpr void describe(auto&& visit, std::type_identity<SampledMotion>) {
   visit(&S::drift, Kept{"drift", "displacement of a period", length});
 }
 
-/// One period about a mean indentation, `steps` straight steps for each normal cycle, beginning at
-/// a minimum of δ. An EqualFrequency of unknown ω gets a period of 2π s. Throws InvalidInput for
-/// TwoFrequencies without a common period.
+/// Returns one period about a mean indentation with `steps` straight steps for each normal cycle,
+/// from a minimum of δ. An EqualFrequency of unknown ω gets a period of 2π s. Throws InvalidInput
+/// for TwoFrequencies without a common period.
 SampledMotion sample(const Oscillation& motion, double mean_indentation, int steps);
 SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int steps);
 
-/// What stays fixed over a cycle while u_z is finite: the mean indentation, or the mean force (a
-/// dead weight).
+/// The quantity held constant over a cycle at finite u_z: the mean indentation, or the mean force
+/// (a dead weight).
 enum class Hold { indentation, force };
 
 template <>

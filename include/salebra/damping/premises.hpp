@@ -13,29 +13,29 @@
 #include <string>
 #include <vector>
 
-/// Whether a damping constant without slip may be used: the premises behind it, each with the
-/// limits at which the loss changes by 5 % and by 20 % (docs/theory.md, section 8).
+/// The assumptions behind a damping constant without slip. Each is checked against the limits at
+/// which the loss changes by 5 % and by 20 % (docs/theory.md, section 8).
 namespace salebra {
 
-/// What is known of a contact in addition to its law and its motion. NaN: not known.
+/// Contact parameters that the law and the motion do not contain. NaN: not known.
 struct ContactFacts {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double friction_coefficient = unknown;  ///< μ > 0
   double hardness = unknown;              ///< H > 0, Pa
   double density = unknown;               ///< ρ > 0, kg/m³
-  /// X > 0, m: case (a) the greatest tangential displacement from the mean, u_x if not given; case
-  /// (b) the way from one turning point of the slow motion to the other, velocity times duration.
+  /// X > 0, m. Case (a): the largest tangential displacement from the mean, u_x by default. Case
+  /// (b): the distance between the turning points of the slow motion, velocity times duration.
   double excursion = unknown;
   double contact_modulus = unknown;  ///< E* > 0, Pa
-  double dundurs = unknown;          ///< β; one elastic body with the law's G*/E* if not given
-  /// a at the deepest indentation, m: radius of one contact, side of a rough surface.
+  double dundurs = unknown;          ///< Dundurs' β; default: one elastic body with G*/E*
+  /// a at the deepest indentation, m: the radius of one contact, or the side of a rough surface.
   double loaded_size = unknown;
-  double nominal_pressure = unknown;       ///< F over the nominal area or over the one contact, Pa
+  double nominal_pressure = unknown;       ///< F over the nominal area, or over the one contact, Pa
   double largest_pressure = unknown;       ///< Pa
-  double mean_contact_pressure = unknown;  ///< F over the contact area at the deepest, Pa
-  double rms_slope = unknown;              ///< h' of a rough surface
-  /// F up to which the surface was loaded before with pressures up to its hardness, N; the law is
-  /// that of its residual surface (contact/normal/first_loading.hpp).
+  double mean_contact_pressure = unknown;  ///< F over contact area at the deepest indentation, Pa
+  double rms_slope = unknown;              ///< h', rms slope of a rough surface
+  /// Largest F of a previous plastic loading, N, with pressures up to the hardness; the law is then
+  /// that of the residual surface (contact/normal/first_loading.hpp).
   double first_load = unknown;
 };
 
@@ -63,14 +63,15 @@ constexpr void describe(auto&& visit, std::type_identity<ContactFacts>) {
            "normal force of a plastic first loading, whose residual surface the law is of", force});
 }
 
-/// Adds what an indenter, or the curve that the law is made of, says of the contact: E*, the nominal
-/// pressure at a mean indentation, and the size and the pressure in contact at the deepest
-/// indentation of the oscillation, by which plasticity and inertia are judged. curve may be nullptr.
+/// Adds the contact parameters that an indenter or the curve behind the law determines: E*, the
+/// nominal pressure at the mean indentation, and the size and contact pressure at the deepest
+/// indentation, which decide on plasticity and inertia. curve may be nullptr.
 ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
                       double indentation, double deepest);
 
-/// Radius of a typical contact spot, m: of an indenter's one contact; of a curve 2E*A/(πK), since
-/// spots of radius a have K = 2E*Σa and A = πΣa². NaN where E* or K is not known.
+/// Returns the radius of a typical contact patch, m: for an indenter that of its one contact; for a
+/// curve 2E*A/(πK), since patches of radius a have K = 2E*Σa and A = πΣa². NaN where E* or K is not
+/// known.
 double spot_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
                    double indentation);
 
@@ -78,7 +79,7 @@ enum class Verdict {
   holds,     ///< within the limit of 5 %
   doubtful,  ///< between the limits
   broken,    ///< beyond the limit of 20 %
-  unknown    ///< something is not known: Premise::needs
+  unknown    ///< a parameter is missing: Premise::needs
 };
 template <>
 struct Words<Verdict> {
@@ -89,19 +90,18 @@ struct Words<Verdict> {
                                                            {Verdict::unknown, "unknown"}});
 };
 
-/// One that an answer does not need holds, and has neither value nor limits.
+/// One checked assumption. One that does not apply has the verdict `holds` and no numbers.
 struct Premise {
   double value = ContactFacts::unknown;
-  /// NaN: the loss does not change so much at any value that the law covers, or a fact is missing
-  /// without which there is no limit.
+  /// NaN: the loss does not change by this much at any value that the law covers, or a parameter is
+  /// missing that the limit depends on.
   double limit_5_percent = ContactFacts::unknown;
   double limit_20_percent = ContactFacts::unknown;
-  /// Of plasticity in place of both: the value from which the contact flows. How much this changes
-  /// the loss is not known. NaN: of another premise.
+  /// For plasticity, replaces both limits: the value at which yielding starts. Its effect on the
+  /// loss is not known. NaN for the other assumptions.
   double onset = ContactFacts::unknown;
   Verdict verdict = Verdict::unknown;
-  std::string needs =
-      {};  ///< member of ContactFacts, or "drag_velocity", that a verdict needs; empty: none
+  std::string needs = {};  ///< missing member of ContactFacts, or "drag_velocity"; empty: none
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Premise>) {
@@ -119,17 +119,18 @@ constexpr void describe(auto&& visit, std::type_identity<Premise>) {
         Kept{"needs", "keyword of ContactFacts that a verdict needs; empty where none does"});
 }
 
-/// How much of a contact slips.
+/// Extent of slip in a contact.
 enum class Regime {
-  no_slip,       ///< both premises of slip hold: the loss is that without slip to 5 %
-  partial_slip,  ///< levels slip, and others that carry a part of the force do not
-  /// All levels slip but those that carry less than 5 % of the least normal force; where the
-  /// contact opens in each cycle, levels never stick, which is case (b) from v_c = (μ/g) u_z ω on.
-  /// Case (b) below v_c slides only where the slip of closed levels loses more than the relaxation
-  /// of those that open; otherwise its force grows with the velocity, as that of a damper.
+  no_slip,       ///< both slip assumptions hold: the loss without slip is right to 5 %
+  partial_slip,  ///< some springs slip, while others that carry a part of the force stick
+  /// All springs slip except those that carry less than 5 % of the smallest normal force. If the
+  /// contact opens in each cycle, sliding means that no spring ever sticks: case (b) from
+  /// v_c = (μ/g) u_z ω on. Below v_c, case (b) counts as sliding only if slip of closed springs
+  /// loses more than the relaxation of those that open; otherwise its force grows with velocity, as
+  /// for a damper.
   sliding,
-  /// Not known: a fact is missing, or the excursion of case (b) is shorter than the way in one
-  /// normal cycle, and the motion not slow.
+  /// A parameter is missing, or the excursion of case (b) is shorter than the distance per normal
+  /// cycle, and the motion is not slow.
   unknown
 };
 template <>
@@ -141,14 +142,14 @@ struct Words<Regime> {
                                                           {Regime::unknown, "unknown"}});
 };
 
-/// Largest motion that keeps the slip premises to 5 % with a coefficient of friction.
+/// Largest motion that keeps the slip assumptions to 5 % with a coefficient of friction.
 struct LargestMotion {
   double friction_coefficient = ContactFacts::unknown;
-  /// The limit of the opening levels: v of case (b), m/s, else u_x, m.
+  /// Limit for springs that open: v of case (b), m/s, otherwise u_x, m.
   double drag_velocity = ContactFacts::unknown;
   double tangential_amplitude = ContactFacts::unknown;
   double excursion =
-      ContactFacts::unknown;  ///< X of the closed levels, m; 0: no slow motion at this velocity
+      ContactFacts::unknown;  ///< limit of X for closed springs, m; 0: no slow motion
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LargestMotion>) {
@@ -159,63 +160,63 @@ constexpr void describe(auto&& visit, std::type_identity<LargestMotion>) {
   visit(&S::excursion, quantity::excursion);
 }
 
-/// The seven premises. With g = K_t/K of the law at the mean indentation, levels ζ that open and
-/// close during the cycle (ζ > δ0 − u_z) and levels that stay closed, each a spring that may be
-/// stretched by (μ/g)(δ − ζ):
+/// The seven assumptions behind a loss, as premises_of() checks them. With g = K_t/K of the law at
+/// the mean indentation, the spring at depth ζ may be stretched by (μ/g)(δ − ζ). Springs with
+/// ζ > δ0 − u_z open and close during the cycle; the others stay closed.
 struct Premises {
-  /// value  M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, the larger the better.
-  /// limits computed from the springs of the law: (a) M at which the loss with slip differs by 5 %
-  /// from that without; all levels,
-  ///        because the slip of opening and of closed levels partly cancel at some phases. (b) the
-  ///        same of the opening levels.
+  /// value   M = μ u_z/(g u_x), case (b) μ u_z ω/(g v); dimensionless, larger is better.
+  /// limits  computed from the springs of the law. (a) M at which the loss with slip differs by 5 %
+  ///         from that without; all springs count, because the slip of opening and of closed
+  ///         springs partly cancels at some phases. (b) The same for opening springs only.
   Premise slip_of_opening_levels;
-  /// value  X, m.
-  /// limits (a) the u_x of the limit above. (b) X at which the closed levels lose, by slip, 5 % of
-  /// the relaxation loss over the same
-  ///        way there and back at the velocity v, many normal cycles that touch the turning points
-  ///        at the least indentation: ∫K_t'(e + r)(X − 2e)dζ = 0.05 W Xω/(2πv), e = (μ/g)(δ0 − u_z
-  ///        − ζ), r the mean rise of a closed level's stretch in a normal cycle: πv/ω for v ≪ v_c,
-  ///        (μ/g)u_z from v_c on. 0 where X would be shorter than the way in one normal cycle: no
-  ///        slow motion at this velocity keeps the premise.
+  /// value   X, m.
+  /// limits  (a) u_x at the limit above. (b) X at which slip of the closed springs loses 5 % of the
+  ///         relaxation loss over the same path there and back at velocity v, for many normal
+  ///         cycles and turning points at the smallest indentation:
+  ///             ∫K_t'(e + r)(X − 2e)dζ = 0.05 W Xω/(2πv),  e = (μ/g)(δ0 − u_z − ζ),
+  ///         with r the mean rise of a closed spring's stretch in a normal cycle: πv/ω for v ≪ v_c,
+  ///         (μ/g)u_z from v_c on. 0 where X would be shorter than the distance per normal cycle:
+  ///         no slow motion at this velocity satisfies the assumption.
   Premise slip_of_closed_levels;
-  /// value  X/w, w = 2πv/ω the way of case (b) in one normal cycle; the larger the better. Other
-  ///        motions are not slow: no value, holds.
-  /// limits computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the
-  /// loss, k = K_t(δ0 + u_z cos θ) −
-  ///        K_t(δ0 − u_z), which is 0.44 w/X for constant K_t'. At least 1: below, no level needs
-  ///        to touch on one straight way.
+  /// value   X/w, with w = 2πv/ω the distance of case (b) per normal cycle; larger is better. For
+  ///         other motions the verdict is `holds`, without a value.
+  /// limits  computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the
+  ///         loss, with k = K_t(δ0 + u_z cos θ) − K_t(δ0 − u_z); this is 0.44 w/X for constant
+  ///         K_t'. At least 1: below that, a spring need not touch at all on one straight path.
   Premise slow_motion;
-  /// value  u_z, m.
-  /// limits computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the
-  /// theorem at finite amplitude, mean
-  ///        indentation held. A loss at finite amplitude does not need this premise.
+  /// value   u_z, m.
+  /// limits  computed: u_z at which Eq. (12), (15) or (16), proportional to u_z, is 5 % off the
+  ///         theorem at finite amplitude, mean indentation held. A loss at finite amplitude does
+  ///         not need this assumption.
   Premise amplitude;
-  /// value  at the deepest indentation δ0 + u_z, the largest that is known of: largest pressure/H,
-  ///        1.5 mean pressure of the contact/H (a paraboloid's), E*h'/H.
-  /// onset  0.6 (flow begins below the surface at 1.6 yield stresses, H = 2.8; Greenwood and
-  ///        Williamson's ψ), beyond which the premise is doubtful; it is broken beyond 1. After a
-  ///        first loading: the force at δ0 + u_z over the first load, 1: below it the residual
-  ///        surface is elastic. To 2 %, by which the law's force may be off that of the contact.
+  /// value   at the deepest indentation δ0 + u_z, the largest of those that are known: max
+  ///         pressure/H, 1.5 mean contact pressure/H (for a paraboloid), E*h'/H.
+  /// onset   0.6, beyond which the verdict is doubtful (yielding begins below the surface at 1.6
+  ///         yield stresses, H = 2.8; Greenwood and Williamson's ψ); beyond 1 it is broken. After a
+  ///         first loading the value is the force at δ0 + u_z over the first load, and the onset is
+  ///         1: below it the residual surface is elastic. Within 2 %, the accuracy of the law's
+  ///         force, the value is set to 1.
   Premise plasticity;
-  /// value  ω a/c_s at δ0 + u_z, c_s = √(G/ρ) of one elastic body with the law's G*/E*.
-  /// limits estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so that 0.55 and 1.1
-  /// change |K| by 5 and 20 %; in case (a)
-  ///        less, where waves carry away 5 % of the loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
+  /// value   ω a/c_s at δ0 + u_z, with c_s = √(G/ρ) of one elastic body with the law's G*/E*.
+  /// limits  estimated: a stuck circle has the impedance K(1 + 0.58i ωa/c_s), so 0.55 and 1.1
+  ///         change |K| by 5 and 20 %. In case (a) they are lower where waves carry away 5 % of the
+  ///         loss: π·0.58 (ωa/c_s) u_x² K_t²/(2G*a).
   Premise inertia;
-  /// value  share of the loss that the coupling of pressure and traction changes, the largest of
-  ///        direct simulations, for β of ν = 0.3 and 0: 3.2|β|^2.62 of an indenter, 12 and 52 %, and
-  ///        1.16|β|^2.69 of other contacts, 4 and 18 %. Case (b) was never computed: unknown.
-  /// limits 0.05 and 0.2.
+  /// value   fraction of the loss that the coupling of pressure and traction changes, the largest
+  ///         of direct simulations: 3.2|β|^2.62 for an indenter (12 and 52 % at β of ν = 0.3 and 0)
+  ///         and 1.16|β|^2.69 for other contacts (4 and 18 %). Unknown in case (b), which was never
+  ///         computed.
+  /// limits  0.05 and 0.2.
   Premise coupling;
 
   Regime regime = Regime::unknown;
 
-  /// For the μ that is known, otherwise for μ = 0.1, 0.3 and 1.
+  /// For the known μ, otherwise for μ = 0.1, 0.3 and 1.
   std::vector<LargestMotion> largest;
 };
 
-/// Of a premise what stands behind its name: the condition and the value in the words of a user,
-/// with {} for the limit of 5 % and the value, what to do where it fails, and the dimension of both.
+/// Description of one assumption: the condition and the value in a user's words, with {} for the
+/// 5 % limit and for the value, the remedy where it fails, and the dimension of both numbers.
 struct PremiseWords : Kept {
   std::string_view condition, here, remedy;
   Dimension value_dimension = Dimension::dimensionless;
@@ -267,50 +268,58 @@ struct PremiseName : PremiseWords {
 };
 std::span<const PremiseName> premise_names();
 
-/// mean_indentation: δ0, m, as DampingResult::indentation. A table is continued beyond its ends by
-/// exponentials with the F/K there. Drag::drag_velocity NaN: not known; the largest is found.
-/// throws  InvalidInput for facts that are not > 0, for a nominal pressure above the hardness, and
-///         as relaxation_damping()
+/// Checks the assumptions of a motion about the mean indentation δ0, m
+/// (DampingResult::indentation).
+///
+///     Premises premises = premises_of(law, result.indentation, motion, {.hardness = 6e9});
+///
+/// A table is continued beyond its ends by exponentials with the F/K there. With an unknown
+/// Drag::drag_velocity (NaN) the largest allowed one is found.
+/// throws  InvalidInput for parameters that are not > 0, for a nominal pressure above the hardness,
+///         and as relaxation_damping()
 /// cost    about 10 ms and 10⁴ evaluations of the law
 Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                      const ContactFacts& facts = {});
-/// Two frequencies: as case (a), over the common period; without one the slip is not known.
+/// The same for two frequencies, as case (a) over the common period; without one, slip is unknown.
 Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
                      const ContactFacts& facts = {});
-/// A sampled path about the middle of its indentations, u_z and u_x half its ranges; one that
-/// drifts is case (b) with its mean velocity.
+/// The same for a sampled path about the middle of its indentations, with u_z and u_x half its
+/// ranges; a path with drift is case (b) with its mean velocity.
 Premises premises_of(const ContactLaw& law, const SampledMotion& path,
                      const ContactFacts& facts = {});
 
-/// The loss of a law with slip: Coulomb's law holds for each of the springs that lose energy without
-/// slip. Case (b) without an excursion: sliding that goes on, all
-/// levels slip; with one: mean of a cycle on the way there and back, and over the phases of the
-/// turning points, to first order in the way of a cycle over the excursion.
+/// Computes the loss of a law with slip: Coulomb's law holds for each of the springs that lose
+/// energy without slip.
+///
+///     Loss loss = loss_with_slip(law, result.indentation, Drag{1e-9, 1e-6, 1e5}, 0.3, 1e-5);
+///
+/// Case (b) without an excursion is sliding without reversal, in which all springs slip. With an
+/// excursion the result is the mean over the cycles there and back and over the phases of the
+/// turning points, to first order in the distance per cycle over the excursion.
 /// throws  InvalidInput for μ or an excursion that is not > 0, and as relaxation_damping()
 Loss loss_with_slip(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
                     double friction_coefficient, double excursion = ContactFacts::unknown);
 
-/// Regimes of case (b) over velocity and excursion of the slow motion, with borders from the
-/// springs of the law.
+/// Regimes of case (b) over velocity and excursion of the slow motion, computed from the springs of
+/// the law.
 struct RegimeMap {
   std::vector<double> velocity;   ///< v, m/s
   std::vector<double> excursion;  ///< X, m
-  /// (velocities, excursions): as Premises::regime.
+  /// (velocities, excursions), as Premises::regime.
   std::vector<std::vector<Regime>> regime;
-  /// W/W without slip (velocities, excursions), mean of a normal cycle on the way there and back;
-  /// NaN where X is shorter than the way in one, and where nothing is lost without slip.
+  /// W over W without slip (velocities, excursions), mean of a normal cycle there and back; NaN
+  /// where X is shorter than the distance per cycle, and where nothing is lost without slip.
   Field loss_ratio;
-  Field slip_ratio;  ///< its part from levels that stay closed
-  /// X up to which there is no slip at each velocity, m; 0: at no excursion, NaN: at every one.
+  Field slip_ratio;  ///< part of it from springs that stay closed
+  /// Largest X without slip at each velocity, m; 0: none, NaN: all.
   std::vector<double> no_slip_excursion;
-  double no_slip_velocity =
-      ContactFacts::unknown;  ///< v up to which there may be no slip, m/s; NaN: any
+  double no_slip_velocity = ContactFacts::unknown;  ///< largest v without slip, m/s; NaN: any
   double sliding_excursion =
       ContactFacts::unknown;  ///< X from which the contact slides, m; NaN: it opens in each cycle
   double critical_velocity =
-      ContactFacts::unknown;  ///< v_c = (μ/g) u_z ω, m/s: levels never stick beyond
-  /// W without slip over its small-amplitude form, Eq. (15), or (16) of an exponential law:
-  /// loss_ratio times this is the loss over that equation.
+      ContactFacts::unknown;  ///< v_c = (μ/g) u_z ω, m/s: above it nothing sticks
+  /// W without slip over its small-amplitude form, Eq. (15), or (16) for an exponential law; times
+  /// loss_ratio it is the loss over that equation.
   double full_stick_ratio = ContactFacts::unknown;
 };
 
@@ -341,21 +350,25 @@ constexpr void describe(auto&& visit, std::type_identity<RegimeMap>) {
                  "energy dissipated in a cycle without slip over its small-amplitude form"});
 }
 
-/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is not
-///         > 0, and as relaxation_damping()
+/// Computes the regime map of a law.
+///
+///     RegimeMap map = regime_map(law, result.indentation, {1e-9, 1e5}, {1e-6, 1e-5}, {1e-5}, 0.3);
+///
+/// throws  InvalidInput for a velocity, an excursion, an amplitude, a frequency or a μ that is
+///         not > 0, and as relaxation_damping()
 /// cost    some 10 ms, 1 ms for each velocity, and 256 evaluations of the law for each velocity and
 ///         excursion
 RegimeMap regime_map(const ContactLaw& law, double mean_indentation,
                      const NormalOscillation& normal, const std::vector<double>& velocities,
                      const std::vector<double>& excursions, double friction_coefficient);
 
-/// Whether a result may be used, in one word and in the words of a user: the same on the terminal,
-/// in JSON and files, in the report and in Python.
+/// Whether a result can be used. The words are the same on the terminal, in JSON and result files,
+/// in the report and in Python.
 enum class Validity {
-  valid,            ///< all conditions hold: 5 % of the loss at most
+  valid,            ///< all assumptions hold: they change the loss by at most 5 %
   valid_with_care,  ///< one or more are between their limits of 5 and 20 %
   not_valid,        ///< one or more are beyond their limit of 20 %
-  not_checked       ///< those that could be judged hold, and others could not
+  not_checked       ///< those that could be checked hold, and others could not be checked
 };
 template <>
 struct Words<Validity> {
@@ -366,10 +379,10 @@ struct Words<Validity> {
        {Validity::not_checked, "not checked"}});
 };
 
-/// A premise in words, judged over all cases of a result.
+/// An assumption in words, judged over all cases of a result.
 struct Condition {
-  std::string name = {};       ///< of the member of Premises
-  Verdict verdict = {};        ///< the worst of the cases; one that is unknown comes after doubtful
+  std::string name = {};       ///< name of the member of Premises
+  Verdict verdict = {};        ///< verdict of the worst case; unknown ranks after doubtful
   std::string condition = {};  ///< "slow: at least 8.74 normal cycles in an excursion"
   std::string here = {};       ///< "2, at 2.04 MPa to 102 MPa"; "`hardness` not given"
   std::string remedy = {};     ///< what to do; empty where it holds
@@ -384,34 +397,39 @@ constexpr void describe(auto&& visit, std::type_identity<Condition>) {
   visit(&S::remedy, Kept{"remedy", "what to do; empty where it holds"});
 }
 
-/// The argument that gives a fact of Premise::needs.
+/// Returns the name of the argument that supplies the contact parameter named by Premise::needs.
 std::string given_as(const std::string& fact);
 
-/// The conditions of a damping constant, worst first. pressures: of the cases, Pa, to be named;
-/// empty: they are counted. slip_followed: the loss is that with slip, which then is no condition,
-/// but a contact that slides as a whole is no damper.
-/// The amplitude of the closed forms is none: see closed_form_condition().
+/// Returns the assumptions of a damping constant in words, worst first; `cases` is a
+/// std::vector<Premises> here.
+///
+///     std::vector<Condition> conditions = conditions_of(cases, false, pressures);
+///
+/// pressures      of the cases, Pa, which the text then names; empty: it counts the cases
+/// slip_followed  the loss includes slip, so slip is no assumption; but a contact in gross sliding
+///                is not a damper
+/// The small amplitude of the closed forms is not included: see closed_form_condition().
 std::vector<Condition> conditions_of(std::span<const Premises> cases, bool slip_followed,
                                      std::span<const double> pressures = {});
 
-/// What Eqs (12), (15) and (16) need in addition.
+/// Returns the additional assumption of Eqs (12), (15) and (16): a small amplitude.
 Condition closed_form_condition(std::span<const Premises> cases,
                                 std::span<const double> pressures = {});
 
-/// Of the worst condition.
+/// Returns the validity by the worst assumption.
 Validity validity_of(std::span<const Condition> conditions);
 
-/// A line for each condition, "  !   slow: at least … here 2, …", of at most 78 columns, with its
-/// remedy below where it does not hold. Names of facts stand in backticks.
+/// Formats one line per assumption, "  !   slow: at least … here 2, …", of at most 78 columns, with
+/// the remedy below it where it does not hold. Names of parameters are in backticks.
 std::string in_words(std::span<const Condition> conditions);
 
-/// The regimes of the cases, "partial slip at 1 MPa to 5 MPa, sliding at 20 MPa"; empty where none
-/// is known.
+/// Formats the regimes of the cases, "partial slip at 1 MPa to 5 MPa, sliding at 20 MPa"; empty
+/// where none is known.
 std::string regimes_in_words(std::span<const Premises> cases,
                              std::span<const double> pressures = {});
 
-/// The largest motions without slip, "no excursion (µ up to 0.3), 89.6 pm at 5.75 µm/s (µ = 1)", of the
-/// case that bears least; empty where none is known.
+/// Formats the largest motions without slip of the least tolerant case, "no excursion (µ up to
+/// 0.3), 89.6 pm at 5.75 µm/s (µ = 1)"; empty where none is known.
 std::string motion_without_slip(std::span<const Premises> cases);
 
 }  // namespace salebra

@@ -3,7 +3,9 @@
 
 #include <salebra/base/describe.hpp>
 
-/// Quantities that several results of damping have.
+/// Quantities that several damping results share, for their describe() functions:
+///
+///     visit(&S::power, quantity::power);
 namespace salebra::quantity {
 
 inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angular_frequency,

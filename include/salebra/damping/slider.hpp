@@ -10,18 +10,18 @@
 #include <salebra/damping/quantities.hpp>
 #include <vector>
 
-/// A slider on a spring: stick–slip, and the normal oscillation that suppresses it.
+/// A slider on a spring: stick–slip, and its suppression by a normal oscillation.
 namespace salebra {
 
-/// A mass m that a spring k and a dashpot c in parallel with it drag at constant velocity V over a
-/// contact, whose friction force T may be given a falling part −bẋ:
+/// A mass m that a spring k and a parallel dashpot c drag at constant velocity V over a contact
+/// with friction force T, to which a falling part −bẋ may be added:
 ///     m ẍ + c(ẋ − V) − bẋ + k(x − Vt) + T = 0.
 /// The dashpot is that of the support, as in the model of a mass on a moving belt: it carries no
 /// force in steady sliding.
 struct Slider {
   double mass = 0;              ///< m > 0, kg
   double spring_stiffness = 0;  ///< k > 0, N/m
-  double velocity = 0;          ///< V > 0 of the drive, m/s
+  double velocity = 0;          ///< velocity V > 0 of the drive, m/s
   double support_damping = 0;   ///< c >= 0, N s/m
   double falling_slope = 0;     ///< b >= 0, N s/m
 };
@@ -40,9 +40,8 @@ constexpr void describe(auto&& visit, std::type_identity<Slider>) {
 }
 
 enum class SliderStart {
-  rest,    ///< at rest, dragged to the point of slipping
-  sliding  ///< steady sliding with a velocity that is 1 % too low: shows whether small disturbances
-           ///< grow
+  rest,    ///< at rest, with the spring stretched to the point of slipping
+  sliding  ///< steady sliding, but 1 % too slow: shows whether small disturbances grow
 };
 
 template <>
@@ -51,11 +50,11 @@ struct Words<SliderStart> {
       {{SliderStart::rest, "rest"}, {SliderStart::sliding, "sliding"}});
 };
 
-/// What the motion ends in.
+/// The final state of the motion.
 enum class SliderState {
   steady,     ///< sliding at the velocity of the drive
   pulsating,  ///< the velocity oscillates slowly, without sticking
-  stick_slip  ///< with times of sticking
+  stick_slip  ///< with periods of sticking
 };
 
 template <>
@@ -67,46 +66,45 @@ struct Words<SliderState> {
 };
 
 struct SliderOptions {
-  Hold hold = Hold::indentation;  ///< what of the position stays fixed, as in DampingOptions
-  SliderStart start = SliderStart::rest;  ///< where the motion begins
-  /// >= 16, in a period of the oscillation. More are taken where the slider or the contact's
+  Hold hold = Hold::indentation;  ///< quantity of the position held constant, as in DampingOptions
+  SliderStart start = SliderStart::rest;  ///< initial state
+  /// >= 16, per period of the oscillation; more are taken where the slider or the contact's
   /// resonance √(K_t/m) is faster.
   int steps = 32;
-  /// Relative, of the amplitude of a slow cycle: between halved steps, and between the cycles that
-  /// are averaged. 1e-6 … 0.5.
+  /// Relative tolerance of the amplitude of a slow cycle, between halved steps and between the
+  /// averaged cycles; 1e-6 … 0.5.
   double tolerance = 1e-2;
-  int most_cycles = 200;      ///< > 0, slow periods 2π√(m/k), after which the motion is given up
-  Progress on_progress = {};  ///< of all functions here; a stop throws Interrupted
+  int most_cycles = 200;      ///< > 0, slow periods 2π√(m/k) after which the run gives up
+  Progress on_progress = {};  ///< for all functions here; a stop throws Interrupted
 };
 
-/// The motion in which a slider ends. Means are over whole slow cycles, from one largest stretch of
-/// the spring to the next; of steady sliding over one slow period.
+/// The final motion of a slider. Means are over whole slow cycles, between maxima of the spring's
+/// stretch; for steady sliding they are over one slow period.
 struct SliderMotion {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   SliderState state = SliderState::steady;
   double slider_amplitude = unknown;  ///< half the range of x − Vt in a slow cycle, m; 0: steady
   double slider_amplitude_error = unknown;  ///< m: halved steps, and the spread of the cycles
-  double slider_period = unknown;           ///< of a slow cycle, s; NaN: steady
-  /// Part of the time in which not all levels slip in a normal period, so that the contact as a
-  /// whole stays where it is.
+  double slider_period = unknown;           ///< period of a slow cycle, s; NaN: steady
+  /// Fraction of the time in which not all springs of the contact slip during a normal period, so
+  /// that the contact as a whole sticks.
   double stuck_fraction = unknown;
-  double mean_tangential_force = unknown;  ///< of T, N, without the falling part
-  double friction_coefficient = unknown;   ///< that over the mean normal force
-  double max_spring_force = unknown;       ///< k(Vt − x) in a slow cycle, N
-  double drive_power = unknown;            ///< what the drive puts in, W
-  double contact_power = unknown;          ///< lost by the contact's levels, W
-  double support_power = unknown;          ///< lost in the dashpot, W
-  double falling_slope_power = unknown;    ///< b⟨ẋ²⟩, by which friction loses less, W
-  /// What the balance of these and of the stored energy leaves, over drive_power: error of the
-  /// steps.
+  double mean_tangential_force = unknown;  ///< mean of T, N, without the falling part
+  double friction_coefficient = unknown;   ///< mean T over the mean normal force
+  double max_spring_force = unknown;       ///< maximum of k(Vt − x) in a slow cycle, N
+  double drive_power = unknown;            ///< power of the drive, W
+  double contact_power = unknown;          ///< power lost by the contact's springs, W
+  double support_power = unknown;          ///< power lost in the dashpot, W
+  double falling_slope_power = unknown;  ///< b⟨ẋ²⟩, friction loss saved by the falling part, W
+  /// Residual of the energy balance of these over drive_power: error of the steps.
   double energy_error = unknown;
-  int cycles = 0;          ///< slow cycles that were averaged
-  bool converged = false;  ///< whether a motion that repeats was found, to the tolerance
-  /// Some last cycles, where δ is least.
+  int cycles = 0;          ///< number of slow cycles averaged
+  bool converged = false;  ///< whether the motion repeats to the tolerance
+  /// The last cycles, sampled where δ is smallest.
   std::vector<double> time;              ///< s
   std::vector<double> slider_offset;     ///< x − Vt, m
   std::vector<double> slider_velocity;   ///< ẋ, m/s
-  std::vector<double> tangential_force;  ///< T, N; of the averaged equation its mean T̄
+  std::vector<double> tangential_force;  ///< T, N; for the averaged equation its mean T̄
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SliderMotion>) {
@@ -146,44 +144,50 @@ constexpr void describe(auto&& visit, std::type_identity<SliderMotion>) {
   visit(&S::tangential_force, quantity::tangential_force);
 }
 
-/// The full equation: T from the contact's levels with the history of each (TangentialContact),
-/// step by step until the motion repeats. Steps of second order; the motion is followed with
-/// `steps` and twice as many until the amplitude changes by less than the tolerance.
-/// normal_oscillation  δ = δ0 − u_z cos ωt; u_z = 0: none, and ω is not used; else ω > 4√(k/m)
+/// Integrates the full equation of motion until the motion repeats, with T from the contact's
+/// springs and the history of each (TangentialContact). The steps are of second order; the motion
+/// is computed with `steps` and twice as many until the amplitude changes by less than the
+/// tolerance.
+///
+///     SliderMotion end = slider_motion(law, AtForce{1}, {1e-9, 1e6}, {.mass = 1e-3,
+///                                      .spring_stiffness = 1e4, .velocity = 1e-5}, 0.3);
+///
+/// normal_oscillation  δ = δ0 − u_z cos ωt with ω > 4√(k/m); u_z = 0: none, and ω is not used
 /// friction_coefficient  μ > 0, finite
 /// throws  InvalidInput as steady_sliding(), where the motion reaches velocities at which −bẋ makes
 ///         friction negative, and where a period of the oscillation takes more than 500,000 steps
 ///         or a slow cycle more than 10 million; Interrupted where on_progress says stop
-/// cost    some 0.6 µs a step; slow cycles have ω/√(k/m) times `steps` of them, and more the slower
-///         the drive
+/// cost    some 0.6 µs per step; a slow cycle has ω/√(k/m) times `steps` of them, and more with a
+///         slower drive
 SliderMotion slider_motion(const ContactLaw& law, const Position& position,
                            const NormalOscillation& normal, const Slider& slider,
                            double friction_coefficient, const SliderOptions& options = {});
 
-/// The averaged equation m ẍ + c(ẋ − V) − bẋ + k(x − Vt) + T̄(ẋ) = 0 with T̄ of steady_sliding(),
-/// |T| <= μF(δ_min) at rest: the limit of √(k/m) << √(K_t/m) << ω of the full one. Solved by
-/// Runge–Kutta steps of order 8 between sticking and slipping, which are located.
+/// Integrates the averaged equation m ẍ + c(ẋ − V) − bẋ + k(x − Vt) + T̄(ẋ) = 0 with T̄ of
+/// steady_sliding() and |T| <= μF(δ_min) at rest. It is the limit of the full one for
+/// √(k/m) ≪ √(K_t/m) ≪ ω. Solved by Runge–Kutta steps of order 8 between located changes of
+/// sticking and slipping.
 SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& position,
                                     const NormalOscillation& normal, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options = {});
 
-/// What becomes of a small disturbance of steady sliding.
+/// Growth of a small disturbance of steady sliding.
 struct SliderStability {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double sliding_damping = unknown;  ///< dT̄/dv at V, by steady_sliding(), N s/m
-  /// Difference of sliding_damping from slider_damping, N s/m: what the mass does within a period.
-  /// NaN: too much for an estimate.
+  double sliding_damping = unknown;  ///< dT̄/dv at V, from steady_sliding(), N s/m
+  /// Estimated difference between sliding_damping and slider_damping, due to the motion of the mass
+  /// within a period, N s/m. NaN: too large to estimate.
   double sliding_damping_error = unknown;
-  /// What has to take the place of dT̄/dv for the mass and the spring alone to have the full
-  /// equation's growth, N s/m; NaN where K_t/m is so large that the contact swings within a period.
+  /// The damping that replaces dT̄/dv to give mass and spring alone the growth of the full
+  /// equation, N s/m; NaN where K_t/m is so large that the contact swings within a period.
   double slider_damping = unknown;
-  double growth_rate = unknown;           ///< of the full equation, 1/s
-  double averaged_growth_rate = unknown;  ///< 1/s, of m s² + (dT̄/dv + c − b)s + k; < 0: it dies
-                                          ///< out
+  double growth_rate = unknown;           ///< growth rate of the full equation, 1/s
+  double averaged_growth_rate = unknown;  ///< growth rate, 1/s, from m s² + (dT̄/dv + c − b)s +
+                                          ///< k; < 0: it decays
   bool converged =
-      false;  ///< false: no steady sliding without turning back was found; growth_rate is NaN
+      false;  ///< false: no steady sliding without reversal was found; growth_rate is NaN
 
-  /// Whether small disturbances die out; empty where growth_rate is not known.
+  /// Whether small disturbances decay; empty where growth_rate is unknown.
   std::optional<bool> stable() const {
     return converged ? std::optional(growth_rate < 0) : std::nullopt;
   }
@@ -205,27 +209,30 @@ constexpr void describe(auto&& visit, std::type_identity<SliderStability>) {
   visit(&S::stable, Quantity{"stable", dimensionless, "steady sliding is stable"});
 }
 
-/// While the slider never turns back, all levels that touch are at the limit of their stretch
-/// whenever δ is least: the state there is (x − Vt, ẋ) and a period of the full equation is a map
-/// of two numbers. Its fixed point is steady sliding, its multipliers are the growth. The error of
-/// the averaged estimate is that of two effects of the mass, f = Γ/(πmω) in place of K_t/(mω²).
-/// Levels that stick for a whole period have −ln cos(2π√f)/(2π²f) times the damping. The mass
-/// yields to the oscillating friction, so that V is V/(1 − f) to what decides on sticking. To the
-/// larger of both (π²/3)(k/m)/ω² of the damping are added.
+/// Computes the stability of steady sliding. While the slider never reverses, all springs in
+/// contact are at their stretch limit whenever δ is smallest: the state there is (x − Vt, ẋ), and a
+/// period of the full equation maps these two numbers. The fixed point of the map is steady
+/// sliding; its multipliers are the growth.
+///
+///     SliderStability sliding = slider_stability(law, AtForce{1}, normal, slider, 0.3);
+///
+/// The error of the averaged estimate is that of two effects of the mass, with f = Γ/(πmω)
+/// replacing K_t/(mω²). Springs that stick for a whole period have −ln cos(2π√f)/(2π²f) times the
+/// damping. The mass follows the oscillating friction, so that V/(1 − f) replaces V in deciding on
+/// sticking. The error is the larger of both plus (π²/3)(k/m)/ω² of the damping.
 /// throws  InvalidInput as slider_motion()
 /// cost    some ten periods of the full equation with 4 `steps`
 SliderStability slider_stability(const ContactLaw& law, const Position& position,
                                  const NormalOscillation& normal, const Slider& slider,
                                  double friction_coefficient, const SliderOptions& options = {});
 
-/// The least amplitude, m, or angular frequency, rad/s, of the normal oscillation at which small
-/// disturbances of sliding die out.
+/// The smallest amplitude, m, or angular frequency, rad/s, of the normal oscillation at which small
+/// disturbances of sliding decay.
 struct SliderThreshold {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double value = unknown;  ///< of the full equation; NaN: none in the range, or one below it
-  double linear_estimate = unknown;  ///< where dT̄/dv + c = b; NaN as value
-  /// How far linear_estimate moves with the error of dT̄/dv (SliderStability). NaN: out of the
-  /// range.
+  double value = unknown;  ///< from the full equation; NaN: none in the range, or one below it
+  double linear_estimate = unknown;  ///< from dT̄/dv + c = b; NaN as value
+  /// Change of linear_estimate by the error of dT̄/dv (SliderStability); NaN: out of the range.
   double linear_estimate_error = unknown;
 };
 
@@ -237,10 +244,10 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThreshold>) {
         Kept{"linear_estimate_error", "error of linear_estimate by the slider's mass"});
 }
 
-/// Thresholds that were looked for.
+/// Thresholds of a search; empty where not searched for.
 struct SliderThresholds {
-  std::optional<SliderThreshold> amplitude = {};  ///< of the normal oscillation at its frequency, m
-  std::optional<SliderThreshold> frequency = {};  ///< at its amplitude, Hz
+  std::optional<SliderThreshold> amplitude = {};  ///< normal amplitude at the given frequency, m
+  std::optional<SliderThreshold> frequency = {};  ///< frequency at the given amplitude, Hz
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {
@@ -252,10 +259,11 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {
                  "minimum frequency of the normal oscillation at which sliding is stable"});
 }
 
-/// Both look upwards from where v_c = V, below which nothing sticks, in ratios of 1.05, and
-/// frequencies from 4.01 of the slider's natural one, below which an oscillation does not average. The
-/// estimate has an upper end too, for Γ falls with either.
-/// last    the oscillation at the end of the range: the largest amplitude, or the largest frequency
+/// Search for the threshold upwards from v_c = V, below which nothing sticks, in ratios of 1.05, and
+/// frequencies from 4.01 times the natural one of the slider, below which an oscillation does not
+/// average. The estimate also has an upper end, since Γ falls with either quantity.
+/// last    oscillation at the end of the range: with the largest amplitude, or the largest
+///         frequency
 /// throws  InvalidInput as slider_motion(), and where b <= c, which needs no oscillation
 /// cost    slider_stability() and steady_sliding() some tens to hundreds of times
 SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& position,

@@ -15,23 +15,23 @@
 
 namespace salebra {
 
-/// A contact that slides steadily at constant velocity while it oscillates in the normal direction.
+/// State of a contact in steady sliding at constant velocity under a normal oscillation.
 struct SteadySliding {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double indentation = unknown;        ///< δ0, m
   double mean_force = unknown;         ///< F̄, mean normal force of the cycle, N
-  double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from it on
-  /// μF(δ_min)/F̄: limit of T̄/F̄ as v → 0, the friction to be overcome to start.
+  double critical_velocity = unknown;  ///< v_c = μK/K_t·u_z ω, m/s; T̄ = μF̄ from there on
+  /// μF(δ_min)/F̄: limit of T̄/F̄ as v → 0, the static friction.
   double static_friction_coefficient = unknown;
   double low_speed_damping =
       unknown;  ///< Γ, N s/m: T̄ = μF(δ_min) + Γv + O(v^{3/2}); NaN for u_z = 0
   double relaxation_damping = unknown;     ///< γ of case (b) without slip, N s/m
   double mean_tangential_force = unknown;  ///< T̄, N
-  double friction_coefficient = unknown;   ///< T̄/F̄: what a slow observer measures
+  double friction_coefficient = unknown;   ///< T̄/F̄, the apparent coefficient of friction
   double sliding_damping = unknown;  ///< dT̄/dv at this velocity, N s/m: Γ as v → 0, 0 from v_c on
-  double relaxation_work = unknown;  ///< lost per period by levels that open and close, J
-  double slip_work = unknown;        ///< lost per period by levels that stay closed, J
-  double error_estimate = unknown;   ///< of mean_tangential_force, N: quadrature, not the law's
+  double relaxation_work = unknown;  ///< lost per period by springs that open and close, J
+  double slip_work = unknown;        ///< lost per period by springs that stay closed, J
+  double error_estimate = unknown;   ///< error of mean_tangential_force by the quadrature, N
   bool converged = false;            ///< whether the quadratures reached the tolerance
 };
 
@@ -60,7 +60,7 @@ constexpr void describe(auto&& visit, std::type_identity<SteadySliding>) {
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
 
-/// Errors of the numbers of a SteadySliding, of a surface; NaN where not known.
+/// Numerical errors of the numbers of a SteadySliding on a surface; NaN where unknown.
 struct SlidingErrors {
   static constexpr double unknown = SteadySliding::unknown;
   double mean_force_error = unknown, critical_velocity_error = unknown,
@@ -94,7 +94,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingErrors>) {
   visit(&S::slip_work_error, Quantity{"slip_work_error", energy, "error of slip_work"});
 }
 
-/// Each number with its error.
+/// Pairs each number with its error.
 inline constexpr std::pair<double SteadySliding::*, double SlidingErrors::*> sliding_errors[]{
     {&SteadySliding::mean_force, &SlidingErrors::mean_force_error},
     {&SteadySliding::critical_velocity, &SlidingErrors::critical_velocity_error},
@@ -108,14 +108,14 @@ inline constexpr std::pair<double SteadySliding::*, double SlidingErrors::*> sli
     {&SteadySliding::slip_work, &SlidingErrors::slip_work_error},
     {&SteadySliding::relaxation_damping, &SlidingErrors::relaxation_damping_error}};
 
-/// Steady sliding at one amplitude and velocity of several.
+/// Steady sliding at one amplitude and one velocity.
 struct SlidingPoint {
   double normal_amplitude = 0;                     ///< u_z, m
   double velocity = 0;                             ///< v, m/s
-  double velocity_ratio = SteadySliding::unknown;  ///< v/v_c, where the velocity is given by it
+  double velocity_ratio = SteadySliding::unknown;  ///< v/v_c, if the velocity was given by it
   SteadySliding state = {};
-  SlidingErrors errors = {};  ///< of a surface
-  /// As RegimeMap has it; unknown too where no regimes are mapped.
+  SlidingErrors errors = {};  ///< known for a surface
+  /// RegimeMap::no_slip_excursion, m; unknown too where no regimes are mapped.
   double no_slip_excursion = SteadySliding::unknown;
 };
 
@@ -133,7 +133,7 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingPoint>) {
                  "largest excursion without slip; 0: none, n/a: all excursions"});
 }
 
-/// An entry of a RegimeMap, as a row of a table.
+/// One entry of a RegimeMap, as a row of a table.
 struct RegimePoint {
   double velocity = 0, excursion = 0;  ///< m/s, m
   double loss_ratio = 0, slip_ratio = 0;
@@ -152,17 +152,21 @@ constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
         Quantity{"regime", dimensionless, "0 no slip, 1 partial slip, 2 sliding, 3 unknown"});
 }
 
-/// Mean tangential force of steady sliding with Coulomb's friction under a normal oscillation δ =
-/// δ0 − u_z cosφ. A level ζ of indentation sticks or slips at the stretch limit (μK/K_t)(δ − ζ).
-/// While v > 0 every closed level is at its limit when δ is least, so that one period from there is
-/// the steady state (docs/theory.md, section 8). With r = v/v_c < 1, φ_a = arcsin r, and φ_e(φ) > π
-/// − φ_a where −cosφ_e − rφ_e = −cosφ − rφ,
+/// Computes the mean tangential force of steady sliding with Coulomb friction under a normal
+/// oscillation δ = δ0 − u_z cosφ.
+///
+///     SteadySliding state = steady_sliding(law, AtForce{1}, Drag{1e-9, 1e-4, 1e5}, 0.3);
+///
+/// The spring at depth ζ sticks, or slips at the stretch limit (μK/K_t)(δ − ζ). For v > 0 every
+/// closed spring is at its limit when δ is smallest, so one period from there is the steady state
+/// (docs/theory.md, section 8). With r = v/v_c < 1, φ_a = arcsin r, and φ_e(φ) > π − φ_a where
+/// −cosφ_e − rφ_e = −cosφ − rφ,
 ///     T̄ = μF(δ_min) + (1/2π) ∫_0^π [μ u_z K (2π − φ − φ_e) sinφ + (v/ω) K_t (φ_e − φ)] dφ,
-/// φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. Where K_t has
-/// values of its own, K_t/K is taken at δ0. A small disturbance of the sliding, slow against the
+/// with φ_e = 2π − φ and no second term outside φ_a < φ < π − φ_a. Γ = γ + πK_t(δ_min)/ω. If the
+/// law has its own K_t, K_t/K is taken at δ0. A small disturbance of the sliding, slow against the
 /// oscillation, is damped by
 ///     dT̄/dv = (1/2πω) ∫ K_t (φ_e − φ)(1 + (sinφ − r)/(r − sinφ_e)) dφ   over φ_a < φ < π − φ_a,
-/// since the stretch of a level that sticks since φ grows by (φ' − φ)/ω for each unit of v until it
+/// since the stretch of a spring that sticks from φ on grows by (φ' − φ)/ω per unit of v until it
 /// slips.
 /// friction_coefficient  μ >= 0, finite
 /// motion                drag_velocity is v > 0
@@ -171,14 +175,14 @@ constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
 ///         list of velocities shares them
 SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
                              double friction_coefficient, const DampingOptions& options = {});
-/// One for each velocity > 0, m/s.
+/// The same for each velocity > 0, m/s.
 std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
                                           const NormalOscillation& normal,
                                           std::span<const double> velocities,
                                           double friction_coefficient,
                                           const DampingOptions& options = {});
 
-/// Steady sliding over velocities under one oscillation.
+/// The motion of surface_sliding(): several velocities under one oscillation.
 struct SurfaceSlidingMotion {
   NormalOscillation normal;         ///< u_z > 0
   std::vector<double> velocities;   ///< > 0, m/s
@@ -186,17 +190,18 @@ struct SurfaceSlidingMotion {
   Hold hold = Hold::indentation;
 };
 
-/// The same of a surface, from contacts inside the oscillation, and its errors. K between contacts is
-/// kriged as by surface_damping(), in which all numbers are nearly linear, so that each has a
-/// standard deviation, of which 1.8 are stated. Error, besides: a third of what the number changes
-/// by on cells of half the size, which it is given of; what it changes by where every second contact
-/// is left out, and where K_t/K is a straight line. relaxation_damping is that of surface_damping().
-/// A number that is no larger than its error is NaN, and the error is.
-/// curve   of this surface and material, in full stick; `load` is the sample about which it slides
-/// returns one for each velocity
-/// throws  InvalidInput for u_z that is not > 0, and as above; NotConverged where a contact did
-///         not; Interrupted
-/// cost    nine contacts on the cells as they are and five on cells of half the size, and those of
+/// The same for a surface, from contacts solved inside the oscillation, with errors. K between
+/// contacts is kriged as in surface_damping(). All numbers are nearly linear in K, so each has a
+/// standard deviation, of which 1.8 are stated. The error also contains a third of the change on
+/// cells of half the size, for which the number is given; the change where every second contact is
+/// left out; and the change with a straight K_t/K. relaxation_damping is that of surface_damping().
+/// A number is NaN where it is no larger than its error.
+/// curve   of this surface and material, in full stick; `load` is the index of the sample about
+///         which it slides
+/// returns one pair for each velocity
+/// throws  InvalidInput for u_z that is not > 0, and as above; NotConverged where a contact did not
+///         converge; Interrupted
+/// cost    nine contacts on the given cells, five on cells of half the size, and those of
 ///         surface_damping()
 std::vector<std::pair<SteadySliding, SlidingErrors>> surface_sliding(
     const Surface& surface, const Material& material, const ForceCurve& curve, std::size_t load,

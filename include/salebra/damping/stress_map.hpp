@@ -11,12 +11,12 @@
 
 namespace salebra {
 
-/// Stresses under an axisymmetric indenter in the first, and already steady, cycle that begins free
-/// of tangential stress at the least indentation: δ = δ0 + u_z cosθ, θ = ωt from −π to π (Fig. 4 of
-/// the paper). Full stick.
+/// Stresses under an axisymmetric indenter in full stick, in the first cycle from the smallest
+/// indentation, where tangential stress is zero; this cycle is already steady: δ = δ0 + u_z cosθ,
+/// θ = ωt from −π to π (Fig. 4 of the paper).
 class OscillatingStress {
  public:
-  /// Throws InvalidInput where the motion is not usable or leaves the profile.
+  /// Throws InvalidInput where the motion is invalid or leaves the profile.
   OscillatingStress(const IndenterLaw& law, double mean_indentation, const Oscillation& motion);
 
   double contact_radius(double angle) const;      ///< a(θ), m; 0 while the contact is open
@@ -25,17 +25,17 @@ class OscillatingStress {
   double tangential_force(double angle) const;    ///< F_x = 2∫_0^a q_x dx, N
   double pressure(double angle, double r) const;  ///< p(r), Pa
   /// τ(r) by Eq. (17) from q_x = G*(x − x0), Pa; 0 for r >= a.
-  /// While δ falls it has a square-root singularity at the edge: τ → (G*/π)(x(θ) − x(−θ))/√(a² −
-  /// r²), x(θ) − x(−θ) = −2u_x sinθ sinφ0. At the least contact radius it has, once passed, a
-  /// logarithmic one whose coefficient does not change in time: (G*x'(−π)/2π)√(2/(R u_z))
-  /// ln[1/(a_min − r)] for a paraboloid, x' = dx/dθ.
+  /// While δ falls it has a square-root singularity at the edge: τ →
+  /// (G*/π)(x(θ) − x(−θ))/√(a² − r²), x(θ) − x(−θ) = −2u_x sinθ sinφ0. At the smallest contact
+  /// radius, once passed, it has a logarithmic one with a coefficient constant in time:
+  /// (G*x'(−π)/2π)√(2/(R u_z)) ln[1/(a_min − r)] for a paraboloid, x' = dx/dθ.
   double shear(double angle, double r) const;
 
  private:
   double indentation(double angle) const;
   double position(double angle) const;  // x(θ), whatever its origin
   double speed(double angle) const;     // dx/dθ
-  // |θ| at which the level of image radius x touches, and lets go.
+  // |θ| at which the spring at image radius x touches and separates.
   double touch_angle(double radius) const;
 
   const IndenterLaw& law_;
@@ -65,10 +65,14 @@ constexpr void describe(auto&& visit, std::type_identity<StressMap>) {
   visit(&S::contact_pressure, Quantity{"contact_pressure", pressure, "contact pressure"});
 }
 
-/// The map of Fig. 4: `phases` + 1 angles from −π to π, both ends included, and `radii` cells from
-/// 0 to 1.05 times the largest contact radius, with the stresses at their middles. In parallel over
-/// phases; a stop of the progress
-/// throws Interrupted.
+/// Computes the map of Fig. 4, in parallel over phases.
+///
+///     StressMap map = stress_map(law, 1e-8, EqualFrequency{1e-9, 1e-10, std::numbers::pi / 2});
+///
+/// phases  gives phases + 1 angles from −π to π, both ends included
+/// radii   number of cells from 0 to 1.05 times the largest contact radius; stresses are at their
+///         middles
+/// throws  Interrupted where on_progress says stop
 StressMap stress_map(const IndenterLaw& law, double mean_indentation, const Oscillation& motion,
                      int phases = 128, int radii = 256, const Progress& on_progress = {});
 

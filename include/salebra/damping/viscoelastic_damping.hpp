@@ -10,25 +10,25 @@
 
 namespace salebra {
 
-/// What a viscoelastic contact that sticks loses in a period of its steady state, and by what.
+/// Loss of a viscoelastic contact in full stick over a period of its steady state, by cause.
 struct ViscoelasticDamping {
-  double work_per_cycle = 0;  ///< all of it, J: the sum of the next three
-  /// Work of the material under the normal motion, J: ∮F dδ. It is there without tangential motion
-  /// too.
+  double work_per_cycle = 0;  ///< total loss, J: the sum of the next three
+  /// Loss in the material under the normal motion, J: ∮F dδ. It also exists without tangential
+  /// motion.
   double normal_material_work = 0;
   double tangential_material_work =
-      0;  ///< by the material of springs in contact under the tangential motion, J
-  /// By springs that are let go stretched, J: what they hold when they leave, less what they still
-  /// hold when they are met again. It is lost at once and by recovery of the free surface, and
-  /// tends to the relaxation damping of an elastic body.
+      0;  ///< loss in the material of springs in contact under the tangential motion, J
+  /// Energy of springs that separate while stretched, J, minus what they still hold when they touch
+  /// again. It is lost at once and by recovery of the free surface, and tends to the relaxation
+  /// damping of an elastic body.
   double relaxation_work = 0;
   double power = 0;  ///< work_per_cycle over the period, W
-  /// Damping constant of tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a
+  /// Damping constant from tangential_material_work and relaxation_work over ⟨ẋ²⟩, N s/m; NaN for a
   /// motion without ẋ.
   double damping_constant = 0;
   std::vector<double> force;      ///< F at the samples of the trajectory, N
-  double mean_force = 0;          ///< its mean over the period, N
-  double min_contact_radius = 0;  ///< of what never leaves contact, m
+  double mean_force = 0;          ///< mean of F over the period, N
+  double min_contact_radius = 0;  ///< of the permanent contact, m
   double max_contact_radius = 0;  ///< m
   /// Whether the periodic state of each spring was found; round-off hides it where relaxation times
   /// exceed some 1e9 periods.
@@ -58,28 +58,32 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticDamping>) {
   visit(&S::converged, Kept{"converged", "false: do not use the losses"});
 }
 
-/// Steady state of a viscoelastic body under a periodic trajectory without slip. Springs of the
-/// foundation as in viscoelastic_indentation(), of the tangential stiffness G* where they have E*
-/// normally; a spring that is let go loses its tangential force at once. Each spring's periodic
-/// state is found by Newton's method, not by waiting for it; springs that never leave contact are
-/// one. With drift (case (b)) the force of permanent springs grows for ever, their loss does not.
-/// docs/theory.md, section 9.
-/// law, prony  as in viscoelastic_indentation(); G* is known
+/// Computes the steady state of a viscoelastic body under a periodic trajectory without slip
+/// (docs/theory.md, section 9).
+///
+///     auto loss = viscoelastic_damping(law, prony, sample(motion, 1e-8, 512));
+///
+/// The springs of the foundation are those of viscoelastic_indentation(), with G* for the
+/// tangential stiffness in place of E*; a spring that separates loses its tangential force at once.
+/// The periodic state of each spring is found by Newton's method, without waiting for it; springs
+/// in permanent contact are treated as one. With drift (case (b)) their force grows without bound,
+/// but their loss does not.
+/// law, prony  as in viscoelastic_indentation(); G* must be known
 /// trajectory  one period, straight between the samples; second order in their number
 /// springs     over the ring that opens and closes, second order
 /// throws      InvalidInput as viscoelastic_indentation(), and for a trajectory that is not valid;
-///             Interrupted where on_progress, told of springs, says stop
+///             Interrupted where on_progress, which counts springs, says stop
 /// cost        about 10 × samples × springs × terms
 ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeries& prony,
                                          const SampledMotion& trajectory, int springs = 200,
                                          const Progress& on_progress = {});
 
-/// The same for a motion by its name, beside the moduli at its frequency and the loss of the elastic
-/// body of the relaxed modulus.
+/// The same for a named motion, with the moduli at its frequency and the loss of the elastic body
+/// of the relaxed modulus.
 struct ViscoelasticLoss {
-  double angular_frequency = 0;                  ///< of the normal motion, rad/s
-  double storage_modulus = 0, loss_modulus = 0;  ///< of the shear modulus at it, Pa
-  double elastic_work = 0;                       ///< J
+  double angular_frequency = 0;                  ///< ω of the normal motion, rad/s
+  double storage_modulus = 0, loss_modulus = 0;  ///< of the shear modulus at this frequency, Pa
+  double elastic_work = 0;                       ///< loss of the elastic body, J
   ViscoelasticDamping damping = {};
 };
 
@@ -98,12 +102,13 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticLoss>) {
 }
 
 struct ViscoelasticOptions {
-  int steps = 512;    ///< straight ones of a cycle
+  int steps = 512;    ///< straight steps per cycle
   int springs = 200;  ///< over the ring that opens and closes
   Progress on_progress = {};
 };
 
-/// throws  as relaxation_damping() of the elastic body, which is computed first, and as
+/// Computes the losses of a motion about an indentation, m.
+/// throws  as relaxation_damping() for the elastic body, which is computed first, and as
 ///         viscoelastic_damping()
 ViscoelasticLoss viscoelastic_loss(const IndenterLaw& law, const PronySeries& prony,
                                    const Oscillation& motion, double indentation,

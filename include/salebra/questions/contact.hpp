@@ -19,18 +19,18 @@
 #include <variant>
 #include <vector>
 
-/// Which contact is asked about: a law, or what a law is made of, and where the contact stands.
+/// The contact of a problem: a law, or what a law is computed from, and the operating point.
 namespace salebra {
 
-/// The caller of a question while it is being answered.
+/// Connection to the caller while a problem is solved.
 struct Context {
   Progress on_progress = {};
-  /// Looked at wherever a law is evaluated, so that every search and quadrature over it stops,
-  /// whether or not it reports progress: true throws Interrupted. Empty: never.
+  /// Called at every evaluation of a law, so that all searches and quadratures over it stop,
+  /// whether or not they report progress: true throws Interrupted. Empty: never.
   std::function<bool()> stopped = {};
 };
 
-/// A quantity that says where a contact stands.
+/// The control quantity of an operating point.
 enum class Standing { normal_force, indentation, pressure, mean_gap };
 
 template <>
@@ -42,40 +42,41 @@ struct Words<Standing> {
        {Standing::mean_gap, "mean_gap"}});
 };
 
-/// Where contacts stand: one value of the quantity, or several.
+/// Operating points: one or several values of one control quantity.
 struct Standings {
   Standing quantity = Standing::normal_force;
   std::vector<double> values = {};  ///< N, m, Pa
 };
 
-/// F = F0 exp(δ/l) about the first of its forces: F'' = F/l² whatever F0 is.
+/// F = F0 exp(δ/l) about the first of its forces; F'' = F/l² whatever F0 is.
 struct ExponentialContact {
   double decay_length = 0;   ///< l > 0, m
   double modulus_ratio = 0;  ///< G*/E* > 0
   std::vector<double> normal_force = {};
 };
 
-/// An axisymmetric indenter, at normal forces or indentations.
+/// An axisymmetric indenter, load-controlled or at given indentations.
 struct IndenterContact {
   std::shared_ptr<const IndenterProfile> profile;
   Material material;
   Standings at;
 };
 
-/// A curve that was computed before or measured, at any quantity that it has.
+/// A computed or measured curve, at any control quantity that it has.
 struct CurveContact {
   ForceCurve curve;
-  double modulus_ratio = 0;  ///< G*/E* > 0, for what the curve has no K_t of
+  double modulus_ratio = 0;  ///< G*/E* > 0, used where the curve has no K_t
   Standings at;
-  std::string source = {};  ///< what messages call the curve: its file
+  std::string source = {};  ///< name of the curve in messages: its file
 };
 
-/// A surface, whose law is swept: thirteen contacts about each pressure.
+/// A surface; its law comes from a sweep of thirteen contacts about each pressure.
 struct SurfaceContact {
   Surface surface;
   Material material;
   std::vector<double> pressure = {};  ///< nominal, Pa
-  /// First loading to the largest of them, and by an oscillation about it; Pa. None: elastic.
+  /// Hardness for a plastic first loading to the largest pressure and by an oscillation about it,
+  /// Pa. None: elastic.
   std::optional<double> hardness = {};
   double normal_amplitude = 0;  ///< of that oscillation, m
 };
@@ -83,36 +84,39 @@ struct SurfaceContact {
 using ContactQuestion =
     std::variant<ExponentialContact, IndenterContact, CurveContact, SurfaceContact>;
 
-/// The law of a contact, where it stands on it, and what it was made from.
+/// The law of a contact, its operating points, and the data behind it.
 struct ContactAnswer {
   std::unique_ptr<const ContactLaw> law;
-  std::vector<Position> positions;                 ///< on it
-  std::optional<ForceCurve> curve = {};            ///< that the law was made from
-  std::optional<Surface> surface = {};             ///< that was swept; the residual one, if any
-  std::optional<FirstLoading> first_loading = {};  ///< that left it
-  std::vector<std::string> doubts = {};            ///< allowed and most likely a slip, in words
+  std::vector<Position> positions;                 ///< operating points on the law
+  std::optional<ForceCurve> curve = {};            ///< curve behind the law
+  std::optional<Surface> surface = {};             ///< swept surface, residual after first loading
+  std::optional<FirstLoading> first_loading = {};  ///< first loading that left the residual surface
+  std::vector<std::string> doubts = {};            ///< warnings: the input is valid but suspicious
 
-  /// The sample of the curve whose load is nearest to the first position.
+  /// Index of the sample of the curve whose load is nearest to the first operating point.
   std::size_t load() const;
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
-  /// The facts at a mean indentation and at the deepest one, with what the law, the curve and the
-  /// first loading say.
+  /// Adds to the contact parameters, at a mean and at the deepest indentation, those that the law,
+  /// the curve and the first loading determine.
   ContactFacts facts_at(ContactFacts facts, double indentation, double deepest) const;
-  /// Judges a loss whose slip and amplitude are computed, not left out: the premises of slip, of a
-  /// slow motion and of a small amplitude hold, without a value, and the others are judged.
+  /// Checks a loss that includes slip and finite amplitude: the assumptions of slip, slow motion
+  /// and small amplitude hold without a value, and the others are checked.
   Premises premises_beside_slip(double indentation, const Oscillation& motion,
                                 const ContactFacts& known) const;
 };
 
-/// The law and the positions.
-/// throws  InvalidInput for values that are not > 0, positions beyond a curve, and as the laws,
-///         after_first_loading() and sweep_pressures() do; NotConverged, Interrupted
-/// cost    of a surface some thirteen contacts in full stick for each pressure, and the first
+/// Computes the law and the operating points of a contact.
+///
+///     ContactAnswer contact = ask(SurfaceContact{surface, material, {1e6, 5e6}});
+///
+/// throws  InvalidInput for values that are not > 0, operating points beyond a curve, and as the
+///         laws, after_first_loading() and sweep_pressures() do; NotConverged, Interrupted
+/// cost    for a surface some thirteen contacts in full stick for each pressure, and the first
 ///         loading
 ContactAnswer ask(ContactQuestion question, const Context& context = {});
 
-/// The law alone, for a motion that brings its own indentations; standings are not looked at. A
-/// surface has none.
+/// Returns the law alone, for a motion with its own indentations; operating points are ignored.
+/// Throws InvalidInput for a surface, which has none before a sweep.
 std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question,
                                          const Context& context = {});
 
@@ -145,11 +149,11 @@ constexpr void describe(auto&& visit, std::type_identity<IndenterState>) {
   visit(&S::force_curvature, quantity::force_curvature);
 }
 
-/// What a law says of an indentation, m. Throws as the law.
+/// Returns the state of a law at an indentation, m. Throws as the law.
 LawState state_of(const ContactLaw& law, double indentation);
 IndenterState state_of(const IndenterLaw& law, double indentation);
 
-/// The summits of a surface with adhesion.
+/// Mean summit of a surface with adhesion.
 struct MeanSummit {
   double tabor = ForceSample::unknown;
 };
@@ -159,20 +163,20 @@ constexpr void describe(auto&& visit, std::type_identity<MeanSummit>) {
         Quantity{"tabor", Dimension::dimensionless, "Tabor's parameter of the mean summit"});
 }
 
-/// Of the mean radius that the moments of the surface give its summits [Nayak (1971)]; unknown where
-/// they are not those of a random surface, or nothing adheres.
+/// Returns Tabor's parameter for the mean summit radius from the moments of the surface [Nayak
+/// (1971)]; unknown where they are not those of a random surface, and without adhesion.
 MeanSummit mean_summit(const Surface& surface, const Adhesion& adhesion, double contact_modulus);
 
-/// Puts the residual surface of the first loading in place of the surface, and returns what flowed;
-/// without a hardness nothing.
+/// Replaces the surface by the residual surface of the first loading and returns that loading;
+/// without a hardness it does nothing.
 /// contact  boundary, tolerance and progress
 /// throws   NotConverged, Interrupted, and as after_first_loading()
 std::optional<FirstLoading> load_first(Surface& surface, const std::optional<double>& hardness,
                                        double contact_modulus, double nominal_pressure,
                                        NormalContactOptions contact, double normal_amplitude = 0);
 
-/// A table of radii beyond 1 m, most likely in another unit, or so coarse that the indentation at
-/// this contact radius changes by more than 5 % without every other point.
+/// Warns about a table of radii beyond 1 m, most likely in another unit, or so coarse that omitting
+/// every other point changes the indentation at this contact radius by more than 5 %.
 std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra

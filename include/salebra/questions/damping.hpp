@@ -18,21 +18,23 @@
 #include <variant>
 #include <vector>
 
-/// What a contact loses in a motion, and what the answer assumes.
+/// The loss of a contact under a motion, and the assumptions behind it.
 namespace salebra {
 
-/// Positions, motions and amplitudes of the force: of each one, for all cases, or one for each.
+/// Each list (operating points, motions, force amplitudes) has either one entry, used for all
+/// cases, or one entry per case.
 struct DampingQuestion {
-  ContactQuestion contact;  ///< of a surface, with the pressures; the amplitude comes from here
+  ContactQuestion contact;  ///< of a surface, its pressures; `motions` set its amplitude
   std::vector<Motion> motions = {};
-  /// F_a of F + F_a cos ωt at a force, in place of the normal amplitudes, N; empty: none.
+  /// F_a of a force-controlled oscillation F + F_a cos ωt, replaces the normal amplitudes, N;
+  /// empty: none.
   std::vector<double> force_amplitude = {};
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
-  /// For the premises; with a coefficient of friction the loss is that with slip.
+  /// Used to check the assumptions; with a coefficient of friction the loss includes slip.
   ContactFacts facts = {};
-  int steps = 2000;  ///< straight ones in a normal cycle where slip is followed; >= 8
-  /// Of a surface: its boundary, relative error and seam; what is above holds for the rest.
+  int steps = 2000;  ///< straight steps per normal cycle to compute slip; >= 8
+  /// For a surface: boundary, relative error and seam; the members above replace the others.
   SurfaceDampingOptions surface = {};
 };
 
@@ -41,20 +43,20 @@ constexpr void describe(auto&& visit, std::type_identity<DampingQuestion>) {
         Quantity{"force_amplitude", Dimension::force, "amplitude of the normal force"});
 }
 
-/// Each list has an entry for each case, or none where it is not of these cases.
+/// Each list has one entry per case, or is empty where it does not apply.
 struct DampingAnswer {
   ContactAnswer contact;
   std::vector<Motion> motions = {};
-  /// The loss of each case as described (questions/slip.hpp): of a law by its springs, of a surface
-  /// by contacts inside the oscillation, with their numerical error.
+  /// Loss of each case as described (questions/slip.hpp), with its numerical error: from the
+  /// springs of a law, or from contacts solved inside the oscillation of a surface.
   std::vector<DampingResult> results = {};
-  std::vector<double> ratio = {};             ///< of the loss to its small-amplitude form
-  std::vector<CommonPeriod> periods = {};     ///< of two frequencies
-  std::vector<double> slow_limit_power = {};  ///< of two frequencies, without slip, W
-  /// Of a slow motion with a known excursion X: W·2X/w, w = 2πv/ω, J.
+  std::vector<double> ratio = {};             ///< loss over its small-amplitude form
+  std::vector<CommonPeriod> periods = {};     ///< for two frequencies
+  std::vector<double> slow_limit_power = {};  ///< for two frequencies, without slip, W
+  /// For a slow motion with a known excursion X: W·2X/w with w = 2πv/ω, J.
   std::vector<double> work_there_and_back = {};
   std::vector<Premises> premises = {};
-  std::vector<std::string> doubts = {};  ///< beside those of the contact
+  std::vector<std::string> doubts = {};  ///< warnings besides those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
@@ -74,33 +76,38 @@ constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
                                        "mean power if the tangential motion were slow"});
 }
 
-/// throws  InvalidInput for lists of other lengths, for amplitudes of the force without a force or
-///         of a surface, and as ask(ContactQuestion) and relaxation_damping(); Interrupted
-/// cost    of a case some hundred evaluations of the law, 10 ms for its premises and one step of
-///         the law for each of `steps` with friction; of a surface surface_damping() beside
+/// Computes the loss of each case and checks its assumptions.
+///
+///     DampingAnswer answer = ask(DampingQuestion{.contact = ExponentialContact{30e-9, 0.8, {1}},
+///                                                .motions = {Drag{1e-9, 1e-6, 1e5}}});
+///
+/// throws  InvalidInput for lists of other lengths, for force amplitudes without a force or with a
+///         surface, and as ask(ContactQuestion) and relaxation_damping(); Interrupted
+/// cost    per case some hundred evaluations of the law, 10 ms for the assumptions and, with
+///         friction, one step of the law for each of `steps`; for a surface also surface_damping()
 DampingAnswer ask(DampingQuestion question, const Context& context = {});
 
-/// Stresses under an indenter in the first case, a motion of one frequency.
+/// Computes the stresses under an indenter in the first case, a motion of one frequency.
 StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,
                         const Context& context = {});
-/// Losses of the first case, of equal frequencies, over M and phases of 5° to 90°.
+/// Computes the losses of the first case, of equal frequencies, over M and phases of 5° to 90°.
 /// friction_numbers  M; empty: 25 from 0.1 to 100
 FrictionMap friction_map_of(const DampingAnswer& answer, std::vector<double> friction_numbers,
                             int steps, const Context& context = {});
 
-/// A measured motion, which brings its own indentations.
+/// A measured motion with its own indentations.
 struct PathQuestion {
-  ContactQuestion contact;  ///< its positions are not looked at
+  ContactQuestion contact;  ///< its operating points are ignored
   SampledMotion path;
   std::vector<double> transverse = {};  ///< y at the samples, without slip, m; empty: none
-  ContactFacts facts = {};              ///< with a coefficient of friction slip is followed
+  ContactFacts facts = {};              ///< a coefficient of friction adds slip
 };
 constexpr void describe(auto&& visit, std::type_identity<PathQuestion>) {
   visit(&PathQuestion::transverse,
         Quantity{"transverse", Dimension::length, "displacement along y"});
 }
 
-/// The loss of a path and whether its premises hold.
+/// The loss of a path and the check of its assumptions.
 struct PathAnswer {
   TrajectoryDamping loss;
   Premises premises;
@@ -110,35 +117,37 @@ PathAnswer ask(const PathQuestion& question, const Context& context = {});
 /// A contact as a damper of slow tangential motions under fast normal oscillation, over amplitudes
 /// and frequencies.
 struct DamperQuestion {
-  ContactQuestion contact = {};                ///< at one position
-  std::vector<double> normal_amplitude = {};   ///< m; empty: falling_slope finds it
+  ContactQuestion contact = {};                ///< at one operating point
+  std::vector<double> normal_amplitude = {};   ///< m; empty: found for falling_slope
   std::vector<double> angular_frequency = {};  ///< rad/s, at least one
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
-  std::optional<TangentialOscillator> oscillator = {};  ///< on the contact, of one amplitude, one ω
-  std::optional<double> falling_slope = {};  ///< b of a friction force that falls by b, N s/m
-  double largest_amplitude = 0;              ///< to look for stability in, m
-  /// Of the slow motion, m/s; with friction γ depends on it and on facts.excursion.
+  std::optional<TangentialOscillator> oscillator = {};  ///< for one amplitude and one ω
+  std::optional<double> falling_slope = {};  ///< slope b of a falling friction force, N s/m
+  double largest_amplitude = 0;              ///< end of the search for stability, m
+  /// Velocity of the slow motion, m/s; with friction γ depends on it and on facts.excursion.
   double drag_velocity = ContactFacts::unknown;
   ContactFacts facts = {};
 };
 
-/// The damping constant over amplitude and frequency, and what it does to an oscillator or a slider.
+/// The damping constant over amplitude and frequency, and its effect on an oscillator or a slider.
 struct DamperAnswer {
   ContactAnswer contact;
-  /// Empty without amplitudes. With friction γ is that with slip, NaN where the velocity or the
-  /// excursion of the slow motion is not known, or the motion is not slow.
+  /// Empty without amplitudes. With friction γ includes slip; it is NaN where the velocity or the
+  /// excursion of the slow motion is unknown, or the motion is not slow.
   DamperMap map = {};
-  Field damping_constant_error = {};  ///< of the map of a surface, N s/m; empty: a law's
+  Field damping_constant_error = {};  ///< error of the map, N s/m; empty for a law
   Field damping_constant_without_slip = {}, slip_share = {};  ///< of the map with friction
   std::optional<OscillatorDecay> decay = {};
-  /// Of a surface, by what the damping constant is off; NaN for what follows from K_t of the law.
+  /// For a surface: errors due to that of the damping constant; NaN for what follows from K_t of
+  /// the law.
   std::optional<OscillatorDecay> decay_error = {};
   std::vector<double> stabilising_amplitude = {};        ///< for each frequency, m; empty: no slope
-  std::vector<double> stabilising_amplitude_error = {};  ///< of a surface, m
-  /// Of each amplitude at the highest frequency: slip does not depend on it, inertia grows with it.
+  std::vector<double> stabilising_amplitude_error = {};  ///< for a surface, m
+  /// For each amplitude at the highest frequency: slip does not depend on frequency, inertia grows
+  /// with it.
   std::vector<Premises> premises = {};
-  std::vector<std::string> doubts = {};  ///< beside those of the contact
+  std::vector<std::string> doubts = {};  ///< warnings besides those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
@@ -154,45 +163,60 @@ constexpr void describe(auto&& visit, std::type_identity<DamperAnswer>) {
   visit(&S::first_loading, Part{"first_loading", "plastic first loading of the surface"});
 }
 
-/// throws  InvalidInput for several positions, no frequency, an oscillator of several amplitudes or
-///         frequencies, a slope or velocity that is not > 0, and as the functions of damper.hpp
+/// Computes the map, the decay of the oscillator and the stabilising amplitude, as far as given.
+///
+///     DamperAnswer damper = ask(DamperQuestion{.contact = ExponentialContact{30e-9, 0.8, {1}},
+///                                              .normal_amplitude = {1e-9},
+///                                              .angular_frequency = {1e5}});
+///
+/// throws  InvalidInput for several operating points, no frequency, an oscillator with several
+///         amplitudes or frequencies, a slope or velocity that is not > 0, and as the functions of
+///         damper.hpp
 DamperAnswer ask(DamperQuestion question, const Context& context = {});
 
-/// Partial slip of a contact under tangential oscillations, with a normal one or without.
+/// Partial slip of a contact under tangential oscillations, with or without a normal one.
 struct JointQuestion {
-  ContactQuestion contact = {};  ///< at one position
+  ContactQuestion contact = {};  ///< at one operating point
   std::vector<TangentialOscillation> motions = {};
   double normal_amplitude = 0;   ///< u_z of δ + u_z cos ωt, m; 0: the normal force is constant
-  double phase = 0;              ///< φ0 of the tangential motions against it, rad
-  double angular_frequency = 0;  ///< to judge inertia, rad/s; 0: not known
-  ContactFacts facts = {};       ///< with the coefficient of friction
-  int steps = 2000;              ///< in a cycle with a normal oscillation; >= 16
-  /// Of the part, m²: the law of a curve or a surface is scaled to it; of another law it is the area
-  /// of the part that has this law. NaN: what was given is the part.
+  double phase = 0;              ///< φ0 of the tangential motions against the normal one, rad
+  double angular_frequency = 0;  ///< to check inertia, rad/s; 0: not known
+  ContactFacts facts = {};       ///< including the coefficient of friction
+  int steps = 2000;              ///< steps per cycle with a normal oscillation; >= 16
+  /// Nominal area of the joint, m²: the law of a curve or a surface is scaled to it; for another
+  /// law it is the area that has this law. NaN: no scaling.
   double nominal_area = std::numeric_limits<double>::quiet_NaN();
-  /// In a cycle of a surface that is simulated cell by cell too; empty: none is.
+  /// Steps of an additional cycle of a surface, simulated cell by cell; empty: none.
   std::optional<int> direct_steps = {};
 };
 
-/// The loss of each motion, and whether its premises hold.
+/// The loss of each motion, and the check of the assumptions.
 struct JointAnswer {
   ContactAnswer contact;
   LawState state = {};  ///< at the mean indentation
-  /// Of each motion; with a normal oscillation by the law, otherwise of a surface by its contacts.
+  /// Loss of each motion: from contacts solved for a surface without normal oscillation, otherwise
+  /// from the law.
   std::vector<JointLoss> losses = {};
-  std::vector<JointLoss> simulated = {};  ///< cell by cell
-  EqualFrequency largest = {};            ///< of the motions
-  Premises premises = {};                 ///< of it
-  std::vector<std::string> remarks = {};  ///< on the error of the losses
+  std::vector<JointLoss> simulated = {};  ///< the same, simulated cell by cell
+  EqualFrequency largest = {};            ///< largest of the motions
+  Premises premises = {};                 ///< for the largest motion
+  std::vector<std::string> remarks = {};  ///< warnings about the losses and their error
 };
 
-/// throws  InvalidInput for several positions, no motion, direct steps without a surface, and as
-///         ask(ContactQuestion) and the functions of joint.hpp, whose costs are its own; NotConverged
-///         where an integral or a simulated cycle did not; Interrupted
+/// Computes the loss of each motion.
+///
+///     JointAnswer joint = ask(JointQuestion{.contact = ExponentialContact{30e-9, 0.8, {100}},
+///                                           .motions = {TangentialForce{20}},
+///                                           .facts = {.friction_coefficient = 0.5}});
+///
+/// throws  InvalidInput for several operating points, no motion, direct steps without a surface,
+///         and as ask(ContactQuestion) and the functions of joint.hpp; NotConverged where an
+///         integral or a simulated cycle did not converge; Interrupted
+/// cost    that of the functions of joint.hpp
 JointAnswer ask(JointQuestion question, const Context& context = {});
 
-/// Slow motion, case (b), that moves on by more than a contact spot in one normal cycle: what
-/// sticks then is no longer the same spot when it opens. A radius that is not known is NaN.
+/// Warns about a slow motion, case (b), that advances by more than a contact patch in one normal
+/// cycle: the patch that sticks is then no longer the one that opens. An unknown radius is NaN.
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
 

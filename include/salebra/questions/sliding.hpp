@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-/// Friction of a contact that slides while it oscillates in the normal direction, and the motion of
-/// a slider that a spring drags over it.
+/// Friction of a sliding contact under normal oscillation, and the motion of a slider that a spring
+/// drags over it.
 namespace salebra {
 
 /// Steady sliding over velocities, at one or several amplitudes.
@@ -19,8 +19,8 @@ struct SlidingQuestion {
   double angular_frequency = 0;              ///< rad/s
   double friction_coefficient = 0;           ///< μ
   std::vector<double> velocities;            ///< m/s
-  std::vector<double> velocity_ratios = {};  ///< in place of velocities: v/v_c of each amplitude
-  /// X of slow motions between turning points, m, whose regimes are mapped; with one amplitude.
+  std::vector<double> velocity_ratios = {};  ///< v/v_c of each amplitude, instead of velocities
+  /// Excursions X of slow motions, m, for a regime map; with one amplitude.
   std::vector<double> excursions = {};
   Hold hold = Hold::indentation;
 };
@@ -32,36 +32,44 @@ struct SlidingAnswer {
   std::vector<std::string> doubts = {};  ///< beside those of the contact
 };
 
+/// Computes steady sliding of a law, and the regimes if excursions are given.
+///
+///     SlidingQuestion question{{1e-9}, 1e5, 0.3, {1e-5, 1e-4}};
+///     SlidingAnswer sliding = ask(question, law, AtForce{1});
+///
 /// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
 ///         NotConverged where a quadrature did not reach its tolerance
 SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law, const Position& position);
-/// The same at the first position of a contact. On a surface each point comes from contacts inside
-/// the oscillation, with its errors (surface_sliding()), but for regimes, which are the law's.
-/// material  of a surface; not looked at otherwise
+/// The same at the first operating point of a contact. On a surface each point comes from contacts
+/// solved inside the oscillation, with errors (surface_sliding()); regimes always come from the
+/// law.
+/// material  of a surface; ignored otherwise
 /// throws    NotConverged, Interrupted
 SlidingAnswer ask(const SlidingQuestion& question, const ContactAnswer& contact,
                   const Material& material, const Context& context = {});
 
-/// The motion in which a slider ends, whether it slides stably, and from which oscillation on.
+/// The final motion of a slider, its stability, and the threshold of the oscillation.
 struct SliderQuestion {
   Slider slider;
   NormalOscillation normal;         ///< amplitude 0: none; frequency 0: no thresholds
   double friction_coefficient = 0;  ///< μ
-  /// End of the search for the threshold, m; empty: 10 times that of the least effect.
+  /// End of the search for the threshold, m; empty: 10 times the smallest amplitude with an effect.
   std::optional<double> largest_amplitude = {};
   SliderOptions options = {};
 };
 
-/// The motion of a slider, as simulated and averaged over the oscillation, and its stability.
+/// The motion of a slider, simulated and averaged over the oscillation, and its stability.
 struct SliderAnswer {
   SliderMotion motion, averaged;
   SteadySliding sliding;  ///< at the velocity of the drive
   SliderStability stability;
-  SliderThresholds thresholds;  ///< where friction falls by more than the support damps
-  Drag judged;                  ///< the motion by which premises are judged
+  SliderThresholds thresholds;  ///< known where friction falls by more than the support damps
+  Drag judged;                  ///< motion for which assumptions are checked
 };
 
-/// throws  InvalidInput as slider_motion(); NotConverged where a motion does not repeat; Interrupted
+/// Simulates a slider.
+/// throws  InvalidInput as slider_motion(); NotConverged where a motion does not repeat;
+///         Interrupted
 SliderAnswer ask(const SliderQuestion& question, const ContactLaw& law, const Position& position);
 
 }  // namespace salebra

@@ -8,16 +8,16 @@
 #include <salebra/questions/contact.hpp>
 #include <string>
 
-/// The one place where slip enters a loss: the program, studies, Python and the report call it.
+/// Adds slip to a loss. The program, studies, Python and the report all use this function.
 namespace salebra {
 
-/// Why the loss of a motion with a known coefficient of friction is unknown, in a sentence that says
-/// what to give; empty: it is known, or friction is infinite.
+/// Returns a sentence on why the loss of a motion with a known coefficient of friction is unknown
+/// and which input is missing; empty if it is known, or friction is infinite.
 std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts);
 
-/// Makes the loss without slip of a law that of the motion as described: with slip where the
-/// coefficient of friction is known, NaN where why_loss_unknown() gives a reason. A slow motion goes
-/// through loss_with_slip(), with its turning points; the other motions are followed along `steps`
+/// Turns the loss of a law without slip into that of the motion as described: with slip where the
+/// coefficient of friction is known, NaN where why_loss_unknown() gives a reason. A slow motion
+/// uses loss_with_slip(), with its turning points; other motions are followed along `steps`
 /// straight steps of their period.
 ///
 ///     DampingResult result = relaxation_damping(law, AtForce{1}, motion);
@@ -28,12 +28,12 @@ std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts);
 void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion,
               const ContactFacts& facts, int steps = 2000, const Context& context = {});
 
-/// One period of a motion about a mean indentation, and the loss along it: the data of a picture.
+/// One period of a motion about a mean indentation, and the loss along it: the data of a plot.
 struct DampingCycle {
   SampledMotion path;
   TrajectoryDamping loss;
 };
-/// friction_coefficient: NaN: no slip.
+/// Computes that period. friction_coefficient NaN: no slip.
 DampingCycle cycle_of(const ContactLaw& law, const Motion& motion, double indentation, int steps,
                       double friction_coefficient, const Context& context = {});
 

@@ -44,10 +44,10 @@ enum class ContactModel {
   gw_jkr
 };
 
-/// A contact model: the name that files, JSON and study files have for it, that of the enumerator;
-/// what people call it; what it costs for each cell and pressure, s, on the machine of
-/// estimate_cost(); and the function that presses a surface with it. A new model is an enumerator
-/// and an entry in src/study/contact_models.cpp.
+/// A contact model with its name in files, JSON and study files (that of the enumerator), its title
+/// for people, its cost per cell and pressure, s, on the machine of estimate_cost(), and the
+/// function that presses a surface with it. A new model is an enumerator and an entry in
+/// src/study/contact_models.cpp.
 struct StudyModel {
   ContactModel id;
   const char* name;
@@ -56,17 +56,18 @@ struct StudyModel {
   ModelResult (*press)(detail::ModelWork&);
 };
 
-/// All of them.
+/// Returns all contact models.
 std::span<const StudyModel> contact_models();
 
-/// Finds a model by its name. Throws InvalidInput "models: …" for another.
+/// Finds a model by its name. Throws InvalidInput "models: …" for an unknown name.
 ContactModel contact_model(std::string_view name);
 std::string_view word_of(ContactModel model);
-/// Without those of adhesion.
+/// Returns all models without adhesion.
 std::vector<ContactModel> all_contact_models();
-/// Whether a model is of summits that adhere.
+/// Whether the summits of a model adhere.
 constexpr bool is_adhesive(ContactModel model) { return model >= ContactModel::gw_dmt; }
-/// The models of the names, each once, and the boundary elements, which the others are measured by.
+/// Returns the named models, each once, and the boundary elements, which are the reference for the
+/// others.
 std::vector<ContactModel> contact_models(const std::vector<std::string>& names);
 
 enum class GenerationMethod { filtered_noise, random_phase };
@@ -74,19 +75,19 @@ enum class GenerationMethod { filtered_noise, random_phase };
 /// An ensemble of random surfaces, one for each seed.
 struct GeneratedSurfaces {
   Grid2D grid;
-  SelfAffineParameters spectrum;  ///< not looked at where there are tables
+  SelfAffineParameters spectrum;  ///< ignored where there are tables
   GenerationMethod method = GenerationMethod::filtered_noise;
   std::vector<std::uint64_t> seeds;  ///< at least one
-  /// In place of the self-affine spectrum. One is that of all surfaces. Of several the first is the
-  /// one by which loads are counted, and the others, of a surface twin, are equally likely: surfaces
-  /// have them by their seeds, two in turn the same, which tells what the scans leave open from what
-  /// differs from place to place.
+  /// Replace the self-affine spectrum. A single table holds for all surfaces. With several, the
+  /// first defines the scale of the loads; the others are equally likely draws of a surface twin,
+  /// assigned to the surfaces by their seeds, the same to two consecutive ones. Pairs with one
+  /// spectrum separate what the scans leave open from the variation from place to place.
   std::vector<SpectrumTable> tables = {};
 
-  /// That of the best table, or the self-affine one.
+  /// Returns the spectrum of the first table, or the self-affine one.
   std::unique_ptr<const IsotropicSpectrum> spectrum_of_all() const;
   std::unique_ptr<const IsotropicSpectrum> spectrum_of(std::uint64_t seed) const;
-  /// Place among the tables of the one that a seed has; 0 where all have the same.
+  /// Index of the table of a seed; 0 where all have the same.
   std::size_t table_of(std::uint64_t seed) const;
 };
 
@@ -101,7 +102,7 @@ struct MeasuredSurface {
   std::optional<double> size_x = {}, size_y = {};  ///< m, for files that do not state their size
   std::optional<Detrend> detrend = {};             ///< empty: default_detrend() of the surface
   std::string height_unit = {};  ///< such as "nm", for files that do not name one; empty: m
-  // As ReadOptions has them; few undefined points are filled without `fill`.
+  // As in ReadOptions; a few undefined points are filled even without `fill`.
   bool transpose = false;
   std::optional<std::pair<double, double>> pixel_size = {};
   std::string lateral_unit = {};
@@ -110,7 +111,7 @@ struct MeasuredSurface {
   bool fill = false;
   std::string channel = {};
 
-  /// How read_surface() is to read it.
+  /// Returns the options for read_surface().
   ReadOptions reading() const;
 };
 
@@ -120,12 +121,12 @@ constexpr void describe(auto&& visit, std::type_identity<MeasuredSurface>) {
        &S::pixel_size, &S::lateral_unit, &S::despike, &S::crop, &S::fill, &S::channel);
 }
 
-/// Parameters that take several values each; an empty list leaves the value of the surface table.
+/// Parameters to vary; an empty list keeps the value of the surface table.
 struct ParameterLists {
   std::vector<double> hurst;
   std::vector<double> rolloff, short_cutoff;  ///< wavelengths, m
-  std::vector<double> size_x;  ///< m; cells keep their size, so that the number of points follows
-  std::vector<Index> points;   ///< along x; the surface keeps its size, so that cells follow
+  std::vector<double> size_x;  ///< m; the cell size is kept, so the number of points follows
+  std::vector<Index> points;   ///< along x; the size of the surface is kept, so the cells follow
 
   bool empty() const {
     return hurst.empty() && rolloff.empty() && short_cutoff.empty() && size_x.empty() &&
@@ -138,11 +139,11 @@ constexpr void describe(auto&& visit, std::type_identity<ParameterLists>) {
   keep(visit, &S::hurst, &S::rolloff, &S::short_cutoff, &S::size_x, &S::points);
 }
 
-/// Adhesion of the contacts of a study, and the cycle of each surface.
+/// Adhesion of the contacts of a study, and the loading cycle of each surface.
 struct AdhesionPlan {
   Adhesion adhesion;
-  std::vector<double> cycle = {};  ///< mean gaps, m, from the widest; none: no cycle
-  bool force_coarse = false;       ///< as AdhesiveContactOptions has it
+  std::vector<double> cycle = {};  ///< mean gaps, m, from the widest; empty: no cycle
+  bool force_coarse = false;       ///< see AdhesiveContactOptions
 };
 
 constexpr void describe(auto&& visit, std::type_identity<AdhesionPlan>) {
@@ -150,56 +151,55 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionPlan>) {
   keep(visit, &S::adhesion, &S::cycle, &S::force_coarse);
 }
 
-/// Everything that decides the result of a study.
+/// Everything that determines the result of a study.
 struct StudyConfiguration {
   std::variant<GeneratedSurfaces, MeasuredSurface> surfaces;
-  Material material;  ///< with G*
+  Material material;  ///< including G*
   std::vector<double>
       pressures;  ///< of the BEM sweep, increasing: Pa, or in units of E*h'_rms if relative
   bool relative_pressures = false;
-  /// Pressures above half of the hardness are left out, instead of being refused: half of the
-  /// surface would be flat. For pressures that the user did not choose.
+  /// Leaves out pressures above half of the hardness, where half of the surface would be flat,
+  /// instead of refusing them. For pressures that the user did not choose.
   bool pressures_below_hardness = false;
-  double tolerance = 1e-8;  ///< e_c of each contact
-  /// K_t of the boundary-element curve by a stick solve on each contact; false: (G*/E*)K. Moduli
-  /// that no elastic body has leave only the latter.
+  double tolerance = 1e-8;  ///< error e_c of each contact
+  /// Computes K_t of the boundary-element curve by a stick solve on each contact; false:
+  /// K_t = (G*/E*)K. Only the latter is possible for moduli that no elastic body has.
   bool stick = true;
   std::optional<PressureWindow>
-      window;               ///< of the exponential fit; empty: 1 … 2.5 h_rms in mean gap
-  ParameterLists ensemble;  ///< for generated surfaces only
-  double target_precision =
-      0;                     ///< relative, at which an ensemble is large enough; 0: use all seeds
-  int min_realisations = 8;  ///< >= 2, before the precision is looked at
-  /// The boundary elements, which all others are measured by, must be among them.
+      window;                   ///< for the exponential fit; empty: 1 … 2.5 h_rms in mean gap
+  ParameterLists ensemble;      ///< for generated surfaces only
+  double target_precision = 0;  ///< relative precision at which an ensemble ends; 0: use all seeds
+  int min_realisations = 8;     ///< >= 2, before the precision is checked
+  /// Must contain the boundary elements, which are the reference for the others.
   std::vector<ContactModel> models = {ContactModel::bem, ContactModel::gw_moments,
                                       ContactModel::gw_deterministic};
-  /// What `salebra compare` takes in their place.
+  /// The models of `salebra compare`.
   std::vector<ContactModel> compared_models = all_contact_models();
 
   bool has(ContactModel model) const;
   /// Whether surfaces are drawn from a surface twin.
   bool of_twin() const;
-  /// For the conductance of the contacts. It is no part of what is computed of a surface.
+  /// For the conductance of the contacts; does not affect what is computed for a surface.
   Conduction conduction = {};
-  bool flow_factors = false;  ///< of each contact of the boundary elements
-  /// The boundary elements adhere, each load following from the one below, and so do the summits of
-  /// gw_dmt and gw_jkr. There is no damping then: the motion is not looked at.
+  bool flow_factors = false;  ///< computes them for each contact of the boundary elements
+  /// Makes the boundary elements adhere, each load following from the one below, and the summits of
+  /// gw_dmt and gw_jkr. Such a study has no damping: the motion is ignored.
   std::optional<AdhesionPlan> adhesion = {};
   Oscillation motion;
   DampingOptions damping;
-  /// Friction, hardness, density and excursion, for the premises of the damping. With a hardness
-  /// each surface is first loaded to the largest pressure, after_first_loading(), and the study is
-  /// of the residual surface.
+  /// Friction, hardness, density and excursion, for the assumptions of the damping. With a hardness
+  /// each surface is first loaded to the largest pressure (after_first_loading()), and the study is
+  /// that of the residual surface.
   ContactFacts known;
   /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty:
-  /// 4, doubled for one surface where they do not suffice. 0: none, the loss of the boundary
-  /// elements is that of their curve between loads, without an error, as the loss of every other
-  /// model.
+  /// 4, doubled for a single surface where they do not suffice. With 0 the loss of the boundary
+  /// elements, as that of every other model, is computed from their curve between loads, without an
+  /// error.
   std::optional<int> levels = {};
   double relative_error =
-      0;  ///< of each damping constant, for which the cells are halved; 0: does not
-  std::optional<SeamCheck> seam = {};  ///< adds the error of a continued scan's seam
-  std::string text;                    ///< the file as it was read, for provenance
+      0;  ///< target for each damping constant, reached by halving the cells; 0: none
+  std::optional<SeamCheck> seam = {};  ///< adds the error of continuing a scan periodically
+  std::string text;                    ///< text of the file, for provenance
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
@@ -219,30 +219,33 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 
-/// Why a study with adhesion has no damping, after the name of what asks for it.
+/// Sentence on why a study with adhesion has no damping, to follow the name of the input.
 extern const char* const no_damping_with_adhesion;
 
-/// Reads a TOML file; README of data/ explains each key by example. Lengths, pressures and so on
-/// are numbers in SI units or strings with a unit.
+/// Reads a study from a TOML file; the README of data/ explains each key by example. Quantities are
+/// numbers in SI units or strings with a unit.
+///
+///     StudyConfiguration study = read_study_configuration("study.toml");
+///
 /// throws  InvalidInput "FILE:LINE: table.key: …" for an unknown key, a missing one, a wrong type
 ///         or a value out of range
 StudyConfiguration read_study_configuration(const std::filesystem::path& file);
 
-/// Reads from text; `name` stands for the file in errors, relative paths are taken from `folder`.
+/// Reads a study from text. `name` replaces the file in error messages; relative paths start from
+/// `folder`.
 StudyConfiguration parse_study_configuration(const std::string& text, const std::string& name,
                                              const std::filesystem::path& folder = ".");
 
-/// The configurations of all combinations of the ensemble's lists, the last parameter (points)
-/// changing fastest, their own lists empty; the configuration itself where it has none. Throws
-/// InvalidInput for a combination that no grid can carry, and before it makes any for more than 10
-/// 000 combinations or 256 MB of settings.
+/// Returns the configurations of all combinations of the ensemble's lists, with the last parameter
+/// (points) changing fastest and their own lists empty; without lists the configuration itself.
+/// Throws InvalidInput for a combination that no grid can represent and, before it makes any, for
+/// more than 10 000 combinations or 256 MB of settings.
 std::vector<StudyConfiguration> parameter_combinations(const StudyConfiguration& configuration);
 
-/// "H = 0.5, roll-off 1.25 µm, …": the parameters that the ensemble's lists vary, as this point has
-/// them; empty without lists.
+/// Formats the varied parameters of a point, "H = 0.5, roll-off 1.25 µm, …"; empty without lists.
 std::string describe_point(const ParameterLists& varied, const StudyConfiguration& point);
 
-/// `file` in place of the surfaces of the configuration, which keeps everything else.
+/// Returns the configuration with its surfaces replaced by a measured one.
 StudyConfiguration with_surface(StudyConfiguration configuration, MeasuredSurface surface);
 
 }  // namespace salebra

@@ -21,18 +21,18 @@
 
 namespace salebra {
 
-/// The loss at one pressure of a curve, and beside it two forms for small amplitudes without slip.
+/// The loss at one pressure of a curve, with two small-amplitude forms without slip.
 ///
-/// Boundary elements: from contacts inside the oscillation, surface_damping(). Other models: on
-/// their curve, whose loads are joined smoothly; NaN where the motion leaves it. Of a single surface
-/// a number is NaN whose error is not smaller.
+/// For boundary elements it comes from contacts solved inside the oscillation (surface_damping());
+/// for other models from their curve with smoothly joined loads, NaN where the motion leaves it.
+/// For a single surface a number is NaN if it is no larger than its error.
 struct DampingPoint : Loss {
   double pressure = 0;  ///< Pa
   double force = 0;     ///< F = pA0, N
-  /// Eq. (16), or (12) with F'' = F/l², with the l fitted to the curve.
+  /// Eq. (16), or (12) with F'' = F/l², with l fitted to the curve.
   double work_per_cycle_closed_form = unknown;    ///< J
   double damping_constant_closed_form = unknown;  ///< N s/m
-  /// Eq. (15) or (12) with the F'' that the curve itself has there: small amplitudes, no law.
+  /// Eq. (15) or (12) with F'' of the curve itself: small amplitudes, no fitted law.
   double small_amplitude_work = unknown;              ///< J
   double small_amplitude_damping_constant = unknown;  ///< N s/m
 
@@ -61,36 +61,35 @@ constexpr void describe(auto&& visit, std::type_identity<DampingPoint>) {
                  "damping by the fitted law over the damping computed without slip, less 1"});
 }
 
-/// What one contact model says about one surface.
+/// Result of one contact model for one surface.
 struct ModelResult {
   ContactModel model = ContactModel::bem;
   ForceCurve curve = {};
   ExponentialFit fit =
-      {};  ///< unknown for fewer than three points in the window, as the law's damping is
-  /// How far the law bends over the window of the fit; unknown for fewer than four points.
+      {};  ///< unknown for fewer than three points in the window, and so is the law's damping
+  /// Curvature of the law over the window of the fit; unknown for fewer than four points.
   ExponentialTest test = {};
   WindowSensitivity sensitivity = {};
   LocalDecayLength local{};
-  /// l of a fit in which all loads count alike, m; see FitWeights.
+  /// l of a fit with equal weights of all loads, m; see FitWeights.
   double decay_length_equal_weights = ForceSample::unknown;
-  /// κ of A/A0 = κ p/(E*h'): least squares through the origin over loads of 0.002 to 0.05 E*h', h'
-  /// that of the surface.
+  /// κ of A/A0 = κ p/(E*h') with h' of the surface: least squares through the origin over loads of
+  /// 0.002 to 0.05 E*h'.
   double area_slope = ForceSample::unknown;
   /// α of K = αF/h_rms: least squares through the origin over the pressures of the fit; h_rms/l
   /// where the exponential law holds.
   double stiffness_coefficient = ForceSample::unknown;
-  /// u0 of Persson's p ∝ exp(−ū/u0), which is also K = pA0/u0 of Campañá, Persson and Müser, m; of
-  /// ContactModel::persson.
+  /// u0 of Persson's p ∝ exp(−ū/u0), m, for ContactModel::persson; it is also that of K = pA0/u0 of
+  /// Campañá, Persson and Müser.
   double asymptotic_decay_length = ForceSample::unknown;
-  /// Of models that adhere: of the boundary elements that of the cycle, Pa.
+  /// Pull-off pressure of the adhesive models, Pa; for boundary elements, from the cycle.
   double pull_off_pressure = ForceSample::unknown;
   std::vector<DampingPoint> damping = {};  ///< for each sample of the curve
 
-  /// How far F ∝ exp(−ū/l) is from holding over the window of the fit: l at its far end over l at
-  /// its close end, less 1, by the parabola of test_exponential(); unknown for fewer than four
-  /// points.
+  /// Deviation from F ∝ exp(−ū/l) over the window of the fit: l at its far end over l at its close
+  /// end, minus 1, by the parabola of test_exponential(); unknown for fewer than four points.
   double law_bend() const;
-  /// Lengths over h_rms.
+  /// Lengths over h_rms:
   double decay_length_closest_over_rms_height() const {
     return test.decay_length_closest / curve.rms_height;
   }
@@ -156,15 +155,15 @@ constexpr void describe(auto&& visit, std::type_identity<ModelResult>) {
                  "decay length in the limit of small pressures over rms height"});
 }
 
-/// Contact spots of the boundary elements at one pressure.
+/// Contact patches of the boundary elements at one pressure.
 struct SpotStatistics {
   double spot_count = ForceSample::unknown;
   double corrected_area_fraction = ForceSample::unknown;  ///< see ContactSpots
   double largest_spot_area = ForceSample::unknown;        ///< m²
   double mean_spot_area = ForceSample::unknown;           ///< m²
-  std::vector<double> spots_by_size;  ///< of 2^k to 2^(k+1) − 1 cells, k = 0, 1, …
+  std::vector<double> spots_by_size;  ///< patches of 2^k to 2^(k+1) − 1 cells, k = 0, 1, …
 
-  /// The area of the largest spot over that of all.
+  /// Area of the largest patch over that of all.
   double largest_spot_share() const { return largest_spot_area / (spot_count * mean_spot_area); }
 };
 
@@ -185,9 +184,9 @@ constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
                                          "area of the largest contact spot over that of all"});
 }
 
-/// Adhesive contact at a mean gap of a cycle, in and out.
+/// Adhesive contact at one mean gap of a cycle, loading and unloading.
 struct AdhesionSample {
-  double loading_pressure = ForceSample::unknown;  ///< Pa; < 0: the contact pulls
+  double loading_pressure = ForceSample::unknown;  ///< Pa; < 0: attraction
   double unloading_pressure = ForceSample::unknown;
   double loading_area_fraction = ForceSample::unknown;
   double unloading_area_fraction = ForceSample::unknown;
@@ -208,7 +207,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionSample>) {
                  "contact area over nominal area when surfaces are drawn apart"});
 }
 
-/// The cycle of one surface; unknown where a contact did not converge.
+/// The adhesive cycle of one surface; unknown where a contact did not converge.
 struct AdhesionOfSurface : AdhesiveCycleNumbers {
   std::vector<AdhesionSample> samples;  ///< for each mean gap
 };
@@ -218,40 +217,40 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesionOfSurface>) {
   visit(&AdhesionOfSurface::samples, Kept{"samples", "at each mean gap"});
 }
 
-/// What a reader wants to see of one surface of a study: its heights and where they touch, its
-/// spectrum and its distribution. Maps hold every stride-th point along either axis, at most
-/// picture_side of them: a sample of the points has the height distribution and, in the mean, the
-/// contact area of all of them, which averages over blocks have not.
+/// Data to plot one surface of a study: heights, contacts, spectrum and height distribution. Maps
+/// hold every stride-th point along either axis, at most picture_side of them: a sample of points
+/// has the height distribution and, on average, the contact area of all points, while averages over
+/// blocks have not.
 struct SurfacePicture {
   static constexpr Index picture_side = 512;
 
   std::string origin;  ///< file, or generator with its seed
-  Index stride = 0;    ///< 0: there is no picture
+  Index stride = 0;    ///< 0: no picture
   Index nx = 0, ny = 0;
   double step_x = 0, step_y = 0;  ///< between points of the maps, m
   std::vector<float> heights;     ///< (nx, ny), y contiguous, less the mean of the surface, m
   std::vector<std::int16_t>
-      first_load;         ///< number of the least load at which a point touches; −1: none
-  Index mapped_load = 0;  ///< number of the load of the next two
+      first_load;         ///< index of the smallest load at which a point touches; −1: none
+  Index mapped_load = 0;  ///< index of the load of the next two maps
   std::vector<float>
       contact_pressure;    ///< (nx, ny), Pa; empty until boundary elements have solved that load
   std::vector<float> gap;  ///< (nx, ny), of the deformed surfaces, m
 
   std::vector<double> wavenumber, psd;  ///< radial spectrum C, rad/m and m⁴
-  std::vector<double> law_psd;          ///< NaN where the law does not reach
-  std::string law;                      ///< where the law comes from; empty: there is none
+  std::vector<double> law_psd;          ///< NaN outside the range of the law
+  std::string law;                      ///< origin of the law; empty: no law
   double hurst = 0, hurst_low = 0,
-         hurst_high = 0;  ///< estimated, with its 95 % interval; NaN: no self-affine range
+         hurst_high = 0;  ///< estimate with its 95 % interval; NaN: no self-affine range
 
   std::vector<double> height, height_density;  ///< histogram, m and 1/m
 
   bool empty() const { return stride == 0; }
-  /// Marks the points that carry pressure under load number k, and takes the maps of one load. Of a
-  /// surface that is spread over processes each has its rows of these maps.
+  /// Marks the points that carry pressure under the load with index k, and takes the maps of one
+  /// load. Of a surface spread over processes, each has its rows of these maps.
   void add_contact(std::int16_t k, const NormalContactState& state, const Surface& surface);
-  /// Hands them to the first process. Collective.
+  /// Collects the maps in the first process. Collective.
   void gather(const Communicator& ranks);
-  /// Rows of the maps, in the processes that hold them.
+  /// Rows of the maps by process.
   Share rows_of(const Surface& surface) const;
 };
 
@@ -288,13 +287,13 @@ constexpr void describe(auto&& visit, std::type_identity<SurfacePicture>) {
         Quantity{"height_density", inverse_length, "share of the points in a bin over its width"});
 }
 
-/// One picture a study: of its first seed, or of the measured surface.
+/// Whether this surface gets the picture: the first seed of a study, or the measured surface.
 bool wants_picture(const StudyConfiguration& configuration, std::uint64_t seed);
 
-/// Makes the picture, without contact as yet. The law of a generated surface is what was asked for,
-/// that of any other a power law through the range in which it is self-affine. The distribution is
-/// that of the points of the maps. A surface may be spread over processes; the first one has the
-/// picture. Collective. Cost: one FFT.
+/// Makes the picture, still without contacts. The law of a generated surface is its input; for any
+/// other surface it is a power law through the self-affine range. The distribution is that of the
+/// points of the maps. A surface may be spread over processes; the first one gets the picture.
+/// Collective. Cost: one FFT.
 SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& configuration);
 
 /// Everything computed for one surface.
@@ -303,29 +302,27 @@ struct Realisation {
   Grid2D grid;
   bool periodic = true;
   double seam_step = 0;  ///< rms difference of opposite edges over rms height
-  /// Where a hardness is known. All below is of the residual surface.
+  /// Set where a hardness is known; everything below is then that of the residual surface.
   FirstLoading first_loading;
   HeightStatistics heights;
   SpectralMoments moments;
   SummitStatistics summits;
-  SummitEnsemble ensemble;  ///< of the Greenwood–Williamson theory, from the moments
-  std::vector<ModelResult>
-      models;  ///< those of the configuration, in the order of contact_models()
+  SummitEnsemble ensemble;            ///< for the Greenwood–Williamson theory, from the moments
+  std::vector<ModelResult> models;    ///< of the configuration, in the order of contact_models()
   std::vector<SpotStatistics> spots;  ///< for each pressure
-  /// For each pressure, where the configuration asks for them; unknown where the contact or the flow
-  /// did not converge.
+  /// Flow factors at each pressure, where the configuration wants them; unknown where the contact
+  /// or the flow did not converge.
   std::vector<FlowFactors> flow;
-  AdhesionOfSurface adhesion;  ///< where the configuration asks for a cycle
+  AdhesionOfSurface adhesion;  ///< where the configuration has a cycle
   double corrected_area_slope = ForceSample::
-      unknown;  ///< κ of the boundary elements with the area corrected by its perimeter
-  SurfacePicture
-      picture;  ///< of one realisation of a study, see wants_picture(); of the others empty
+      unknown;             ///< κ of the boundary elements with the area corrected by its perimeter
+  SurfacePicture picture;  ///< of one realisation per study, see wants_picture(); otherwise empty
 
   /// Whether its moments can be those of a random surface. A smooth shape may have a Nayak
-  /// parameter below 1; the models that take their summits from the moments then have no curve.
+  /// parameter below 1; models that take their summits from the moments then have no curve.
   bool has_random_summits() const { return !(moments.nayak() < 1); }
 
-  /// Throws InvalidInput for a model that was not asked for.
+  /// Returns the result of a model. Throws InvalidInput for one that was not run.
   const ModelResult& of(ContactModel model) const;
   ModelResult& of(ContactModel model);
 };
@@ -354,54 +351,58 @@ constexpr void describe(auto&& visit, std::type_identity<Realisation>) {
   visit(&S::picture, Kept{"picture", "heights, first contacts, spectrum, distribution"});
 }
 
-/// Whether K_t of the boundary elements comes from stick solves: where they are wanted, and the
-/// moduli are those of a body.
+/// Whether K_t of the boundary elements comes from stick solves: the configuration wants them, and
+/// its moduli are those of an elastic body.
 bool stick_solves(const StudyConfiguration& configuration);
 
-/// How the damping of one surface of the configuration is computed. One surface: with the cells
-/// halved once; beyond 256 points it is compared with cells of twice the size instead. Several:
-/// with 4 intervals on the cells as they are, and the error of all from the first of them, by cells
-/// of twice the size. With a relative error: each with cells halved until it is met.
+/// Returns how the damping of one surface is computed. A single surface: with the cells halved
+/// once, or beyond 256 points compared with cells of twice the size. Several: with 4 intervals on
+/// the given cells, and the error of all from the first of them, by cells of twice the size. With a
+/// relative error: each with cells halved until it is reached.
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
                                               const Grid2D& grid, std::uint64_t seed);
 
-/// The models of the configuration, in the order of contact_models().
+/// Returns the models of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
-/// A scan as a study takes it: read and detrended. remarks: receives lines on what is most likely a
-/// slip. Throws as read_surface(), and for undefined points.
+/// Reads and detrends a scan for a study. Lines of warnings are added to `remarks`. Throws as
+/// read_surface(), and for undefined points.
 Surface measured_surface(const MeasuredSurface& surface, const Communicator& ranks = {},
                          std::vector<std::string>* remarks = nullptr);
 
-/// The surface of a seed, or the measured one (its plane removed, as the configuration says).
-/// Throws as generators and readers do. progress: of the generator. ranks: the processes over which
-/// the surface is spread, as in filtered_noise and read_surface; collective.
+/// Returns the surface of a seed, or the measured one, detrended as configured. Throws as
+/// generators and readers do. progress: of the generator. ranks: the processes over which the
+/// surface is spread, as in filtered_noise and read_surface; collective.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
                       const Progress& progress = {}, const Communicator& ranks = {});
 
-/// The loads of a study, before any work.
+/// The loads of a study, known before the computation.
 struct StudyLoads {
-  /// The unit of relative pressures, E*h'_rms, Pa, without looking at chance: what the lattice has
-  /// in the mean, or what was measured.
+  /// E*h'_rms, Pa, the unit of relative pressures: from the mean spectrum on the lattice without
+  /// random fluctuation, or from the measured surface.
   double contact_scale = 0;
   std::vector<double> pressures = {};  ///< of the sweep, Pa
-  /// Lines on what is most likely a slip: remarks of read_surface(), doubt_of_slope() and
-  /// doubt_of_pressure().
+  /// Warnings of read_surface(), doubt_of_slope() and doubt_of_pressure().
   std::vector<std::string> doubts = {};
 };
 
-/// Throws InvalidInput for a window of the fit with fewer than three pressures, and for a hardness
-/// below the largest; as readers do. ranks: the processes that read a measured surface together;
-/// collective. Cost: that of reading it.
+/// Computes the loads. Throws InvalidInput for a window of the fit with fewer than three pressures,
+/// and for a hardness below the largest; and as readers do. ranks: the processes that read a
+/// measured surface together; collective. Cost: that of reading it.
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks = {});
 
-/// Statistics → contact models → exponential law → damping for one surface of the configuration,
-/// whose ensemble lists are empty: for study_surface() of that seed. With a hardness the surface is
-/// first loaded to the largest pressure and by the oscillation about it, and all that follows is of
-/// the residual surface. progress: of this surface, "realisation"; a stop throws Interrupted.
-/// Throws NotConverged where fewer than four contacts of a sweep converged, or the first loading
-/// did not. Of a surface that is spread over processes the first one gets the realisation, with the
-/// bits of one process; the others what they know of it. Collective.
+/// Computes everything for one surface: statistics, contact models, exponential law, damping.
+///
+///     Realisation one = analyse_realisation(study_surface(study, 1), study, 1, loads.pressures);
+///
+/// The surface is study_surface() of the seed; the configuration has empty ensemble lists. With a
+/// hardness the surface is first loaded to the largest pressure and by the oscillation about it,
+/// and all results are those of the residual surface.
+/// progress  of this surface, "realisation"; a stop throws Interrupted
+/// throws    NotConverged where fewer than four contacts of a sweep converged, or the first loading
+///           did not
+/// The call is collective for a surface spread over processes: the first one gets the realisation,
+/// with the bits of one process, and the others their part of it.
 Realisation analyse_realisation(Surface surface, const StudyConfiguration& configuration,
                                 std::uint64_t seed, const std::vector<double>& pressures,
                                 const Progress& progress = {});

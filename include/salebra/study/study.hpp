@@ -18,8 +18,8 @@ namespace salebra {
 class StudyParts;
 struct Shard;
 
-/// What a reader has to know of a result: that it is of the residual surface, or why it may be off
-/// for other reasons than chance.
+/// A warning on a result: it is that of the residual surface, or it may be biased, not only
+/// scattered.
 struct StudyFlag {
   std::string name;  ///< "first_loading", "finite_size", "discretisation", "twin" or "few_spots"
   std::string text;  ///< a sentence for the user
@@ -40,7 +40,7 @@ struct EnsembleMean {
   double relative_precision() const;
 };
 
-/// Their unit is that of what the mean is of.
+/// The unit is that of the averaged number.
 constexpr void describe(auto&& visit, std::type_identity<EnsembleMean>) {
   using S = EnsembleMean;
   visit(&S::mean, Kept{"mean", "mean over the surfaces"});
@@ -50,15 +50,16 @@ constexpr void describe(auto&& visit, std::type_identity<EnsembleMean>) {
         Kept{"relative_precision", "half the width of the interval over the mean"});
 }
 
-/// Whether the mean over the first `surfaces` of an ensemble is looked at on its own, for a
-/// convergence curve and for the precision: every number from 2 to 128, beyond that 32 numbers in
-/// each doubling. Intervals for every number would take a time that grows with the square of the
+/// Whether the mean over the first `surfaces` of an ensemble is evaluated on its own, for a
+/// convergence curve and for the precision: every number from 2 to 128, and 32 numbers in each
+/// doubling beyond. With intervals for every number the time would grow with the square of the
 /// surfaces.
 bool is_milestone(std::size_t surfaces);
 
-/// A mean with its numerical error, which is no interval: levels, cells, stiffness ratio, seam.
+/// A mean with its numerical error (intervals, cells, stiffness ratio, seam), which is separate
+/// from its 95 % interval.
 struct StatedMean : EnsembleMean {
-  double error = ForceSample::unknown;  ///< NaN where it is not known
+  double error = ForceSample::unknown;  ///< NaN if unknown
 };
 
 constexpr void describe(auto&& visit, std::type_identity<StatedMean>) {
@@ -66,7 +67,7 @@ constexpr void describe(auto&& visit, std::type_identity<StatedMean>) {
   visit(&StatedMean::error, Kept{"error", "numerical error of the mean"});
 }
 
-/// How far the loss by the fitted law is off that of the curve.
+/// Deviation of the loss by the fitted law from that of the curve.
 struct DeviationRange {
   double deviation_min = 0, deviation_max = 0;  ///< of StudyResult::deviation(); NaN without any
 };
@@ -80,11 +81,11 @@ constexpr void describe(auto&& visit, std::type_identity<DeviationRange>) {
         Quantity{"deviation_max", dimensionless, "maximum deviation over the pressures"});
 }
 
-/// What closed theories say of the surfaces of a study.
+/// Predictions of closed theories for the surfaces of a study.
 struct StudyTheories {
-  double bgt_area_slope = 0;                        ///< of A/A0 over p/(E*h') as p → 0: √(2π)
-  double persson_area_slope = 0;                    ///< √(8/π)
-  std::vector<double> relative_pressure;            ///< p/(E*h') of each pressure
+  double bgt_area_slope = 0;              ///< slope of A/A0 over p/(E*h') as p → 0: √(2π)
+  double persson_area_slope = 0;          ///< √(8/π)
+  std::vector<double> relative_pressure;  ///< p/(E*h') of each pressure
   std::vector<EnsembleMean> bearing_area_fraction;  ///< at the mean gaps of the boundary elements
   /// u0/h_rms and K = pA0/u0 of Campañá, Persson and Müser; unknown and empty without
   /// ContactModel::persson.
@@ -112,90 +113,89 @@ constexpr void describe(auto&& visit, std::type_identity<StudyTheories>) {
 
 /// The ensemble at one point of the parameter grid.
 struct StudyResult {
-  StudyConfiguration configuration;  ///< of this point: its ensemble lists are empty
+  StudyConfiguration configuration;  ///< of this point, with empty ensemble lists
   Grid2D grid;
   double contact_scale = 0;  ///< E*h'_rms, Pa: the unit of relative pressures
   std::vector<double> pressures;
   std::vector<Realisation> realisations;
   std::vector<std::string> warnings;  ///< sentences for the user
   std::vector<StudyFlag> flags;
-  bool interrupted = false;        ///< realisations holds those that were finished
-  bool precision_reached = false;  ///< fewer realisations than seeds were enough
+  bool interrupted = false;        ///< realisations has only the finished ones
+  bool precision_reached = false;  ///< fewer realisations than seeds sufficed
 
   std::vector<StudyModel> models() const { return models_of(configuration); }
-  /// Mean over the realisations of a number that belongs to one, or to what a model says of one.
+  /// Mean over realisations of a number of a realisation, or of a model on it.
   EnsembleMean mean(const NumberOf<Realisation>& number) const;
   EnsembleMean mean(const NumberOf<ModelResult>& number, ContactModel model) const;
-  /// Mean over the realisations; one surface has no interval.
+  /// Mean over realisations; a single surface has no interval.
   EnsembleMean decay_length(ContactModel model = ContactModel::bem) const;
   EnsembleMean decay_length_over_rms_height(ContactModel model = ContactModel::bem) const;
   /// mean() of a column of ModelResult, such as "area_slope" or "law_bend". Throws InvalidInput for
-  /// another name.
+  /// an unknown name.
   EnsembleMean fitted(std::string_view column, ContactModel model = ContactModel::bem) const;
 
-  /// The exponential law against the mean curve of a model; none where no local l is known.
+  /// Compares the exponential law with the mean curve of a model; empty where no local l is known.
   std::optional<LawDescription> law_description(ContactModel model = ContactModel::bem) const;
 
   StudyTheories theories() const;
 
-  /// Means of a quantity of each pressure, in the order of pressures; contacts that did not
-  /// converge take no part.
+  /// Means over realisations at each pressure; contacts that did not converge are left out.
   std::vector<EnsembleMean> at_pressures(
       const std::function<double(const Realisation&, std::size_t)>& number) const;
   std::vector<EnsembleMean> curve(const NumberOf<ForceSample>& number,
                                   ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> damping(const NumberOf<DampingPoint>& number,
                                     ContactModel model = ContactModel::bem) const;
-  /// A quantity of DampingPoint as answers and files have it: stated() where it has a numerical
-  /// error, deviation(), and otherwise the mean over the surfaces. Throws InvalidInput for another
-  /// name.
+  /// A quantity of DampingPoint as answers and files state it: stated() where it has a numerical
+  /// error, deviation(), and otherwise the mean over realisations. Throws InvalidInput for an
+  /// unknown name.
   std::vector<EnsembleMean> damping(std::string_view quantity,
                                     ContactModel model = ContactModel::bem) const;
-  /// The mean of damping_constant_closed_form over that of damping_constant_without_slip, less 1: what
-  /// the two columns say, which is not the mean of the ratios of single surfaces. Its interval is that of
-  /// the mean of γ16/⟨γ⟩ − r(γ/⟨γ⟩ − 1) over the surfaces, r the ratio of the means: the ratio to
-  /// first order in the scatter.
+  /// The mean of damping_constant_closed_form over that of damping_constant_without_slip, minus 1;
+  /// it compares the two columns and is not the mean of the ratios of single surfaces. To first
+  /// order in the scatter, its interval is that of the mean of γ16/⟨γ⟩ − r(γ/⟨γ⟩ − 1) over the
+  /// surfaces, with the ratio r of the means.
   std::vector<EnsembleMean> deviation(ContactModel model = ContactModel::bem) const;
   std::vector<EnsembleMean> spots(const NumberOf<SpotStatistics>& number) const;
-  /// Over the surfaces whose gap lets pass a flow, where the number is one of the flow. The mean of
-  /// FlowFactors::percolates_x is the part of the surfaces that do.
+  /// Means of flow numbers over the surfaces whose gap percolates. The mean of
+  /// FlowFactors::percolates_x is the fraction of surfaces that do.
   std::vector<EnsembleMean> flow(const NumberOf<FlowFactors>& number) const;
-  /// At each mean gap of the cycle of adhesive contacts, and of the cycle; contacts that did not
-  /// converge take no part.
+  /// Means at each mean gap of the adhesive cycle, and for the whole cycle; contacts that did not
+  /// converge are left out.
   std::vector<EnsembleMean> adhesion(const NumberOf<AdhesionSample>& number) const;
   EnsembleMean adhesion_cycle(const NumberOf<AdhesiveCycleNumbers>& number) const;
-  /// Those that the configuration asks about, of the boundary elements' K; empty: not asked. Each is
-  /// K times a constant, and so is its interval.
+  /// Conductances from K of the boundary elements, as configured; empty otherwise. Each is K times
+  /// a constant, and so is its interval.
   std::vector<EnsembleMean> conductance(double Conductances::*kind) const;
   /// A quantity of a model over that of the boundary elements on the same surface.
   std::vector<EnsembleMean> over_bem(const NumberOf<ForceSample>& number, ContactModel model) const;
   /// A loss of a model over that of the boundary elements on the same surface without slip.
   std::vector<EnsembleMean> damping_over_bem(const NumberOf<DampingPoint>& number,
                                              ContactModel model) const;
-  /// Those ratios of a model that files and answers have, by the names of their quantities.
+  /// The ratios of a model that files and answers contain, by the names of their quantities.
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> comparison(
       ContactModel model) const;
 
-  /// work_per_cycle, damping_constant or one of both without slip, at each pressure with its
-  /// numerical error: the mean relative error of the surfaces that have one, with their noise over
-  /// √n, times the mean. The mean is NaN where the error is not smaller. Throws InvalidInput for
-  /// another name.
+  /// work_per_cycle or damping_constant, with or without slip, at each pressure with its numerical
+  /// error: the mean relative error of the surfaces that have one, with their noise over √n, times
+  /// the mean. The mean is NaN if it is no larger than its error. Throws InvalidInput for an
+  /// unknown name.
   std::vector<StatedMean> stated(std::string_view quantity,
                                  ContactModel model = ContactModel::bem) const;
 
-  /// Over the pressures.
+  /// Range of deviation() over the pressures.
   DeviationRange deviation_range(ContactModel model = ContactModel::bem) const;
-  /// The numbers of surfaces of convergence(): the milestones, and all.
+  /// Numbers of surfaces of convergence(): the milestones, and all.
   std::vector<std::size_t> convergence_counts() const;
-  /// The mean of l/h_rms of the boundary elements over the first convergence_counts() realisations:
-  /// how the mean converges.
+  /// Mean l/h_rms of the boundary elements over the first convergence_counts() realisations: the
+  /// convergence of the mean.
   std::vector<EnsembleMean> convergence() const;
-  /// Of a surface twin, the part of the variance of ln W over the surfaces that the scans leave open:
-  /// one less the variance within pairs of surfaces that share a spectrum over that of all, the mean
-  /// over the pressures. What remains is chance from place to place, which larger surfaces reduce.
-  /// NaN of another ensemble and below three pairs.
+  /// For a surface twin, the fraction of the variance of ln W over the surfaces that the scans
+  /// leave open: 1 minus the variance within pairs of surfaces that share a spectrum over that of
+  /// all, averaged over the pressures. The rest is variation from place to place, which larger
+  /// surfaces reduce. NaN for other ensembles and below three pairs.
   double scan_share() const;
-  /// How the intervals came about: one line.
+  /// One line on how the intervals were computed.
   std::string interval_method() const;
 };
 
@@ -220,68 +220,76 @@ struct RealisationReport {
   std::size_t point = 0, points = 1;     ///< of the parameter grid
   std::size_t finished = 0, wanted = 0;  ///< surfaces, over all points
   std::uint64_t seed = 0;
-  double seconds = 0;     ///< that it took; 0 where it was on the disk already
+  double seconds = 0;     ///< computing time; 0 if it was on the disk already
   bool restored = false;  ///< read, not computed
 };
 
-/// How a study runs: who is told, where its parts are kept, and which processes share it.
+/// How a study runs: callbacks, storage of its parts, and the processes that share it.
 struct StudyRun {
   Progress on_progress = {};  ///< of the whole run
   std::function<void(const RealisationReport&)> on_realisation = {};
-  /// Called with each of StudyResult::warnings that is known before the work, before it begins, in
-  /// every process.
+  /// Called before the work, in every process, with each of StudyResult::warnings that is known by
+  /// then.
   std::function<void(const std::string&)> on_warning = {};
-  /// Realisations that it holds are not computed again; each that is computed is on the disk before
-  /// its thread begins another.
+  /// Realisations in it are not computed again; a new one is on the disk before its thread begins
+  /// another.
   StudyParts* parts = nullptr;
-  /// Where it is given, nothing is computed: it receives the places, from 0 on over all points and
-  /// seeds in their order, of the realisations that `parts` lacks, and results are those of a whole
-  /// run where there are none.
+  /// If given, nothing is computed: it receives the indices, counted from 0 over all points and
+  /// seeds in their order, of the realisations that `parts` lacks. If there are none, the results
+  /// are those of a whole run.
   std::vector<std::size_t>* missing = nullptr;
-  /// The processes that make the run together: each group spreads one surface after the other over
-  /// its processes. All make the call, each with its own on_progress, and get the same results.
-  /// on_realisation and `parts` are of the first process alone.
+  /// The processes of the run: each group spreads one surface after the other over its processes.
+  /// All make the call, each with its own on_progress, and get the same results. Only the first
+  /// process uses on_realisation and `parts`.
   Groups groups = {};
 };
 
-/// How far one process has come with its share of a study.
+/// Progress of one process with its shard of a study.
 struct ShardOutcome {
   std::size_t wanted = 0;     ///< surfaces of this shard
-  std::size_t present = 0;    ///< that other processes, or earlier ones, had finished
+  std::size_t present = 0;    ///< finished earlier or by other processes
   std::size_t computed = 0;   ///< in this run
-  std::size_t elsewhere = 0;  ///< of any shard: that other processes are computing
-  int damaged = 0;            ///< files that were removed, their surfaces computed again
+  std::size_t elsewhere = 0;  ///< being computed by other processes, of any shard
+  int damaged = 0;            ///< files removed, their surfaces computed again
   bool interrupted = false;
 };
 
-/// Computes the surfaces of a shard that the folder lacks, and leaves them there: any number of
-/// processes may do so at once, on any hosts that see the folder. run.parts is
-/// StudyParts::of_shard(). run_ensembles() with `missing` puts the result together, with the bits
-/// of one process. A precision ends no numbered shard early, as others hold the surfaces between;
-/// Shard::any() heeds it before each surface. Shard::any() claims a surface by a file that it
-/// locks, and that ends with its process.
+/// Computes the surfaces of a shard that the folder lacks, and stores them there. Any number of
+/// processes may do so at once, on any hosts that see the folder.
+///
+///     auto parts = StudyParts::of_shard("study.parts", shard);
+///     ShardOutcome outcome = run_shard(study, shard, {.parts = parts.get()});
+///
+/// run_ensembles() with `missing` then assembles the result, with the bits of one process. A
+/// precision does not end a numbered shard early, because other shards have the surfaces in
+/// between; Shard::any() checks it before each surface. Shard::any() claims a surface by a file
+/// that it locks until its process ends.
 /// throws  InvalidInput for a configuration that cannot be run, and for parts none of which belongs
 ///         to it; NotConverged and IoError as run_ensembles()
 ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& shard,
                        const StudyRun& run);
 
-/// The ensembles of every point of the configuration's parameter grid, in the order of
-/// parameter_combinations(): every surface through analyse_realisation(), in parallel over
-/// surfaces. With a precision, a point ends at the first M >= min_realisations surfaces (in the
-/// order of the seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the
-/// boundary elements are narrower than ±precision of their means. The result has the same bits for
-/// every number of threads, processes and groups. A point that was not begun when the run was
-/// stopped is left out. A measured surface is treated as periodic after its plane is removed; the
-/// result carries a warning with the size of the step that this makes at the seam.
-/// throws  InvalidInput for a configuration that cannot be run, as one with a hardness, a relative
-///         error or interacting summits over several processes of a group, and for parts none of
-///         which belongs to it; NotConverged where fewer than four contacts of a sweep converged;
-///         IoError where a part cannot be written
-/// cost    the BEM sweep, for each surface; interacting summits cost about as much again
+/// Computes the ensembles of every point of the parameter grid, in the order of
+/// parameter_combinations(), by analyse_realisation() of every surface, in parallel over surfaces.
+///
+///     StudyRun run{.on_progress = progress};
+///     std::vector<StudyResult> results = run_ensembles(study, run);
+///
+/// With a precision, a point ends at the first M >= min_realisations surfaces (in the order of the
+/// seeds, M a milestone) for which the 95 % intervals of l/h_rms and of κ of the boundary elements
+/// are narrower than ±precision of their means. The result has the same bits for every number of
+/// threads, processes and groups. If the run is stopped, points not yet begun are left out. A
+/// measured surface is treated as periodic after its plane is removed; the result carries a warning
+/// with the size of the resulting step at the seam.
+/// throws  InvalidInput for a configuration that cannot be run, such as one with a hardness, a
+///         relative error or interacting summits over several processes of a group, and for parts
+///         none of which belongs to it; NotConverged where fewer than four contacts of a sweep
+///         converged; IoError where a part cannot be written
+/// cost    the BEM sweep for each surface; interacting summits cost about as much again
 std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
                                        const StudyRun& run = {});
 
-/// run_ensembles() of a configuration with one point. Throws InvalidInput where it has more.
+/// Runs a configuration with one point by run_ensembles(). Throws InvalidInput where it has more.
 StudyResult run_study(const StudyConfiguration& configuration, const StudyRun& run = {});
 
 }  // namespace salebra

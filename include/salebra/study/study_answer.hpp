@@ -8,21 +8,21 @@
 
 namespace salebra {
 
-/// What a study says of the motion that was described, at each of its pressures, and whether it may
-/// be used. Premises are those of the mean curve of the boundary elements: gap, area and
-/// stiffnesses averaged over the surfaces at each pressure.
+/// Result of a study for the described motion at each of its pressures, and its validity. The
+/// assumptions are those of the mean curve of the boundary elements: gap, area and stiffnesses
+/// averaged over the surfaces at each pressure.
 struct StudyAnswer {
   std::vector<double> pressures = {};  ///< nominal, Pa
   /// StudyResult::stated() of the boundary elements: the loss of the motion as described, and the
-  /// damping constant without slip. A loss is unknown where `unknown` says why.
+  /// damping constant without slip. NaN where `unknown` has a reason.
   std::vector<StatedMean> damping_constant = {};               ///< γ = P/⟨ẋ²⟩, N s/m
   std::vector<StatedMean> work_per_cycle = {};                 ///< J
   std::vector<StatedMean> damping_constant_without_slip = {};  ///< N s/m
-  /// Parts of the work by levels that open and close, and by slip of those that stay closed; unknown
-  /// where slip is not followed.
+  /// Fractions of the work by springs that open and close, and by slip of those that stay closed;
+  /// NaN where slip is not computed.
   std::vector<double> relaxation_share = {}, slip_share = {};
-  /// Of the boundary elements per nominal area, W/(m² K) and S/m²; empty where the configuration does
-  /// not ask.
+  /// Conductance of the boundary elements per nominal area, W/(m² K) and S/m²; empty where the
+  /// configuration does not want it.
   std::vector<EnsembleMean> thermal_conductance = {}, electrical_conductance = {};
   bool slip_followed = false;  ///< the coefficient of friction is known
   std::string unknown = {};    ///< why_loss_unknown(); empty: the loss is known
@@ -30,7 +30,7 @@ struct StudyAnswer {
   std::vector<Condition> conditions = {};  ///< worst first
   Validity validity = Validity::not_checked;
 
-  /// Whether damping_constant is with slip.
+  /// Whether damping_constant includes slip.
   bool slips() const { return slip_followed && unknown.empty(); }
 };
 
@@ -54,17 +54,21 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
   visit(&S::validity, Kept{"validity", "one word for all conditions"});
 }
 
-/// Facts: those of the configuration, and of the surfaces their side, mean contact pressure and rms
-/// slope. Where no contact converged, and everywhere where fewer than four pressures make no curve,
-/// the premises are unknown.
+/// Evaluates a study for its motion.
+///
+///     StudyAnswer answer = answer_of(run_study(study));
+///
+/// The contact parameters are those of the configuration and, from the surfaces, their side, mean
+/// contact pressure and rms slope. The assumptions are unknown where no contact converged, and
+/// everywhere if fewer than four pressures make no curve.
 /// Throws InvalidInput for a hardness below the largest pressure.
 /// Cost: 10 ms for each pressure.
 StudyAnswer answer_of(const StudyResult& result);
 
-/// How many surfaces the mean of the damping constant would need at each pressure for
-/// 95 % intervals of ±precision, by that of the n surfaces at hand: n (half its
-/// width/(precision·mean))², and not below 2. The variance of few surfaces is itself known to √(2/(n
-/// − 1)) at the best. NaN where no interval is known. Throws InvalidInput for a precision that is
+/// Returns the number of surfaces needed at each pressure for a 95 % interval of ±precision of the
+/// mean damping constant, estimated from the n surfaces at hand: n (half its
+/// width/(precision·mean))², at least 2. The variance of few surfaces is itself known to
+/// √(2/(n − 1)) at best. NaN without an interval. Throws InvalidInput for a precision that is
 /// not > 0.
 std::vector<double> surfaces_for(const StudyResult& result, double precision);
 

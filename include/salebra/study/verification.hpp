@@ -8,7 +8,7 @@
 
 namespace salebra {
 
-/// One number that this installation computes, beside what analysis says of it.
+/// One number computed by this installation, with its analytical value.
 struct Check {
   std::string name;
   double value = 0;
@@ -30,8 +30,11 @@ constexpr void describe(auto&& visit, std::type_identity<Check>) {
 
 /// Runs the solvers on problems with known solutions: Hertz's sphere, Westergaard's full contact,
 /// Greenwood–Williamson with exponential heights, the integrals J(k), the theorem against the
-/// closed forms, the moments of a generated surface. Cost: a few seconds. Throws Interrupted if
-/// progress says stop.
+/// closed forms, the moments of a generated surface.
+///
+///     bool works = std::ranges::all_of(verify_installation(), &Check::passed);
+///
+/// Cost: a few seconds. Throws Interrupted if progress says stop.
 std::vector<Check> verify_installation(const Progress& progress = {});
 
 }  // namespace salebra

@@ -6,9 +6,9 @@
 
 namespace salebra {
 
-/// Areal parameters by the definitions of ISO 25178-2, under their names there, of the surface as
-/// it is given: no S- or L-filter is applied, and form is removed by `detrended` alone. Means are
-/// over the defined points, heights count from their mean.
+/// Areal parameters with the names and definitions of ISO 25178-2, computed from the surface as
+/// given: no S- or L-filter is applied, and only `detrended` removes form. Means are taken over the
+/// defined points, and heights are measured from their mean.
 struct ArealParameters {
   double Sa = 0;   ///< ⟨|h|⟩, m
   double Sq = 0;   ///< √⟨h²⟩, m
@@ -17,23 +17,23 @@ struct ArealParameters {
   double Sp = 0;   ///< highest peak, m
   double Sv = 0;   ///< deepest pit, > 0, m
   double Sz = 0;   ///< Sp + Sv, m
-  /// Shortest distance at which the autocorrelation (CorrelationMap) has fallen to 0.2 of its value
-  /// at 0, over all directions (720 of them, bilinear between lags), m. NaN where it does not fall
-  /// so far within half the surface.
+  /// Autocorrelation length, m: the shortest distance, over 720 directions, at which the
+  /// autocorrelation (CorrelationMap, bilinear between lags) has fallen to 0.2 of its value at 0.
+  /// NaN if it does not fall that far within half the surface.
   double Sal = 0;
-  double Str = 0;  ///< Sal over the longest such distance, 0 … 1; NaN where that is unknown
-  /// Direction, from the x axis, of the greatest value of the angular spectrum ∫ q C dq (of 720
-  /// rays, bilinear between modes), in [0, π) rad. A lay runs across it. NaN if points are
-  /// undefined or all heights equal.
+  double Str = 0;  ///< Sal over the longest such distance, 0 … 1; NaN if that is unknown
+  /// Texture direction from the x axis, in [0, π) rad: where the angular spectrum ∫ q C dq is
+  /// greatest (720 rays, bilinear between modes). The lay is perpendicular to it. NaN if points are
+  /// undefined or all heights are equal.
   double Std = 0;
-  /// Root mean square gradient and developed area over its projection, less 1: means over the
-  /// triangles that each cell of four points is cut into by either of its diagonals.
+  /// Root mean square gradient, and developed area over projected area minus 1. Both are means over
+  /// the triangles into which either diagonal divides each cell of four points.
   double Sdq = 0;
   double Sdr = 0;
   double Sk = 0, Spk = 0, Svk = 0;  ///< core_parameters of the bearing curve, m
   double Smr1 = 0, Smr2 = 0;        ///< the same, 0 … 1
-  /// Peaks per area, 1/m², and their mean curvature, 1/m (NaN without peaks): significant_peaks
-  /// that stand 5 % of Sz above their saddle, as ISO's default has it.
+  /// Peaks per area, 1/m², and their mean curvature, 1/m (NaN without peaks). They count the
+  /// significant_peaks with a prominence of at least 5 % of Sz, the default of ISO 25178-2.
   double Spd = 0;
   double Spc = 0;
 };
@@ -68,16 +68,18 @@ class BearingCurve;
 struct CorrelationMap;
 struct PowerSpectrum;
 
-/// Results for the same surface that a caller has at hand; those that are missing are made.
+/// Results that the caller already has for this surface; missing ones are computed.
 struct ArealParts {
   const CorrelationMap* correlation = nullptr;
-  const PowerSpectrum* spectrum = nullptr;  ///< under the window that is used by default
+  const PowerSpectrum* spectrum = nullptr;  ///< with the default window
   const BearingCurve* bearing = nullptr;
 };
 
-/// Throws InvalidInput as height_statistics and for fewer than 3 × 3 points. Of a surface that is
-/// spread over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are NaN, which need it whole;
-/// collective. Cost: the correlation map, a power spectrum, a sort and the peaks.
+/// Computes the areal parameters of a surface:
+///     const ArealParameters areal = areal_parameters(detrended(surface, Detrend::plane));
+/// Throws InvalidInput as height_statistics does, and for fewer than 3 × 3 points. Collective: for
+/// a surface distributed over processes Sal, Str, Std, Sk to Smr2, Spd and Spc are NaN, because
+/// they need the whole surface. Cost: the correlation map, a power spectrum, a sort and the peaks.
 ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts = {});
 
 }  // namespace salebra

@@ -5,7 +5,7 @@
 
 namespace salebra {
 
-/// The direction of the profiles that a surface is cut into.
+/// The direction of the profiles of a surface, as in `profile_psd(surface, Axis::x)`.
 enum class Axis { x, y };
 
 template <>

@@ -8,19 +8,18 @@
 
 namespace salebra {
 
-/// Means over all pairs of defined points at a distance vector r, up to half the surface along each
-/// axis (beyond that a surface that is not periodic has few pairs, and a periodic one repeats
-/// itself):
+/// Correlation functions of a surface: means over all pairs of defined points at a distance vector
+/// r, up to half the surface along each axis (a non-periodic surface has few pairs beyond, and a
+/// periodic one repeats itself):
 ///     autocorrelation  A(r) = ⟨(h(x) − ⟨h⟩)(h(x+r) − ⟨h⟩)⟩,  ⟨h⟩ the mean of all defined points
 ///     structure        S(r) = ⟨(h(x+r) − h(x))²⟩, also called height-height correlation function
-/// On a periodic complete surface S = 2(A(0) − A(r)). Elsewhere the pairs at r are not all points,
-/// and S is the sounder one of the two: it does not depend on the mean. SurfaceTopography's
-/// "autocorrelation" is S/2. Fields are (2·(nx/2)+1, ny/2+1): row nx/2 + i and column j hold r =
-/// (i·dx, j·dy), j >= 0; A and S are even in r.
+/// On a complete periodic surface S = 2(A(0) − A(r)). Otherwise prefer S, which does not depend on
+/// the mean. "autocorrelation" in SurfaceTopography is S/2. Fields have the shape (2·(nx/2)+1,
+/// ny/2+1): row nx/2 + i and column j >= 0 hold r = (i·dx, j·dy); A and S are even in r.
 struct CorrelationMap {
-  Grid2D grid;            ///< of the surface
-  Field autocorrelation;  ///< m²; NaN where there is no pair
-  Field structure;        ///< m²; NaN where there is no pair
+  Grid2D grid;            ///< grid of the surface
+  Field autocorrelation;  ///< m²; NaN if there is no pair
+  Field structure;        ///< m²; NaN if there is no pair
   Field pairs;            ///< number of pairs
 
   Index origin() const { return grid.nx / 2; }  ///< row of i = 0
@@ -38,12 +37,14 @@ constexpr void describe(auto&& visit, std::type_identity<CorrelationMap>) {
   visit(&S::pairs, Kept{"pairs", "number of pairs"});
 }
 
-/// Undefined points take no part. Throws InvalidInput as height_statistics. Cost: six real FFTs of
-/// 1.5 times the points along each axis that is not periodic; two of the grid for a periodic
-/// complete surface.
+/// Computes the correlation functions; undefined points are ignored:
+///     const Correlation mean = radial_correlation(correlation_map(surface));
+/// Throws InvalidInput as height_statistics does. Cost: two real FFTs of the grid for a complete
+/// periodic surface; otherwise six of 1.5 times as many points along each axis that is not
+/// periodic.
 CorrelationMap correlation_map(const Surface& surface);
 
-/// A and S over distance. Every entry holds at least one pair; the first is r = 0.
+/// A and S over distance. Every entry has at least one pair, and the first entry is r = 0.
 struct Correlation {
   std::vector<double> distance;         ///< m, increasing
   std::vector<double> autocorrelation;  ///< m²
@@ -61,11 +62,11 @@ constexpr void describe(auto&& visit, std::type_identity<Correlation>) {
   visit(&S::pairs, Quantity{"pairs", dimensionless, "pairs in the mean"});
 }
 
-/// Along one axis: the mean over all profiles, at multiples of the step.
+/// Returns A and S along one axis: the mean over all profiles, at multiples of the step.
 Correlation profile_correlation(const CorrelationMap& map, Axis axis);
 
-/// Mean over all directions, in rings whose limits are in the ratio 2^(1/bins_per_octave), weighted
-/// with the pairs, up to half the shorter side; empty rings are left out.
+/// Returns the mean over all directions, weighted by pairs, up to half the shorter side. The limits
+/// of the rings have the ratio 2^(1/bins_per_octave); empty rings are omitted.
 Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave = 4);
 
 }  // namespace salebra

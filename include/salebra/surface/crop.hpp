@@ -6,21 +6,22 @@
 
 namespace salebra {
 
-/// A part of a surface whose point (ix, iy) lies at x = ix·dx, y = iy·dy.
+/// A rectangular part of a surface; point (ix, iy) of the surface is at x = ix·dx, y = iy·dy.
 struct Rectangle {
-  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< m, from the surface's own corner
+  double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< from the corner of the surface
 };
 
 constexpr void describe(auto&& visit, std::type_identity<Rectangle>) {
   keep(visit, &Rectangle::x0, &Rectangle::y0, &Rectangle::x1, &Rectangle::y1);
 }
 
-/// The cells within the rectangle, whose sides are moved to the nearest borders of cells. A part is
-/// not periodic. Throws InvalidInput where the rectangle leaves the surface by more than half a cell
-/// or holds less than two points along an axis.
+/// Cuts out the cells within the rectangle, whose sides snap to the nearest cell borders:
+///     const Surface half = cropped(surface, {0, 0, surface.grid.lx / 2, surface.grid.ly});
+/// The result is not periodic. Throws InvalidInput if the rectangle exceeds the surface by more
+/// than half a cell or contains fewer than two points along an axis.
 Surface cropped(const Surface& surface, const Rectangle& part);
 
-/// The rectangle of the largest area in which every point is defined; nothing where no point is.
+/// Finds the rectangle of the largest area without undefined points; empty if no point is defined.
 /// Cost: one pass.
 std::optional<Rectangle> largest_defined_part(const Surface& surface);
 

@@ -8,27 +8,27 @@ namespace salebra {
 /// The undefined points of a surface.
 struct Holes {
   Index points = 0;
-  double fraction = 0;      ///< of all points
+  double fraction = 0;      ///< fraction of all points
   double width = 0;         ///< m, side of the largest square in which no point is defined
-  double widest_share = 0;  ///< of that side in the surface, along the axis where it is larger
+  double widest_share = 0;  ///< that side over the surface's, along the axis where this is larger
 
-  /// At most a twentieth of the points, and no hole wider than a tenth of the surface: then what
-  /// filled() makes of them hardly changes how the surface carries load.
+  /// True if at most 5 % of the points are undefined and no hole is wider than a tenth of the
+  /// surface: filled() then hardly changes how the surface carries load.
   bool few() const { return fraction <= 0.05 && widest_share <= 0.1; }
 };
 
-/// Cost: one pass.
+/// Measures the holes, e.g. to check `holes_of(surface).few()` before filling. Cost: one pass.
 Holes holes_of(const Surface& surface);
 
-/// The surface with its undefined points filled by the smoothest heights that fit: the discrete
-/// Laplace equation
-///     Σ (h_neighbour − h)/dx² + Σ (h_neighbour − h)/dy² = 0,
-/// over the neighbours that exist, with the defined heights held. Planes are continued exactly, no
-/// filled point lies above or below all that surround it, and a hole at the border ends there
-/// without slope across it. What is filled is smoother than the surface: it has no summits and
-/// takes power from short waves, so count the points first. A complete surface comes back as it is.
-/// Throws InvalidInput if no height is defined. Cost: one sparse Cholesky factorisation for the
-/// undefined points.
+/// Fills undefined points with the smoothest heights that fit, e.g. `filled(std::move(surface))`.
+/// They solve the discrete Laplace equation over the neighbours that exist, with the defined
+/// heights fixed:
+///     Σ (h_neighbour − h)/dx² + Σ (h_neighbour − h)/dy² = 0.
+/// Planes are continued exactly, no filled point is higher or lower than all points around the
+/// hole, and at the border of the surface the slope across the border is zero. Filled regions are
+/// too smooth: they have no summits and reduce the power of short waves, so count the undefined
+/// points first. A complete surface is returned unchanged. Throws InvalidInput if no height is
+/// defined. Cost: one sparse Cholesky factorisation for the undefined points.
 Surface filled(Surface surface);
 
 }  // namespace salebra

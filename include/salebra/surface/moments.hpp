@@ -7,8 +7,8 @@
 
 namespace salebra {
 
-/// Moments of the height distribution over all defined points; undefined points take no part.
-/// The divisor is the number of points (population moments), and no filter is applied.
+/// Moments of the height distribution over all defined points. They are population moments (divided
+/// by the number of points), and no filter is applied.
 struct HeightStatistics {
   Index defined_points = 0;
   double minimum = 0;     ///< m
@@ -32,30 +32,33 @@ constexpr void describe(auto&& visit, std::type_identity<HeightStatistics>) {
   visit(&S::kurtosis, Quantity{"kurtosis", dimensionless, "kurtosis of heights, 3 for a Gaussian"});
 }
 
-/// Throws InvalidInput if the heights have not the shape of the grid, hold an infinity, or none of
-/// them is defined. Cost: two passes. Same bits for every number of threads and of processes over
-/// which a surface is spread; collective.
+/// Computes the height statistics:
+///     const double rms_height = height_statistics(surface).rms_height;
+/// Throws InvalidInput if the heights do not have the shape of the grid, contain an infinity, or
+/// none is defined. Cost: two passes. Collective; the result has the same bits for any number of
+/// threads and of processes that share the surface.
 HeightStatistics height_statistics(const Surface& surface);
 
-/// Moments of a periodic surface from its spectrum, whose convention is h_rms² = ∫C d²q:
-///     m2_x = Σ q_x² |ĥ|²/N², m4_x = Σ q_x⁴ |ĥ|²/N² over the full spectrum, q = 0 left out,
-/// which are those of the trigonometric interpolant; a Nyquist mode counts once, with |q| = π/dx.
-/// Throws InvalidInput unless the surface is periodic and complete. Cost: transforms of all rows
-/// and columns. A surface may be spread over processes, as in height_statistics.
+/// Computes the moments of a periodic surface from its spectrum, with the convention h_rms² = ∫C
+/// d²q:
+///     m2_x = Σ q_x² |ĥ|²/N², m4_x = Σ q_x⁴ |ĥ|²/N² over the full spectrum without q = 0.
+/// They are the moments of the trigonometric interpolant; a Nyquist mode counts once, with |q| =
+/// π/dx. Throws InvalidInput unless the surface is periodic and complete. Cost: FFTs of all rows
+/// and columns. The surface may be distributed over processes, as in height_statistics.
 SpectralMoments spectral_moments(const Surface& surface);
 
-/// Moments by finite differences of neighbouring points:
-///     m2_x = ⟨((h_{i+1} − h_i)/dx)²⟩, m4_x = ⟨((h_{i+1} − 2h_i + h_{i−1})/dx²)²⟩,
-/// m4 a mean over all stencils on the grid (with wrap where the surface is periodic) that touch no
-/// undefined point, m2 over all points whose neighbours of both differences exist, so that the rms
-/// slope is the mean of |∇h|² over one set of points, as SurfaceTopography has it. Where the
-/// surface has structure at the scale of the grid they are smaller than the spectral moments: a
-/// mode of wave number q counts with (2 sin(q dx/2)/dx)² in place of q². Throws InvalidInput if an
-/// axis has fewer than three points or a moment has no stencil left. Cost: one pass. Of a surface
-/// spread over processes as height_statistics.
+/// Computes the moments by finite differences of neighbouring points:
+///     m2_x = ⟨((h_{i+1} − h_i)/dx)²⟩, m4_x = ⟨((h_{i+1} − 2h_i + h_{i−1})/dx²)²⟩.
+/// m4 is a mean over all stencils without undefined points (wrapped if the surface is periodic), m2
+/// a mean over all points that have the neighbours of both differences, so that the rms slope is
+/// the mean of |∇h|² over one set of points, as in SurfaceTopography. These moments are smaller
+/// than the spectral ones if the surface has structure at the scale of the grid: a mode of wave
+/// number q contributes (2 sin(q dx/2)/dx)² instead of q². Throws InvalidInput if an axis has fewer
+/// than three points or a moment has no stencil. Cost: one pass. The surface may be distributed
+/// over processes, as in height_statistics.
 SpectralMoments difference_moments(const Surface& surface);
 
-/// spectral_moments of a periodic surface, difference_moments of any other.
+/// Calls spectral_moments for a periodic surface and difference_moments for any other.
 SpectralMoments surface_moments(const Surface& surface);
 
 }  // namespace salebra

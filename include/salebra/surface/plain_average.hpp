@@ -7,12 +7,14 @@
 
 namespace salebra {
 
-/// Spectrum of the profiles of one scan, or its plain mean over several, in ten bins a decade.
+/// Power spectrum of the profiles of one scan, or its mean over several scans, in ten bins per
+/// decade.
 struct PlainSpectrum {
-  std::vector<Index> bin;          ///< number of each bin that holds a wave, counted from q = 1/m
-  std::vector<double> wavenumber;  ///< mean of the waves in it, rad/m
-  std::vector<double> psd;   ///< mean C₁ in it, h_rms² = ∫C₁ dq over −∞ < q < ∞, m³
-  std::vector<Index> scans;  ///< that have waves in it
+  std::vector<Index> bin;          ///< indices of the bins that contain a wave, counted from q =
+                                   ///< 1/m
+  std::vector<double> wavenumber;  ///< mean wave number in each bin, rad/m
+  std::vector<double> psd;   ///< mean C₁ in each bin, h_rms² = ∫C₁ dq over −∞ < q < ∞, m³
+  std::vector<Index> scans;  ///< number of scans with waves in each bin
 };
 
 constexpr void describe(auto&& visit, std::type_identity<PlainSpectrum>) {
@@ -24,17 +26,19 @@ constexpr void describe(auto&& visit, std::type_identity<PlainSpectrum>) {
   visit(&S::scans, Kept{"scans", "scans with waves in the bin"});
 }
 
-/// C₁ = |dx Σ w h e^{−iqx}|²/(2πl) of the profiles along x, q = 2πk/l, k = 1 … nx/2 − 1, mean over
-/// all of them and over bins, w = √(8/3)·½(1 − cos 2πi/nx). No mean and no plane is subtracted. The
-/// limits of the bins divide the decades from that of the longest wave to that of the shortest,
-/// widened by 0.01 decades at either end, as SurfaceTopography 1.x has it, whose C is 2πC₁.
-/// heights (nx, ny), m; a line has ny = 1. Throws InvalidInput unless all heights are defined and
+/// Computes the spectrum C₁ = |dx Σ w h e^{−iqx}|²/(2πl) of the profiles along x, averaged over all
+/// profiles and over bins:
+///     const PlainSpectrum spectrum = plain_spectrum(surface.heights, surface.grid);
+/// Here q = 2πk/l, k = 1 … nx/2 − 1, and the window is w = √(8/3)·½(1 − cos 2πi/nx). Neither mean
+/// nor plane is subtracted. The bins divide the range from the longest to the shortest wave,
+/// widened by 0.01 decades at either end, as in SurfaceTopography 1.x, whose C is 2πC₁. heights has
+/// the shape (nx, ny), m; a line has ny = 1. Throws InvalidInput unless all heights are defined and
 /// nx >= 4. Cost: one FFT.
 PlainSpectrum plain_spectrum(const Field& heights, const Grid2D& grid);
 
-/// What a container of scans is reduced to without instruments, weights or variance: in each bin
-/// the mean of the scans' means and of their wave numbers. A comparison for fit_twin, which knows
-/// that a tip or a lens takes power away. Throws InvalidInput for no scan.
+/// Averages the spectra of several scans without instruments, weights or variance: each bin gets
+/// the mean of the scans' means and of their wave numbers. It serves as a comparison for fit_twin,
+/// which models the power that a tip or a lens removes. Throws InvalidInput for an empty list.
 PlainSpectrum plain_average(const std::vector<PlainSpectrum>& scans);
 
 }  // namespace salebra

@@ -7,12 +7,12 @@
 
 namespace salebra {
 
-/// A line profile, and the isotropic self-affine surface of whose profiles it can be one. A profile
-/// is a surface of one row, ny = 1.
+/// Roughness of a line profile, and the isotropic self-affine surface that would have such
+/// profiles. A profile is a surface of one row, ny = 1.
 struct ProfileFit {
-  double rms_height = 0;  ///< Rq, of the profile less its straight line, m
-  double rms_slope = 0;   ///< Rdq, of neighbouring points
-  /// √2 times rms_slope: of the isotropic surface.
+  double rms_height = 0;  ///< Rq of the profile minus its straight line, m
+  double rms_slope = 0;   ///< Rdq from neighbouring points
+  /// √2 times rms_slope: the slope of the isotropic surface.
   double surface_slope = 0;
   IntervalEstimate hurst;
   double rolloff = IntervalEstimate::unknown;  ///< λ_r, m; NaN unless a plateau is seen
@@ -34,25 +34,28 @@ constexpr void describe(auto&& visit, std::type_identity<ProfileFit>) {
       Kept{"short_cutoff", "wavelength; NaN unless the spectrum ends within the profile", length});
 }
 
-/// Power spectral density of the profiles of an isotropic surface with
+/// Computes the profile spectrum of an isotropic surface, divided by C0, in 1/m, for q > 0, e.g.
+/// `profile_density(1e6, 0.8, 1e5, 1e8)`. For
 ///     C = C0 (q < q_r),  C0 (q/q_r)^{−2(1+H)} (q_r <= q <= q_s),  0 beyond:
 ///     C₁(q) = ∫C dq_y = 2 C0 [√(q_r² − q²)]_{q < q_r} + 2 C0 q_r^{2+2H} q^{−1−2H} ∫cos^{2H}θ dθ
-/// from θ = arccos(q/max(q, q_r)) to arccos(q/q_s), over C0, in 1/m. q > 0.
+/// with θ from arccos(q/max(q, q_r)) to arccos(q/q_s).
 double profile_density(double q, double hurst, double q_rolloff, double q_short);
 
-/// Fits A·C₁(q)·exp(−g q²) + floor to the spectrum of a profile under Hann's window, less its straight
-/// line, as estimate_hurst() does to that of a surface: C follows from integrating a model, never from
-/// inverting what was measured. Powers are exponentially distributed. The three longest waves, into
-/// which the window mixes others, are left out, and so are those of less than 2.5 cells, those shorter
-/// than shortest_wavelength (m), and of an interpolated profile those shorter than twice its longest
-/// straight piece. Where shortest_wavelength is 0, those up to which peaks and valleys differ are left
-/// out too, as estimate_hurst() says. The interval of H is that of a likelihood-ratio test at 5 %, the roll-off, floor
-/// and g being free. A roll-off counts as seen where a law without it is less likely by more than
-/// that, a shortest wavelength where the power falls to a twentieth of the law within a factor of
-/// 1.6. H is not found of less than 32 points, of a straight line, where a wave has no power, and
-/// where no range of a factor of four in q follows the law.
-/// Throws InvalidInput unless the profile is complete, with one row and two points at least. Cost:
-/// some 10⁴ evaluations of the spectrum in sixty bins, 0.3 s.
+/// Fits the roughness parameters of a profile:
+///     const IntervalEstimate hurst = fit_profile(profile).hurst;
+/// The model A·C₁(q)·exp(−g q²) + floor is fitted to the spectrum of the profile (Hann window,
+/// straight line subtracted) like estimate_hurst() does for a surface: C is never obtained by
+/// inverting measured data. Powers are exponentially distributed. The fit omits the three longest
+/// waves, which the window mixes with others, waves shorter than 2.5 cells or than
+/// shortest_wavelength (m), and, for an interpolated profile, waves shorter than twice its longest
+/// straight piece. With shortest_wavelength = 0 it also omits the waves up to which peaks and valleys
+/// differ, as estimate_hurst() does. The interval of H comes from a likelihood-ratio test at 5 % with free roll-off,
+/// floor and g. A roll-off counts as seen if omitting it reduces the likelihood by more than that;
+/// a shortest wavelength, if the power falls to a twentieth of the law within a factor of 1.6. H is
+/// NaN for fewer than 32 points, for a straight line, if a wave has no power, and if no range of a
+/// factor of four in q follows the law. Throws InvalidInput unless the profile is complete, with
+/// one row and at least two points. Cost: about 10⁴ evaluations of the spectrum in sixty bins, 0.3
+/// s.
 ProfileFit fit_profile(const Surface& profile, double shortest_wavelength = 0);
 
 }  // namespace salebra

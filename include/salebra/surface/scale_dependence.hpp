@@ -9,19 +9,19 @@
 
 namespace salebra {
 
-/// Slope and curvature along one axis by finite differences over s = k steps, k from one step on,
-/// k+1 or about a tenth apart, as long as the stencil fits twice into the profile, as Sanner et al.
-/// (2022):
+/// Scale-dependent slope and curvature along one axis by finite differences [Sanner et al. (2022)].
+/// The distance s is one step, then grows by one step or about a tenth, as long as the stencil fits
+/// twice into the profile:
 ///     slope       (h(x+s) − h(x))/s,               over the distance s
 ///     curvature   (h(x+s) − 2h(x) + h(x−s))/s²,    over the distance 2s, the length of its stencil
-/// over all stencils that touch no undefined point, with wrap where the surface is periodic. An
-/// entry stands for the distance s of the slope; the curvature beside it belongs to 2s.
+/// All stencils without undefined points count, with wrap if the surface is periodic. An entry
+/// lists the distance s of the slope; its curvature belongs to 2s.
 struct ScaleDependence {
   std::vector<double> spacing;        ///< s, m
   std::vector<double> profile_slope;  ///< √⟨slope²⟩ = √S(s)/s of the structure function
   std::vector<double> profile_curvature;  ///< √⟨curvature²⟩, 1/m
-  std::vector<double> min_curvature;      ///< of all stencils: the sharpest peak, 1/m
-  std::vector<Index> stencils;            ///< of the curvature
+  std::vector<double> min_curvature;      ///< minimum over all stencils: the sharpest peak, 1/m
+  std::vector<Index> stencils;            ///< stencils of the curvature
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ScaleDependence>) {
@@ -36,23 +36,25 @@ constexpr void describe(auto&& visit, std::type_identity<ScaleDependence>) {
   visit(&S::stencils, Quantity{"stencils", dimensionless, "stencils of the curvature"});
 }
 
-/// Throws InvalidInput if the heights have not the shape of the grid or hold no complete stencil of
-/// three neighbours along the axis. Cost: one pass over memory, with about 40 over each profile of
-/// 1000 points. A surface may be spread over processes, as in height_statistics.
+/// Computes slope and curvature over distance:
+///     const ScaleDependence scales = scale_dependence(surface, Axis::x);
+/// Throws InvalidInput if the heights do not have the shape of the grid or have no complete stencil
+/// of three neighbours along the axis. Cost: one pass over memory, with about 40 over each profile
+/// of 1000 points. The surface may be distributed over processes, as in height_statistics.
 ScaleDependence scale_dependence(const Surface& surface, Axis axis);
 
-/// Wavelengths below which a measured surface is the instrument's rather than its own.
+/// Inputs for finding the wavelength below which a scan shows the instrument, not the surface.
 struct ReliabilityOptions {
-  std::optional<double> tip_radius = {};  ///< of a scanning probe, m
-  std::optional<double> resolution = {};  ///< lateral, of an optical instrument, m
-  double safety_factor = 0.5;             ///< of the tip's curvature that peaks may have, > 0
+  std::optional<double> tip_radius = {};  ///< radius of a scanning probe, m
+  std::optional<double> resolution = {};  ///< lateral resolution of an optical instrument, m
+  double safety_factor = 0.5;             ///< part of the tip's curvature that peaks may have, > 0
 };
 
 struct ReliabilityLimit {
   double pixel = 0;  ///< 2·max(dx, dy): no grid holds shorter waves, m
-  /// Least stencil length 2s from which on no curvature along x or y is below
-  /// −safety_factor/tip_radius: a tip cannot see sharper peaks. 0 where even the grid itself shows
-  /// none, infinity where all scales do. m
+  /// Tip limit, m: the minimum stencil length 2s from which on no curvature along x or y is below
+  /// −safety_factor/tip_radius, since a tip cannot resolve sharper peaks. 0 if even the grid shows
+  /// none, infinity if all scales do.
   std::optional<double> tip = {};
   std::optional<double> resolution = {};  ///< as given, m
 
@@ -70,7 +72,9 @@ constexpr void describe(auto&& visit, std::type_identity<ReliabilityLimit>) {
   visit(&S::wavelength, Quantity{"wavelength", length, "shortest reliable wavelength"});
 }
 
-/// Throws InvalidInput unless radius, resolution and factor are > 0, and as scale_dependence.
+/// Finds the shortest reliable wavelength of a scan:
+///     const double limit = short_wavelength_limit(surface, {.tip_radius = 10e-9}).wavelength();
+/// Throws InvalidInput unless radius, resolution and factor are > 0, and as scale_dependence does.
 ReliabilityLimit short_wavelength_limit(const Surface& surface, const ReliabilityOptions& options);
 
 }  // namespace salebra

@@ -11,33 +11,35 @@
 namespace salebra {
 
 struct AdhesiveCycleOptions {
-  AdhesiveContactOptions contact = {};  ///< its start_tension begins the loading
-  bool unload = false;                  ///< draws the surfaces off again: a cycle
-  /// Called with each state as soon as it has converged, with its fields.
+  AdhesiveContactOptions contact = {};  ///< loading starts from its start_tension
+  bool unload = false;                  ///< also unloads, for a full cycle
+  /// Called with each state, including its fields, as soon as it has converged.
   std::function<void(bool unloading, const AdhesiveContactState&)> on_state = {};
 };
 
-/// What a cycle of adhesive contacts comes to; NaN where it is not known.
+/// Results of a cycle of adhesive contacts; NaN if unknown.
 struct AdhesiveCycleNumbers {
-  /// Largest mean tension of unloading, Pa: that at which the surfaces come off, >= 0; NaN of no
-  /// cycle, and where the closest position has it, which is not close enough.
+  /// Pull-off pressure, Pa, >= 0: the largest mean tension during unloading. NaN without unloading,
+  /// and if the closest position has it, because loading did not go close enough.
   double pull_off_pressure = std::numeric_limits<double>::quiet_NaN();
-  /// ∮F dδ, J, the energy that a cycle between its outermost and its closest position loses; NaN
-  /// under given loads, where surfaces that come off part without end, and where both branches do
-  /// not meet at the outermost position.
+  /// Energy lost in a cycle between the outermost and the closest position, ∮F dδ, J. NaN in load
+  /// control, where separated surfaces move apart without limit, and if the branches do not meet at
+  /// the outermost position.
   double adhesion_work_per_cycle = std::numeric_limits<double>::quiet_NaN();
-  /// What it changes by without every other position, what two snaps somewhere between positions may
-  /// add, and what tensions do that are wrong everywhere by the residual, J.
+  /// Error of the work, J: its change when every other position is omitted, plus what two snaps
+  /// between positions may add, plus the effect of tensions that are wrong everywhere by the
+  /// residual.
   double adhesion_work_error = std::numeric_limits<double>::quiet_NaN();
-  /// Half of the way out of the closest position on which unloading retraces loading, m: an
-  /// oscillation there of a smaller amplitude passes the same states in and out. NaN where no
-  /// hysteresis is seen at all, and under given loads.
+  /// Half the distance, from the closest position outward, over which unloading retraces loading,
+  /// m: an oscillation there with a smaller amplitude has no hysteresis. NaN if no hysteresis is
+  /// seen at all, and in load control.
   double reversible_amplitude = std::numeric_limits<double>::quiet_NaN();
-  /// One position more, and the forces differ by more than 1e-3 of the largest pull, m.
+  /// Error of the amplitude, m: one position further out the forces differ by more than 1e-3 of the
+  /// largest pull.
   double reversible_amplitude_error = std::numeric_limits<double>::quiet_NaN();
 
-  /// Whether the forces of both branches are the same at all positions, to 1e-3 of the largest pull;
-  /// unknown under given loads.
+  /// True if both branches have the same forces at all positions, to 1e-3 of the largest pull;
+  /// empty in load control.
   std::optional<bool> reversible() const;
 };
 
@@ -61,8 +63,8 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycleNumbers>) 
         Quantity{"reversible", dimensionless, "whether unloading retraces loading"});
 }
 
-/// Contacts each of which follows from the one before. A state that did not converge is the last of
-/// its branch, and ends the cycle.
+/// A sequence of contacts, each started from the previous one. A state that did not converge is the
+/// last of its branch and ends the cycle.
 struct AdhesiveCycle : AdhesiveCycleNumbers {
   std::vector<AdhesiveContactState> loading;    ///< without fields
   std::vector<AdhesiveContactState> unloading;  ///< from the closest position outward
@@ -78,13 +80,16 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
   visit(&S::converged, Kept{"converged", "false: do not use the numbers"});
 }
 
-/// Presses a surface from position to position and, of a cycle, draws it off through the same ones.
-/// Under pressures or forces the unloading then pulls: by twice as much from step to step until the
-/// surfaces part, and between by bisection until the pull-off is known to 2 %. At given mean gaps and
-/// indentations the force passes its minimum.
+/// Presses a surface from position to position and, with `unload`, separates it through the same
+/// ones:
+///     const AdhesiveCycle cycle = adhesive_cycle(
+///         surface, 1e9, {{.pressure = 1e5}, {.pressure = 1e6}}, adhesion, {.unload = true});
+/// In load control the unloading then pulls: the load doubles from step to step until the surfaces
+/// separate, and bisection finds the pull-off to 2 %. At given mean gaps and indentations, states
+/// beyond the minimum of the force are reached.
 /// positions  of one kind, from the loosest to the closest
 /// throws     InvalidInput before any work, as press_adhesive()
-/// cost       press_adhesive() for each position
+/// cost       one press_adhesive() per position
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
                              const std::vector<Target>& positions, const Adhesion& adhesion,
                              const AdhesiveCycleOptions& options = {});

@@ -5,28 +5,31 @@
 #include <salebra/base/describe.hpp>
 #include <vector>
 
-/// Conductance of a contact from its normal stiffness K = dF/dδ. The pressure under a unit approach
-/// of a contact set and the current density through it are solutions of one problem of potential
-/// theory, hence it holds for every set of contact spots, without a sum over spots [Barber (2003)].
-/// K of normal_stiffness() or of a force curve is all that is needed; K per nominal area gives a
-/// conductance per nominal area. An infinite K, of full contact, conducts without resistance.
-/// Throws InvalidInput for K < 0, E* <= 0, negative numbers of a body, or two bodies without any
-/// resistance.
+/// Conductance of a contact from its normal stiffness K = dF/dδ, as returned by normal_stiffness()
+/// or in a force curve:
+///     const double siemens = electrical_conductance(stiffness, 1.1e11, 1.7e-8, 1.7e-8);
+/// The pressure under a unit approach of a contact set and the current density through it solve the
+/// same problem of potential theory, so the relation holds for every set of contact spots without a
+/// sum over spots [Barber (2003)]. K per nominal area gives a conductance per nominal area. An
+/// infinite K (full contact) conducts without resistance. Functions throw InvalidInput for K < 0,
+/// E* <= 0, negative numbers of a body, or two bodies without any resistance.
 namespace salebra {
 
-/// C = 2K/[E*(ρ_1 + ρ_2)], S; S/m² of K per area. Resistivities ρ, Ω m; 0: a perfect conductor.
+/// Returns C = 2K/[E*(ρ_1 + ρ_2)] in S, or in S/m² for K per area. A resistivity ρ, Ω m, of 0 is a
+/// perfect conductor.
 /// normal_stiffness   N/m
 /// contact_modulus    E*, Pa
 double electrical_conductance(double normal_stiffness, double contact_modulus, double resistivity_1,
                               double resistivity_2);
 
-/// 2K/[E*(1/κ_1 + 1/κ_2)], W/K; W/(m² K) of K per area. Conductivities κ, W/(m K); infinite: a
-/// perfect conductor. Solid spots alone: neither radiation nor what fills the gap.
+/// Returns 2K/[E*(1/κ_1 + 1/κ_2)] in W/K, or in W/(m² K) for K per area. A conductivity κ, W/(m K),
+/// of infinity is a perfect conductor. Only solid spots conduct: radiation and the medium in the
+/// gap are neglected.
 double thermal_conductance(double normal_stiffness, double contact_modulus, double conductivity_1,
                            double conductivity_2);
 
-/// How the bodies conduct. Of each list: two numbers are the two bodies, one number is both of
-/// them, none is not asked about.
+/// Conduction of the bodies. Each list has two numbers for the two bodies, one number for both, or
+/// none if that conductance is not wanted.
 struct Conduction {
   std::vector<double> conductivity = {};  ///< κ, W/(m K)
   std::vector<double> resistivity = {};   ///< ρ, Ω m
@@ -45,7 +48,7 @@ constexpr void describe(auto&& visit, std::type_identity<Conduction>) {
         Quantity{"resistivity", Dimension::resistivity, "electrical resistivity of the bodies"});
 }
 
-/// Per nominal area; NaN where it was not asked about.
+/// Conductances per nominal area; NaN if not requested.
 struct Conductances {
   double thermal_conductance = std::numeric_limits<double>::quiet_NaN();     ///< W/(m² K)
   double electrical_conductance = std::numeric_limits<double>::quiet_NaN();  ///< S/m²
@@ -60,7 +63,7 @@ constexpr void describe(auto&& visit, std::type_identity<Conductances>) {
                  "electrical conductance over nominal area"});
 }
 
-/// Those that were asked about, of K per area, Pa/m.
+/// Returns the requested conductances for a K per area, Pa/m.
 Conductances conductances(double normal_stiffness_per_area, double contact_modulus,
                           const Conduction& conduction);
 

@@ -6,7 +6,7 @@
 
 namespace salebra {
 
-/// A connected part of the contact area: cells with p > 0 that share edges.
+/// A contact patch: connected cells with p > 0 that share edges.
 struct ContactSpot {
   double area = 0;   ///< m²
   double force = 0;  ///< N
@@ -22,10 +22,10 @@ struct ContactSpots {
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
   double perimeter = 0;              ///< of all spots, along cell edges, m
   double perimeter_along_x = 0;      ///< the part of it along x, m
-  /// A/A0 without the cells that a boundary element solution counts in excess along the edges of
-  /// contacts,
+  /// A/A0 corrected for the area that a boundary element solution overestimates along contact
+  /// edges,
   ///     A = A_cells − (π − 1 + ln 2)/24 · Σ (perimeter edges × cell width across them)
-  /// by Yastrebov et al. (2017). Never below 0.
+  /// by Yastrebov et al. (2017). It is never below 0.
   double corrected_area_fraction = 0;
 };
 
@@ -43,12 +43,13 @@ constexpr void describe(auto&& visit, std::type_identity<ContactSpots>) {
              "doi:10.1016/j.triboint.2017.04.023"});
 }
 
-/// Spots of a pressure field (nx, ny), Pa; neighbours wrap for Boundary::periodic, while at a free
-/// boundary the edge of the grid is an edge of the contact. Throws InvalidInput unless pressure has
-/// the shape of the grid.
-/// ranks  the processes that share the rows of the pressure. Each gets the spots of all of it, with
-///        the same bits for every number of processes; collective
-/// Cost: two passes, and 32 bytes for each contact cell.
+/// Finds the contact patches of a pressure field (nx, ny), Pa:
+///     const ContactSpots spots = contact_spots(state.contact_pressure, surface.grid);
+/// Neighbours wrap for Boundary::periodic; for a free boundary the edge of the grid is an edge of
+/// the contact. Throws InvalidInput unless pressure has the shape of the grid.
+/// ranks  processes that share the rows of the pressure. Each gets all spots, with the same bits
+///        for any number of processes; collective
+/// Cost: two passes, and 32 bytes per contact cell.
 ContactSpots contact_spots(const Field& pressure, const Grid2D& grid,
                            Boundary boundary = Boundary::periodic, const Communicator& ranks = {});
 

@@ -7,17 +7,17 @@
 
 namespace salebra {
 
-/// How pressures and gaps of a contact are distributed, in bins of equal width from 0 to the
-/// largest value; a value between two bins counts to the upper one, the largest to the last.
+/// Distributions of pressure and gap in a contact, in bins of equal width from 0 to the largest
+/// value. A value between two bins belongs to the upper one, the largest to the last.
 struct ContactDistributions {
-  /// P(p) over the nominal area: cells in contact alone, ∫P dp = A/A0, the rest being at p = 0.
+  /// P(p) over the nominal area, for cells in contact only: ∫P dp = A/A0, the rest is at p = 0.
   std::vector<double> contact_pressure;  ///< middle of the bin, Pa
-  std::vector<double> pressure_density;  ///< part of all cells in the bin over its width, 1/Pa
-  double pressure_width = 0;             ///< of a bin, Pa
-  /// P(g) over the nominal area: cells out of contact alone, ∫P dg = 1 − A/A0.
+  std::vector<double> pressure_density;  ///< fraction of all cells in the bin per width, 1/Pa
+  double pressure_width = 0;             ///< width of a bin, Pa
+  /// P(g) over the nominal area, for cells out of contact only: ∫P dg = 1 − A/A0.
   std::vector<double> gap;          ///< middle of the bin, m
-  std::vector<double> gap_density;  ///< part of all cells in the bin over its width, 1/m
-  double gap_width = 0;             ///< of a bin, m
+  std::vector<double> gap_density;  ///< fraction of all cells in the bin per width, 1/m
+  double gap_width = 0;             ///< width of a bin, m
 };
 
 constexpr void describe(auto&& visit, std::type_identity<ContactDistributions>) {
@@ -34,13 +34,15 @@ constexpr void describe(auto&& visit, std::type_identity<ContactDistributions>) 
   visit(&S::gap_width, Kept{"gap_width", "width of a bin", length});
 }
 
-/// The distributions of a state; those of pressures are empty where nothing touches, those of gaps
-/// in full contact. Cells with p > 0 are in contact, and pressures at the hardness are in the last
-/// bin. Gaps below 0, within the solver's tolerance, count as 0.
+/// Computes the distributions of a state:
+///     const ContactDistributions bins = contact_distributions(state, surface.grid);
+/// Those of pressure are empty if nothing touches, those of the gap in full contact. Cells with p >
+/// 0 are in contact, and pressures at the hardness fall into the last bin. Gaps below 0, within the
+/// tolerance of the solver, count as 0.
 /// bins     of each, 1 … 100000
 /// throws   InvalidInput for bins, and for fields that do not fill the grid
-/// cost     two passes. Collective where the state is spread: every process gets all bins, with the
-///          bits of one process
+/// cost     two passes. Collective if the state is distributed: every process gets all bins, with
+///          the bits of one process
 ContactDistributions contact_distributions(const NormalContactState& state, const Grid2D& grid,
                                            int bins = 100);
 

@@ -5,19 +5,20 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/contact/normal/adhesion.hpp>
 
-/// A first loading during which the highest parts of a surface flow, and the surface that it
-/// leaves. Pressures rise to the hardness H and no further. Where p = H, the surface sinks in by
+/// Plastic first loading: the highest parts of a surface yield and leave a residual surface.
+///     const ResidualSurface left = after_first_loading(surface, 1.1e11, 2e8, {.hardness = 2e9});
+/// Pressures are limited to the hardness H. Where p = H, the surface sinks in by
 ///     w = h − max h + δ − Gp >= 0,   0 elsewhere,
-/// with G and p of press() and the indentation δ. The residual heights h − w meet the
-/// conditions of an elastic contact under the same pressures. Unloading, and every later cycle
-/// below the first load, is therefore the elastic contact of the residual surface: what presses
-/// surfaces takes it in place of the first one. Reloading follows the unloading curve, up to the
-/// first load. The bodies are elastic and perfectly plastic: nothing hardens, and what sinks in
-/// does not pile up beside the contact. The model is that of Almqvist et al. (2007); Johnson
-/// (1985), section 6.4, has the unloading of a sphere.
+/// with G and p of press() and the indentation δ. The residual heights h − w satisfy the conditions
+/// of an elastic contact under the same pressures. Unloading, and every later cycle below the first
+/// load, is therefore the elastic contact of the residual surface, which replaces the original one
+/// in all later calls. Reloading follows the unloading curve up to the first load. The bodies are
+/// elastic and perfectly plastic: there is no hardening and no pile-up next to the contact. The
+/// model is that of Almqvist et al. (2007); Johnson (1985), section 6.4, treats the unloading of a
+/// sphere.
 namespace salebra {
 
-/// What a first loading did. NaN: there was none.
+/// Results of a first loading; NaN if there was none.
 struct FirstLoading {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double pressure = unknown;               ///< largest nominal pressure, Pa
@@ -43,7 +44,7 @@ constexpr void describe(auto&& visit, std::type_identity<FirstLoading>) {
         Quantity{"max_plastic_depth", length, "largest depth that the first loading left"});
 }
 
-/// The heights that a first loading leaves. Unless converged, the surface is the first one.
+/// The surface after a first loading; the original surface unless converged.
 struct ResidualSurface {
   Surface surface;
   FirstLoading first_loading = {};
@@ -52,31 +53,31 @@ struct ResidualSurface {
   bool converged() const { return termination == Termination::converged; }
 };
 
-/// The surface that is left after a contact with a hardness, at any load. Heights of cells below
-/// the hardness keep their bits.
-/// state    of this surface, modulus and options, by press()
+/// Computes the surface left by a contact with a hardness, at any load. Heights of cells below the
+/// hardness keep their bits.
+/// state    result of press() for this surface, modulus and options
 /// throws   InvalidInput for a state of another grid
-/// cost     one transform pair in double; 24 bytes a cell
+/// cost     one transform pair in double; 24 bytes per cell
 ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const NormalContactState& state,
                                  const NormalContactOptions& options);
 
-/// The same of a state by press_adhesive() with these options.
+/// Does the same for a state of press_adhesive() with these options.
 ResidualSurface residual_surface(Surface surface, double contact_modulus,
                                  const AdhesiveContactState& state, const Adhesion& adhesion,
                                  const NormalContactOptions& options);
 
-/// The surface that is left after a first loading to a nominal pressure, and by an oscillation of
-/// the indentation about it.
-/// options            with the hardness; infinite: nothing flows
-/// normal_amplitude   u_z >= 0, m. The first loading ends at the largest load of the oscillation.
-///                    That is the load of its residual surface at an indentation larger by u_z,
-///                    found by repetition to a thousandth of itself. Where u_z makes the contact of
-///                    a periodic surface full, no oscillation has a loss, and the first loading
-///                    ends at the nominal pressure.
-/// throws             InvalidInput before any work as press(), for a hardness that is
-///                    not above the mean pressure too, and during the work where the largest mean
-///                    pressure of the oscillation is not below the hardness
+/// Computes the surface left by a first loading to a nominal pressure and an oscillation of the
+/// indentation about it.
+/// options            include the hardness; if it is infinite, nothing yields
+/// normal_amplitude   u_z >= 0, m. The first loading ends at the largest load of the oscillation:
+///                    the load of the residual surface at an indentation larger by u_z, found by
+///                    iteration to a thousandth of itself. If u_z leads to full contact of a
+///                    periodic surface, an oscillation has no loss, and the first loading ends at
+///                    the nominal pressure.
+/// throws             InvalidInput before any work as press(), also for a hardness not above the
+///                    mean pressure, and during the work if the largest mean pressure of the
+///                    oscillation is not below the hardness
 /// cost               one contact; with an amplitude six to ten, which start from each other
 ResidualSurface after_first_loading(Surface surface, double contact_modulus,
                                     double nominal_pressure, const NormalContactOptions& options,

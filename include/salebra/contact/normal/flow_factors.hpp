@@ -10,30 +10,29 @@
 namespace salebra {
 
 struct FlowOptions {
-  /// Relative error of a flow factor, as the preconditioner of the solver sees it; 1e-14 … 1e-1.
+  /// Relative error of a flow factor, as estimated with the preconditioner; 1e-14 … 1e-1.
   double tolerance = 1e-8;
-  int max_iterations = 200;  ///< of each direction, >= 1
+  int max_iterations = 200;  ///< for each direction, >= 1
   Progress on_progress = {};
 };
 
-/// How a viscous fluid passes a gap between rough surfaces.
+/// Viscous flow through the gap between rough surfaces.
 struct FlowFactors {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double mean_gap = unknown;  ///< ⟨g⟩ over all cells, those in contact included, m
-  bool percolates_x = false;  ///< whether a way through the gap leads round the period along x
+  bool percolates_x = false;  ///< whether a path through the gap spans the period along x
   bool percolates_y = false;
-  /// Flow along x under a pressure gradient along x, over that between smooth walls at ⟨g⟩. NaN
-  /// where the gap does not percolate along x: nothing flows.
+  /// Flow along x under a pressure gradient along x, divided by the flow between smooth walls at
+  /// ⟨g⟩. NaN if the gap does not percolate along x: there is no flow.
   double pressure_flow_factor_x = unknown;
   double pressure_flow_factor_y = unknown;
-  /// Distance of the smooth walls that let pass the mean of the flows along x and y, m; NaN where
-  /// nothing flows.
+  /// Gap between smooth walls with the same flow, averaged over x and y, m; NaN without flow.
   double effective_gap = unknown;
-  /// Estimate of both factors from the distribution of gaps alone. NaN where half of the cells or
-  /// more are closed: it knows no flow there.
+  /// Estimate of both factors from the distribution of gaps alone. NaN if half of the cells or more
+  /// are closed, because the estimate then has no flow.
   double bruggeman_flow_factor = unknown;
-  double residual = 0;  ///< error of the factors relative to themselves, as the solver sees it
-  int iterations = 0;   ///< of both directions
+  double residual = 0;  ///< relative error of the factors, as estimated by the solver
+  int iterations = 0;   ///< total for both directions
   Termination termination = Termination::converged;
 
   bool converged() const { return termination == Termination::converged; }
@@ -64,25 +63,26 @@ constexpr void describe(auto&& visit, std::type_identity<FlowFactors>) {
   visit(&S::converged, Kept{"converged", "false: do not use the flow factors"});
 }
 
-/// Pressure flow factors of Patir and Cheng (1978) of a gap that repeats itself, from Reynolds'
-/// equation
+/// Computes the pressure flow factors of Patir and Cheng (1978) for a periodic gap:
+///     const FlowFactors flow = flow_factors(state.gap, surface.grid);
+/// They follow from Reynolds' equation
 ///     ∇·(g³∇p) = 0,   ⟨∇p⟩ = e_x,   φ_x = ⟨g³ ∂p/∂x⟩/⟨g⟩³,
 /// and the same along y. The conductance of a face between two cells is the harmonic mean of their
-/// g³. Cells with a gap of at most 1e-9 ⟨g⟩ are closed; fluid passes the sides of cells, not their
+/// g³. Cells with a gap of at most 1e-9 ⟨g⟩ are closed; fluid passes the sides of cells, not the
 /// corners. φ_x = φ_y = 1 − (3/2)⟨(g − ⟨g⟩)²⟩/⟨g⟩² for an isotropic roughness much lower than the
 /// gap [Tripp (1983)]. Bruggeman's factor b solves ⟨(s − b)/(s + b)⟩ = 0 over all cells, s =
-/// g³/⟨g⟩³ [Bruggeman (1935)]; Dapp et al. (2012) compare it with the exact flow.
-/// Gaps of isotropic contacts cease to percolate where about 0.42 of the area touches [Wang and
-/// Müser (2020)], by chance between 0.35 and 0.5 where few roughness wavelengths fit into the period.
-/// gap      (nx, ny), m, finite; where it is <= 0, it is closed
-/// throws   InvalidInput before any work; a solver that does not converge is returned, not thrown
-/// cost     conjugate gradients with an algebraic multigrid, 8 to 25 iterations a direction, each as
-///          long as three transform pairs; about 100 bytes a cell. Results have the same bits for
-///          every thread count
+/// g³/⟨g⟩³ [Bruggeman (1935)]; Dapp et al. (2012) compare it with the exact flow. Gaps of isotropic
+/// contacts stop percolating at a contact area of about 0.42 [Wang and Müser (2020)], and between
+/// 0.35 and 0.5 by chance if few roughness wavelengths fit into the period.
+/// gap      (nx, ny), m, finite; cells with a gap <= 0 are closed
+/// throws   InvalidInput before any work; non-convergence is returned, not thrown
+/// cost     conjugate gradients with an algebraic multigrid, 8 to 25 iterations per direction, each
+///          as long as three transform pairs; about 100 bytes per cell. Results have the same bits
+///          for every thread count
 FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions& options = {});
 
-/// The same for a contact, the cells of which with p > 0 are closed. Throws InvalidInput where
-/// several processes hold it.
+/// Does the same for a contact, whose cells with p > 0 are closed. Throws InvalidInput if the
+/// contact is distributed over several processes.
 FlowFactors flow_factors(const NormalContactState& state, const Grid2D& grid,
                          const FlowOptions& options = {});
 

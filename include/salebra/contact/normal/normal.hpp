@@ -13,7 +13,7 @@
 
 namespace salebra {
 
-/// mixed: transforms in float, residuals and acceptance in double.
+/// Numerical precision. `mixed` computes transforms in float, residuals and acceptance in double.
 enum class Precision { mixed, full };
 
 template <>
@@ -22,11 +22,11 @@ struct Words<Precision> {
       {{Precision::mixed, "mixed"}, {Precision::full, "full"}});
 };
 
-/// Where a contact shall stand: exactly one of these.
+/// The control quantity of a contact and its value: set exactly one member.
 struct Target {
   std::optional<double> pressure = {};  ///< nominal, > 0, below the hardness, Pa
-  /// ū in (0, max h − mean h), m. Periodic and elastic contacts only: a free one has no mean gap,
-  /// and hardness makes the gap depend on more than the approach.
+  /// ū in (0, max h − mean h), m, for periodic elastic contacts only: a free contact has no mean
+  /// gap, and with a hardness the gap depends on more than the approach.
   std::optional<double> mean_gap = {};
   /// Rigid approach from first touch, > 0, m; below max h − mean h for periodic contacts.
   std::optional<double> indentation = {};
@@ -40,25 +40,25 @@ struct NormalContactOptions {
   int max_iterations = 1000;  ///< on the finest level, >= 1
   Boundary boundary = Boundary::periodic;
   Precision precision = Precision::mixed;
-  /// Largest pressure that the bodies carry, Pa: perfectly plastic cells saturate there and sink in
-  /// without further load.
+  /// Hardness, Pa: perfectly plastic cells carry no more and sink in without further load.
   double hardness = std::numeric_limits<double>::infinity();
-  /// Start of the iteration, of the shape of the heights, Pa, >= 0, instead of one from coarser
-  /// grids. It must outlive the call.
+  /// Initial pressure for the iteration, Pa, >= 0, in the shape of the heights; nullptr starts from
+  /// coarser grids. It must outlive the call.
   const Field* initial_pressure = nullptr;
   Progress on_progress = {};
-  /// Called between iterations on the finest grid with the present pressure, of the shape of the
-  /// heights, Pa, from which a later call may start: by every process at the same iteration, of a
-  /// sweep by several threads. Results keep their bits. It throws on all or on none.
+  /// Called between iterations on the finest grid with the current pressure, Pa, in the shape of
+  /// the heights; a later call may start from it. Every process calls it at the same iteration; a
+  /// sweep calls it from several threads. It does not change results. It must throw on all
+  /// processes or none.
   std::function<void(const Field& pressure)> on_checkpoint = {};
   double checkpoint_every = 600;  ///< s of the root's clock, >= 0; 0: after each iteration
 };
 
-/// Result of a normal contact. Unless converged, the numbers describe the last iterate and must not
-/// be used as the answer.
+/// Result of a normal contact. Unless it converged, the numbers describe the last iterate and must
+/// not be used.
 struct NormalContactState {
   Field contact_pressure;    ///< (nx, ny) or the rows of this process, Pa, >= 0
-  Field gap;                 ///< the same, m, >= 0 up to the tolerance; 0 where pressure saturates
+  Field gap;                 ///< same shape, m, >= 0 up to the tolerance; 0 if pressure saturates
   double mean_pressure = 0;  ///< Pa
   double force = 0;          ///< N
   double mean_gap = 0;       ///< ū: mean of gap over all cells, m
@@ -69,9 +69,9 @@ struct NormalContactState {
   double residual = 0;               ///< e_c reached
   int iterations = 0;                ///< on the finest level
   int fft_count = 0;     ///< forward-and-backward pairs of the finest level, both precisions
-  int ladder_count = 0;  ///< applications of the near-field ladder there, each in place of a pair
+  int ladder_count = 0;  ///< applications of the multilevel kernel there, each replacing a pair
   Termination termination = Termination::iteration_limit;
-  Communicator ranks = {};  ///< the processes that hold the fields, as those of the surface
+  Communicator ranks = {};  ///< processes that share the fields, as for the surface
 
   bool converged() const { return termination == Termination::converged; }
 };
@@ -100,33 +100,36 @@ constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
   visit(&S::ranks, Kept{});
 }
 
-/// Cells with p > 0.
+/// Returns the cells with p > 0, e.g. to pass them to stick or punch solvers.
 ContactSet contact_set(const NormalContactState& state);
 
-/// Frictionless contact of a rigid rough surface with an elastic half-space, for a given nominal
-/// pressure:
-///     minimise ½p·Gp − p·h, 0 <= p <= hardness, mean p = nominal pressure;  û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic)
-/// by nested conjugate gradients on the contact set with a preconditioner that needs no transform;
-/// or the same contact by its force, mean gap or indentation. It departs from the usual constrained
-/// CG of Polonsky and Keer (1999) in that CG is not restarted when the set changes. On large grids
-/// of which the contact and its neighbourhood are a small part, the iterations apply a ladder of
-/// stencils in place of G, and exact transforms only renew the gap. A surface may be spread over
-/// several processes: the call is then collective, and all numbers have the same bits as in one
-/// process.
+/// Solves the frictionless contact of a rigid rough surface with an elastic half-space:
+///     const NormalContactState state = press(surface, 1.1e11, {.pressure = 2e8});
+/// For a given nominal pressure it minimises
+///     ½p·Gp − p·h  with 0 <= p <= hardness, mean p = nominal pressure,
+///     û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic);
+/// a force, mean gap or indentation can be given instead. The solver uses nested conjugate
+/// gradients on the contact set with a preconditioner without transforms; unlike the constrained CG
+/// of Polonsky and Keer (1999), it does not restart CG when the set changes. If contact and
+/// neighbourhood are a small part of a large grid, the iterations apply a multilevel kernel of
+/// stencils instead of G, and exact transforms only update the gap. For a surface distributed over
+/// processes the call is collective, and all numbers have the same bits as in one process.
 /// contact_modulus   E* > 0, Pa
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
-/// cost              15 to 100 iterations of one transform pair each, or of one application of the
-///                   ladder and 5 to 7 pairs in all; at a mean gap 3 to 20 times as many where more
-///                   than 0.99 of the cells touch; 50 to 75 bytes a cell with heights and result,
-///                   the more the larger the contact (docs/performance.md)
+/// cost              15 to 100 iterations of one transform pair, or of one application of the
+///                   multilevel kernel and 5 to 7 pairs in total; at a mean gap 3 to 20 times as
+///                   many if more than 0.99 of the cells touch; 50 to 75 bytes per cell with
+///                   heights and result, more for larger contacts (docs/performance.md)
 NormalContactState press(const Surface& surface, double contact_modulus, const Target& target,
                          const NormalContactOptions& options = {});
 
-/// Normal stiffness K = dF/dδ of the contact set {0 < p < hardness} of a state, by one linear solve
-/// with the set held: N/m. punch_pressure, where given, receives dp/dδ of the cells, Pa/m (left
-/// alone where K is not found by a solve). +infinity for a periodic cell in full contact, NaN where
-/// the solve did not converge within max_iterations or was interrupted. Cost: as many iterations as
-/// the contact took, with one transform pair each, or on the ladder with three pairs in all.
+/// Computes the normal stiffness K = dF/dδ, N/m, of the contact set {0 < p < hardness} of a state:
+///     const double stiffness = normal_stiffness(state, surface.grid, 1.1e11);
+/// It needs one linear solve with the set held fixed. punch_pressure, if given, receives dp/dδ of
+/// the cells, Pa/m (unchanged if no solve was needed). Returns +infinity for a periodic cell in
+/// full contact, and NaN if the solve did not converge within max_iterations or was interrupted.
+/// Cost: as many iterations as the contact took, of one transform pair each, or three pairs in
+/// total with the multilevel kernel.
 double normal_stiffness(const NormalContactState& state, const Grid2D& grid, double contact_modulus,
                         const NormalContactOptions& options = {}, Field* punch_pressure = nullptr);
 

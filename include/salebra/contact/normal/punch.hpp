@@ -10,24 +10,25 @@
 namespace salebra {
 
 struct PunchOptions {
-  /// Relative error of the displacement; that of K is of the order of its square. 1e-14 … 1e-1.
+  /// Relative error of the displacement; the error of K is of the order of its square. 1e-14 …
+  /// 1e-1.
   double tolerance = 1e-6;
   int max_iterations = 1000;  ///< >= 1
   Boundary boundary = Boundary::periodic;
   Progress on_progress = {};
 };
 
-/// Normal stiffness K = dF/dδ of a contact set: a flat punch of that shape. normal_stiffness() is
-/// the same for a state's elastic cells.
+/// Normal stiffness K = dF/dδ of a contact set, i.e. of a flat punch of that shape.
+/// normal_stiffness() gives the same for the elastic cells of a state.
 struct PunchStiffness {
   double normal_stiffness = 0;  ///< N/m
   int iterations = 0;
   int fft_count = 0;
-  int ladder_count = 0;  ///< applications of the near-field ladder, each in place of a pair
+  int ladder_count = 0;  ///< applications of the multilevel kernel, each replacing a pair
   double residual =
-      0;  ///< rms error of the displacement over the set, relative; that of K is of the order of
-          ///< its square
-  /// Converged: K settled to the square of the tolerance, or to 1e-14.
+      0;  ///< relative rms error of the displacement over the set; the error of K is of the order
+          ///< of its square
+  /// `converged` means that K settled to the square of the tolerance, or to 1e-14.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -45,10 +46,12 @@ constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
   visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});
 }
 
-/// pressure, where given, receives that of a unit approach, Pa/m.
-/// Throws InvalidInput for a bad grid or option, and if every cell of a periodic grid is in
-/// contact. Cost: one transform pair an iteration, in float, and one in double; on the ladder
-/// (press()) three pairs in all.
+/// Computes the stiffness of a contact set:
+///     const double K = punch_stiffness(contact, grid, 1.1e11).normal_stiffness;
+/// pressure, if given, receives the pressure under a unit approach, Pa/m. Throws InvalidInput for a
+/// bad grid or option, and if every cell of a periodic grid is in contact. Cost: one transform pair
+/// per iteration, in float, and one in double; with the multilevel kernel (press()) three pairs in
+/// total.
 PunchStiffness punch_stiffness(const ContactSet& contact, const Grid2D& grid,
                                double contact_modulus, const PunchOptions& options = {},
                                Field* pressure = nullptr);
