@@ -53,8 +53,8 @@ Conductances ContactArguments::conductances_of(const ForceSample& sample,
 
 NormalContactOptions ContactArguments::contact_options(Session& session) const {
   NormalContactOptions options;
-  options.boundary = *value_of<Boundary>(boundary);
-  options.precision = *value_of<Precision>(precision);
+  options.boundary = *parse_enum<Boundary>(boundary);
+  options.precision = *parse_enum<Precision>(precision);
   if (tolerance) options.tolerance = *tolerance;
   options.max_iterations = max_iterations;
   options.on_progress = session.progress();
@@ -241,7 +241,7 @@ void add_contact_command(Program& program) {
   std::vector<std::string> models;
   for (const ContactModel model :
        {ContactModel::bem, ContactModel::gw_moments, ContactModel::gw_deterministic})
-    models.emplace_back(word_of(model));
+    models.emplace_back(name_of(model));
   add_choice(command, "--model", arguments->model, models,
              "boundary elements, or Greenwood and Williamson's summits, as spectral moments tell "
              "of them or each by itself; default bem");

@@ -144,7 +144,7 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
     answer["dmt"] = state(dmt, dmt(0));
     answer["maugis_dugdale"] = state([&](double a) { return model.contact(a); }, model.pull_off());
     answer["tabor"] = tabor;
-    answer["suggested_model"] = word_of(suggested_model(tabor));
+    answer["suggested_model"] = name_of(suggested_model(tabor));
   }
   session.answer(answer);
 }
@@ -180,8 +180,8 @@ void lose(const DampingArguments& arguments, Session& session) {
   DampingQuestion question{.contact = {},
                            .motions = motions,
                            .force_amplitude = arguments.force_amplitude,
-                           .hold = *value_of<Hold>(arguments.hold),
-                           .amplitude = *value_of<Amplitude>(arguments.amplitude),
+                           .hold = *parse_enum<Hold>(arguments.hold),
+                           .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
                            .facts = arguments.premises.facts(arguments.material),
                            .steps = arguments.steps};
   Varied varied = arguments.motion.varied();
@@ -307,8 +307,8 @@ DamperQuestion damper_question(const DampingArguments& arguments) {
   arguments.law.at.require_one("a damper takes one");
   DamperQuestion question{.normal_amplitude = motion.normal_amplitude,
                           .angular_frequency = motion.frequency.angular(),
-                          .hold = *value_of<Hold>(arguments.hold),
-                          .amplitude = *value_of<Amplitude>(arguments.amplitude),
+                          .hold = *parse_enum<Hold>(arguments.hold),
+                          .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
                           .falling_slope = arguments.body.falling_slope,
                           .facts = arguments.premises.facts(arguments.material)};
   if (!motion.drag_velocity.empty()) {

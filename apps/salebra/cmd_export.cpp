@@ -51,9 +51,9 @@ StudyFacts facts_of(const std::filesystem::path& file) {
     facts.modulus_ratio = *ratio;
   if (reader.has("answer"))
     if (const auto validity = reader.text_attribute("answer", "validity")) {
-      require(value_of<Validity>(*validity).has_value(), file.string(), *validity,
+      require(parse_enum<Validity>(*validity).has_value(), file.string(), *validity,
               fmt::format("is no verdict of a study, in answer/validity; one of {}",
-                          fmt::join(words_of<Validity>(), ", ")));
+                          fmt::join(names_of<Validity>(), ", ")));
       facts.remark = "Study: validity of its damping constant: " + *validity + ".";
     }
   return facts;
@@ -105,10 +105,10 @@ void run(const ExportArguments& arguments, Session& session) {
                "given together with RESULT; give one of them");
   const std::string file = arguments.result.empty() ? law.curve : arguments.result;
   DeckQuestion question{.contacts = {},
-                        .format = *value_of<DeckFormat>(arguments.format),
+                        .format = *parse_enum<DeckFormat>(arguments.format),
                         .units = parse_unit_system(arguments.units, "--units"),
                         .rows = arguments.rows,
-                        .of = *value_of<DeckCase>(arguments.of),
+                        .of = *parse_enum<DeckCase>(arguments.of),
                         .sliders = arguments.sliders,
                         .name = arguments.name,
                         .provenance = session.provenance()};

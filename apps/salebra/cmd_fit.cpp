@@ -52,7 +52,7 @@ void run(const FitArguments& arguments, Session& session) {
             "--pressure-window", arguments.window.size(), "values must be two, LOWER,UPPER");
     window = PressureWindow{arguments.window[0], arguments.window[1], 0};
   }
-  const FitWeights weights = *value_of<FitWeights>(arguments.weights);
+  const FitWeights weights = *parse_enum<FitWeights>(arguments.weights);
   const ExponentialFit fit = fit_exponential(curve, window, weights);
   const bool noisy = weights != FitWeights::spacing;
   Json answer = json_of(fit);

@@ -137,7 +137,7 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
             "has Gaussian heights only; leave it out with a distribution");
     NonGaussianSurface made = non_gaussian(
         grid, *spectrum, *distribution, arguments.seed,
-        {.exact = *value_of<Exact>(arguments.exact), .on_progress = session.progress()});
+        {.exact = *parse_enum<Exact>(arguments.exact), .on_progress = session.progress()});
     if (made.termination == Termination::interrupted)
       throw Interrupted("generate: interrupted; no surface was written");
     if (!made.converged())

@@ -179,7 +179,7 @@ std::string measured(const Arguments& arguments, std::string& amplitude, Session
                                             "where the file names none")),
       fmt::arg("rest", preparation(given.measured())),
       fmt::arg("detrend", key_or_choice("detrend", text(given.detrend), "\"plane\"",
-                                        fmt::format("{}", fmt::join(words_of<Detrend>(), ", ")))));
+                                        fmt::format("{}", fmt::join(names_of<Detrend>(), ", ")))));
 }
 
 void run(Arguments arguments, Session& session) {

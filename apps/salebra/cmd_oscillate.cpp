@@ -131,7 +131,7 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   contact.material = arguments.material.material_with_tangential_modulus();
   contact.body = shape.empty() ? file_of(arguments, session) : shape_of(arguments, shape);
   OscillatingBody& body = contact.body;
-  body.boundary = value_of<Boundary>(arguments.boundary).value_or(body.boundary);
+  body.boundary = parse_enum<Boundary>(arguments.boundary).value_or(body.boundary);
   const double modulus = contact.material.contact_modulus;
   const Target position = position_of(arguments.position, body.surface.grid);
   if (position.pressure) session.doubt(doubt_of_pressure(*position.pressure, modulus));

@@ -132,7 +132,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
           "are no map; give several velocities and several --excursions");
   question.friction_coefficient = *arguments.premises.friction_coefficient;
   question.angular_frequency = arguments.frequency.angular().front();
-  question.hold = *value_of<Hold>(arguments.hold);
+  question.hold = *parse_enum<Hold>(arguments.hold);
   const ContactAnswer contact = contact_of(arguments, session);
   const SlidingAnswer found =
       ask(question, contact,
@@ -161,7 +161,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
     answer = with_tables(answer, {tables.back()});
     Json& regimes = answer["regime_map"]["regime"] = Json::array();
     for (const std::vector<Regime>& row : found.regimes->regime)
-      for (const Regime regime : row) regimes.push_back(std::string(word_of(regime)));
+      for (const Regime regime : row) regimes.push_back(std::string(name_of(regime)));
   }
   if (session.has_plot())
     session.plot(maps      ? regime_figure(*found.regimes, question.angular_frequency)
@@ -184,8 +184,8 @@ SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
       .friction_coefficient = *arguments.premises.friction_coefficient,
       .largest_amplitude = arguments.body.largest_amplitude};
   SliderOptions& options = question.options;
-  options.hold = *value_of<Hold>(arguments.hold);
-  options.start = *value_of<SliderStart>(arguments.start);
+  options.hold = *parse_enum<Hold>(arguments.hold);
+  options.start = *parse_enum<SliderStart>(arguments.start);
   options.steps = arguments.steps.value_or(options.steps);
   options.tolerance = arguments.tolerance.value_or(options.tolerance);
   options.most_cycles = arguments.most_cycles.value_or(options.most_cycles);

@@ -151,8 +151,8 @@ ArealParameters other_statistics(const Surface& surface, const PowerSpectrum* sp
 }
 
 void analyse(const StatisticsArguments& arguments, const Surface& surface, Session& session) {
-  const PsdConvention convention = *value_of<PsdConvention>(arguments.convention);
-  const Window window = *value_of<Window>(arguments.window);
+  const PsdConvention convention = *parse_enum<PsdConvention>(arguments.convention);
+  const Window window = *parse_enum<Window>(arguments.window);
   const bool all = arguments.all || session.has_output();
   const Index undefined = surface.grid.points() - height_statistics(surface).defined_points;
   std::vector<ResultTable> tables;
@@ -220,7 +220,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   const Index undefined = profile.undefined_points();
   const Surface complete = undefined == 0 ? profile : filled(profile);
   ProfileFit fit = fit_profile(complete, reliable_wavelength(arguments, complete));
-  if (const auto trend = value_of<Detrend>(arguments.surface.detrend);
+  if (const auto trend = parse_enum<Detrend>(arguments.surface.detrend);
       trend == Detrend::none || trend == Detrend::mean) {
     // Those of the profile with its straight line, which the fit takes off.
     const Index n = complete.grid.nx;
@@ -229,7 +229,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
         (complete.heights.bottomRows(n - 1) - complete.heights.topRows(n - 1)).square().mean()) /
         complete.grid.dx();
   }
-  const ProfilePsd psd = profile_psd(complete, Axis::x, *value_of<Window>(arguments.window));
+  const ProfilePsd psd = profile_psd(complete, Axis::x, *parse_enum<Window>(arguments.window));
   Json answer{
       {"nx", profile.grid.nx}, {"size_x", profile.grid.lx}, {"undefined_points", undefined}};
   answer.add(json_of(fit));
@@ -242,7 +242,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   if (!fit.hurst.found()) session.note(no_hurst);
   note_asymmetry(arguments, detail::asymmetric_wavelength(complete), session);
   const std::vector<ResultTable> tables{psd_table(
-      "profile_psd_x", converted(psd, *value_of<PsdConvention>(arguments.convention)), psd.modes)};
+      "profile_psd_x", converted(psd, *parse_enum<PsdConvention>(arguments.convention)), psd.modes)};
   write_tables(session, "statistics", answer, tables);
   session.answer(answer);
   if (fit.hurst.found())

@@ -248,7 +248,7 @@ std::string adhesion_table(const StudyResult& result) {
   std::string text = fmt::format("Adhesion: w = {}, range {}, {}\n{}",
                                  format_quantity(adhesion.work, Dimension::energy_per_area, 3),
                                  format_quantity(adhesion.range, Dimension::length, 3),
-                                 word_of(adhesion.potential), to_table(rows));
+                                 name_of(adhesion.potential), to_table(rows));
   if (result.configuration.adhesion->cycle.empty()) return text;
   const auto line = [&](const char* name, Dimension dimension,
                         double AdhesiveCycleNumbers::*number) {

@@ -153,7 +153,7 @@ void run(const TwinArguments& arguments, Session& session) {
           "is a list that is there; write one with: salebra twin init LIST --files SCAN …");
   std::vector<std::string> remarks;
   TwinOptions options{.seed = arguments.seed};
-  if (!arguments.form.empty()) options.form = value_of<SpectrumForm>(arguments.form);
+  if (!arguments.form.empty()) options.form = parse_enum<SpectrumForm>(arguments.form);
   const SurfaceTwin twin =
       twin_of(read_twin_measurements(arguments.file), options, session.progress(), &remarks);
   session.warn(remarks);

@@ -82,7 +82,7 @@ void write(const Branch& loading, const Branch& unloading, const AdhesiveCycle& 
 }  // namespace
 
 Adhesion ContactArguments::adhesion() const {
-  return {*value_of<AdhesionPotential>(potential), *work_of_adhesion, *adhesion_range};
+  return {*parse_enum<AdhesionPotential>(potential), *work_of_adhesion, *adhesion_range};
 }
 
 AdhesiveContactOptions ContactArguments::adhesive_options(Session& session) const {

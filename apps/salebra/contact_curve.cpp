@@ -39,7 +39,7 @@ SurfaceWork work_of(const ContactArguments& arguments, const SurfaceOutline& out
   work.normal_stiffness = arguments.wants_stiffness();
   work.tangential_stiffness = arguments.stick;
   work.adhesive = arguments.adhesive();
-  work.boundary = *value_of<Boundary>(arguments.boundary);
+  work.boundary = *parse_enum<Boundary>(arguments.boundary);
   work.groups = groups_of(arguments, work, session);
   return work;
 }

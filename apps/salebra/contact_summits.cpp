@@ -40,7 +40,7 @@ DescribedModel of_surface(const ContactArguments& arguments, const Material& mat
   surface.require_complete("spectral moments");
   const SpectralMoments moments = surface_moments(surface);
   SummitEnsemble ensemble = summit_ensemble(moments.moment0, moments.moment2(), moments.moment4());
-  ensemble.distribution = *value_of<SummitDistribution>(arguments.distribution);
+  ensemble.distribution = *parse_enum<SummitDistribution>(arguments.distribution);
   ensemble.rms_height = heights.rms_height;
   return statistical(ensemble, material, surface.grid.area());
 }
@@ -53,7 +53,7 @@ DescribedModel of_parameters(const ContactArguments& arguments, const Material& 
   ensemble.summit_density = required(arguments.summit_density, "--summit-density", reason);
   ensemble.radius = required(arguments.radius, "--radius", reason);
   ensemble.summit_rms = required(arguments.summit_rms, "--summit-rms", reason);
-  ensemble.distribution = *value_of<SummitDistribution>(arguments.distribution);
+  ensemble.distribution = *parse_enum<SummitDistribution>(arguments.distribution);
   const double size_x = arguments.surface.size_x.value_or(1);
   const double size_y = arguments.surface.size_y.value_or(1);
   require_positive(size_x, "--size-x");
@@ -82,7 +82,7 @@ void press_summits(const ContactArguments& arguments, Session& session) {
                                      : of_parameters(arguments, material);
   const ForceCurve curve = curve_of(arguments, *model);
   Json parameters = json_of(ensemble);
-  parameters["distribution"] = word_of(ensemble.distribution);
+  parameters["distribution"] = name_of(ensemble.distribution);
   answer_curve(arguments, curve, Json{{"parameters", parameters}, {"curve", to_json(curve)}},
                session);
 }

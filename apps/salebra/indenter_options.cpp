@@ -78,7 +78,7 @@ std::shared_ptr<const IndenterProfile> IndenterOptions::indenter() const {
             .columns;
     return std::make_shared<const TabulatedProfile>(columns[0], columns[1]);
   }
-  switch (*value_of<Shape>(law)) {
+  switch (*parse_enum<Shape>(law)) {
     case Shape::cone:
       return cone_profile(values({"--angle"})[0]);
     case Shape::paraboloid:

@@ -247,7 +247,7 @@ MeasuredSurface SurfaceOptions::measured() const {
   surface.file = file;
   surface.size_x = size_x;
   surface.size_y = size_y;
-  surface.detrend = value_of<Detrend>(detrend);
+  surface.detrend = parse_enum<Detrend>(detrend);
   surface.height_unit = height_unit;
   surface.lateral_unit = lateral_unit;
   surface.channel = channel;
@@ -272,7 +272,7 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks,
     Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
     session.warn(doubts_of_cells(made.grid));
     session.doubt(doubt_of_heights(made));
-    const Detrend trend = value_of<Detrend>(detrend).value_or(default_detrend(made));
+    const Detrend trend = parse_enum<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);
   }
   ReadOptions options = measured().reading();
@@ -283,7 +283,7 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks,
   Surface surface = read_surface(file, options, ranks);
   session.warn(remarks);
   session.warn(doubts_of_cells(surface.grid));
-  const Detrend method = value_of<Detrend>(detrend).value_or(default_detrend(surface));
+  const Detrend method = parse_enum<Detrend>(detrend).value_or(default_detrend(surface));
   return detrended(std::move(surface), method);
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>
@@ -39,7 +39,7 @@ Option* add_choice(Command& app, const std::string& name, std::string& target,
 /// The word of a value, as options have it.
 template <class Enum>
 std::string option_word(Enum value) {
-  std::string word(word_of(value));
+  std::string word(name_of(value));
   std::ranges::replace(word, '_', '-');
   return word;
 }
@@ -48,7 +48,7 @@ template <class Enum>
 Option* add_choice(Command& app, const std::string& name, std::string& target,
                    const std::string& help) {
   std::vector<std::string> words;
-  for (const auto& [value, word] : Words<Enum>::values) words.push_back(option_word(value));
+  for (const auto& [value, word] : EnumNames<Enum>::values) words.push_back(option_word(value));
   return add_choice(app, name, target, words, help);
 }
 

@@ -89,7 +89,7 @@ std::vector<Condition> PremiseReport::all_conditions() const {
 
 void PremiseReport::add_to(Json& answer) const {
   const std::vector<Condition> judged_conditions = all_conditions();
-  answer["validity"] = std::string(word_of(validity_of(judged_conditions)));
+  answer["validity"] = std::string(name_of(validity_of(judged_conditions)));
   Json& conditions = answer["conditions"] = Json::array();
   for (Condition one : judged_conditions) {
     one.here = in_options(one.here);
@@ -118,7 +118,7 @@ void PremiseReport::add_to(Json& answer) const {
       std::ranges::any_of(cases, [](const Premises& p) { return p.regime != Regime::unknown; });
   if (known || !judged.empty())
     answer["regime"] = column([](const Premises& p) -> Json {
-      return p.regime == Regime::unknown ? Json(nullptr) : Json(word_of(p.regime));
+      return p.regime == Regime::unknown ? Json(nullptr) : Json(name_of(p.regime));
     });
   Json& largest = answer["largest_motion"] = Json::array();
   for (std::size_t i = 0; i < judged.size(); ++i) {
@@ -140,7 +140,7 @@ std::string PremiseReport::text() const {
   });
   if (!slip_followed && !judged && !largest.empty())
     text = wrapped("Without slip up to " + largest + "\n", text_width());
-  text += fmt::format("Validity: {}\n{}", word_of(validity_of(conditions)),
+  text += fmt::format("Validity: {}\n{}", name_of(validity_of(conditions)),
                       in_options(in_words(conditions)));
   if (const std::string regimes = regimes_in_words(cases, pressures);
       !regimes.empty() && warning().empty())

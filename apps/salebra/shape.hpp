@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 
 namespace salebra {
 
@@ -23,7 +23,7 @@ enum class Shape {
 };
 
 template <>
-struct Words<Shape> {
+struct EnumNames<Shape> {
   static constexpr auto values = std::to_array<std::pair<Shape, std::string_view>>(
       {{Shape::sphere, "sphere"},
        {Shape::paraboloid, "paraboloid"},

@@ -78,7 +78,7 @@ MadeShape maker_of(Shape shape) {
 void ShapeOptions::add_to(Command& app) {
   const Heading under(app, "Shape, in place of a spectrum");
   std::vector<std::string> words;
-  for (const auto& [value, word] : Words<Shape>::values)
+  for (const auto& [value, word] : EnumNames<Shape>::values)
     if (value != Shape::power) words.push_back(option_word(value));
   add_choice(app, "--shape", shape, words, "shape");
   const auto length = [&](const char* name, std::optional<double>& value, const char* help) {
@@ -106,7 +106,7 @@ void ShapeOptions::add_to(Command& app) {
 }
 
 Surface ShapeOptions::surface(const Grid2D& grid) const {
-  const MadeShape named = maker_of(*value_of<Shape>(shape));
+  const MadeShape named = maker_of(*parse_enum<Shape>(shape));
   const std::vector<std::pair<std::string, const std::optional<double>*>> known{
       {"--radius", &radius},       {"--radius-x", &radius_x}, {"--radius-y", &radius_y},
       {"--semi-x", &semi_x},       {"--semi-y", &semi_y},     {"--semi-z", &semi_z},

@@ -276,7 +276,7 @@ StudyConfiguration StudyArguments::study() const {
             "must be 0, 4, 8, 16 or 32");
     study.levels = levels;
   }
-  if (const auto seam = value_of<SeamCheck>(seam_error)) study.seam = seam;
+  if (const auto seam = parse_enum<SeamCheck>(seam_error)) study.seam = seam;
   if (no_stick) study.stick = false;
   if (flow_factors) study.flow_factors = true;
   conduction.validate();

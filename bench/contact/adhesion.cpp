@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
         {.hurst = 0.8, .rolloff = side / 4, .short_cutoff = 16, .rms_slope = 1});
     const Surface surface = filtered_noise({n, n, side, side}, spectrum, seed);
     for (const double pressure : {0.01, 0.05})
-      for (const auto& [potential, name] : Words<AdhesionPotential>::values) {
+      for (const auto& [potential, name] : EnumNames<AdhesionPotential>::values) {
         const double range = potential == AdhesionPotential::van_der_waals ? 2.66 : 1.33;
         const double before = bench::cpu_seconds();
         const AdhesiveContactState state =
@@ -103,7 +103,7 @@ int main(int argc, char** argv) {
         std::printf("%ld²,%s,%g,%.4f,%d,%d,%d,%.2f,%s\n", static_cast<long>(n),
                     std::string(name).c_str(), pressure, state.contact_area_fraction,
                     state.outer_iterations, state.fft_count, state.ladder_count, spent,
-                    std::string(word_of(state.termination)).c_str());
+                    std::string(name_of(state.termination)).c_str());
         std::fflush(stdout);
       }
   }

@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
                  spectrum.short_cutoff * 1e6, twin.short_cutoff.low * 1e6,
                  twin.short_cutoff.high * 1e6, twin.short_cutoff.seen ? "" : "?",
                  spectrum.rms_height, twin.rms_height.low, twin.rms_height.high, truth.rms_slope,
-                 twin.rms_slope.low, twin.rms_slope.high, std::string(word_of(twin.form)).c_str(),
+                 twin.rms_slope.low, twin.rms_slope.high, std::string(name_of(twin.form)).c_str(),
                  twin.misfit, twin.rolloff_ratio, twin.cutoff_ratio, twin.form_ratio);
     for (const std::string& note : twin.notes) std::fprintf(stderr, "      %s\n", note.c_str());
   }

@@ -285,7 +285,7 @@ force, indentation : float, optional
         nb::arg("work"), nb::arg("range"), "μ = (R w²/(E*² ρ³))^(1/3).");
   m.def(
       "suggested_adhesion_model",
-      [](double parameter) { return std::string(word_of(suggested_model(parameter))); },
+      [](double parameter) { return std::string(name_of(suggested_model(parameter))); },
       nb::arg("tabor_parameter"),
       "\"dmt\" below 0.1, \"jkr\" above 5, \"maugis_dugdale\" between.");
 }

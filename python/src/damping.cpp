@@ -40,7 +40,7 @@ DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>
 
 std::string regime_of(const BoundDamping& one) {
   const std::optional<Premises> premises = one.judged().premises;
-  return std::string(word_of(premises ? premises->regime : Regime::unknown));
+  return std::string(name_of(premises ? premises->regime : Regime::unknown));
 }
 
 /// An answer whose premises are still to be judged, of a law made of `curve` if there is one. Facts
@@ -160,11 +160,11 @@ void bind_damping_curve(nb::module_& m) {
             std::vector<Premises> premises;
             for (const BoundDamping& one : self.results)
               if (const auto judged = one.judged().premises) premises.push_back(*judged);
-            if (premises.empty()) return std::string(word_of(Validity::not_checked));
+            if (premises.empty()) return std::string(name_of(Validity::not_checked));
             const bool slips = std::ranges::any_of(self.results, [](const BoundDamping& one) {
               return !std::isnan(one.slip_work);
             });
-            return std::string(word_of(validity_of(conditions_of(premises, slips))));
+            return std::string(name_of(validity_of(conditions_of(premises, slips))));
           },
           "One word for the assumptions of all losses.");
   salebra::for_each_number<DampingResult>([&](NumberOf<DampingResult> number, const Quantity& quantity) {

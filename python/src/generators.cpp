@@ -300,7 +300,7 @@ void bind_non_gaussian(nb::module_& m) {
           "__getstate__",
           [](const BoundNonGaussian& self) {
             return nb::make_tuple(self.made, self.iterations, self.spectrum_mismatch,
-                                  std::string(word_of(self.termination)));
+                                  std::string(name_of(self.termination)));
           },
           nb::sig("def __getstate__(self) -> tuple[Surface, int, float, str]"))
       .def(
@@ -310,7 +310,7 @@ void bind_non_gaussian(nb::module_& m) {
             self->made = state[0];
             self->iterations = nb::cast<int>(state[1]);
             self->spectrum_mismatch = nb::cast<double>(state[2]);
-            self->termination = value_of<Termination>(nb::cast<std::string>(state[3])).value();
+            self->termination = parse_enum<Termination>(nb::cast<std::string>(state[3])).value();
           },
           nb::sig("def __setstate__(self, state: tuple[Surface, int, float, str], /) -> None"))
       .def(

@@ -27,7 +27,7 @@ std::string verdicts(const Premises& premises) {
   for (const PremiseName& name : premise_names()) {
     const Verdict verdict = (premises.*name.premise).verdict;
     if (verdict == Verdict::broken || verdict == Verdict::doubtful)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name.name, word_of(verdict));
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name.name, name_of(verdict));
   }
   return "'" + (text.empty() ? "none broken" : text) + "'";
 }
@@ -66,7 +66,7 @@ void bind_premise_classes(nb::module_& m) {
       .def_prop_ro(
           "validity",
           [](const Premises& self) {
-            return std::string(word_of(validity_of(conditions_of({&self, 1}, false))));
+            return std::string(name_of(validity_of(conditions_of({&self, 1}, false))));
           },
           "'valid', 'valid with care', 'not valid' or 'not checked', of a loss without slip.")
       .def("__repr__", [](const Premises& self) { return "Premises(" + verdicts(self) + ")"; });

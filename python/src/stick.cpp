@@ -191,7 +191,7 @@ tolerance, max_iterations, boundary
           "Every increment did.")
       .def_prop_ro(
           "termination",
-          [](const SlidingContact& self) { return std::string(word_of(self.termination())); },
+          [](const SlidingContact& self) { return std::string(name_of(self.termination())); },
           "How the increments ended, the worst of them: 'converged', 'stalled', 'iteration_limit', "
           "'out_of_range' or 'interrupted'.");
 }

@@ -163,7 +163,7 @@ void bind_result(nb::module_& m) {
       "used.");
   result_methods(answer, true);
   answer.def("__repr__", [](const StudyAnswer& self) {
-    return fmt::format("StudyAnswer(validity='{}', {} pressures)", word_of(self.validity),
+    return fmt::format("StudyAnswer(validity='{}', {} pressures)", name_of(self.validity),
                        self.damping_constant.size());
   });
   described_class<StudyFlag>(m, "StudyFlag",

@@ -285,7 +285,7 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
   m.def(
       "default_detrend",
       [](const BoundSurface& surface) {
-        return std::string(word_of(default_detrend(surface.surface)));
+        return std::string(name_of(default_detrend(surface.surface)));
       },
       nb::arg("surface"),
       "\"plane\" for a measured surface, which carries the tilt of its stage; \"mean\" for a "

@@ -217,7 +217,7 @@ InvalidInput
         if (self.draws.empty())
           return fmt::format("SurfaceTwin({} scans, not fitted)", self.measurements.size());
         return fmt::format("SurfaceTwin({} scans, form='{}', misfit={:.2g})",
-                           self.measurements.size(), word_of(self.form), self.misfit);
+                           self.measurements.size(), name_of(self.form), self.misfit);
       });
 }
 

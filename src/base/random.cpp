@@ -9,7 +9,7 @@
 namespace salebra {
 namespace {
 
-struct Words {
+struct EnumNames {
   std::uint32_t w0, w1, w2, w3;
 };
 

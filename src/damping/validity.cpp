@@ -221,7 +221,7 @@ std::string regimes_in_words(std::span<const Premises> cases, std::span<const do
     const auto count = std::ranges::count(here, true);
     if (count == 0 || (regime == Regime::unknown && text.empty())) continue;
     const std::string which = which_of(here, pressures);
-    text += (text.empty() ? "" : ", ") + std::string(word_of(regime)) +
+    text += (text.empty() ? "" : ", ") + std::string(name_of(regime)) +
             (which.empty() ? "" : " " + which);
   }
   return text;

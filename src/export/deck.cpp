@@ -318,7 +318,7 @@ void add_table(Deck& deck, int most_rows, DeckAnswer& answer) {
   const double middle = (range.far + range.close) / 2;
   for (const auto& [which, surfaces] : cases_of(question, middle)) {
     DeckLaw law = law_of_contacts(question, deck.clearance, surfaces);
-    law.name = word_of(which);
+    law.name = name_of(which);
     law.what = what_of(which, surfaces, question.contacts.size());
     law.pressure = convex(law.pressure, law.what);
     deck.laws.push_back(std::move(law));

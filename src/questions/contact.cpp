@@ -45,7 +45,7 @@ double ForceSample::*column_of(Standing standing) {
 std::vector<Position> at_forces(const std::vector<double>& values) {
   std::vector<Position> positions;
   for (const double value : values) {
-    require_positive(value, word_of(Standing::normal_force));
+    require_positive(value, name_of(Standing::normal_force));
     positions.emplace_back(AtForce{value});
   }
   return positions;
@@ -63,7 +63,7 @@ void require_on_curve(const Standings& at, const ForceCurve& curve) {
   const Dimension dimension = dimension_of(at.quantity);
   const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.quantity)));
   for (const double value : at.values)
-    require(!(value < low || value > high), word_of(at.quantity), format_quantity(value, dimension),
+    require(!(value < low || value > high), name_of(at.quantity), format_quantity(value, dimension),
             fmt::format("lies outside the curve's range, {} to {}; choose one within it or extend "
                         "the curve",
                         format_quantity(low, dimension), format_quantity(high, dimension)));
@@ -86,7 +86,7 @@ std::vector<Position> positions_on(const ForceCurve& curve, const Standings& at,
       break;
   }
   const ForceSample& any = curve.samples.front();
-  require(!std::isnan(any.mean_gap), word_of(at.quantity), source,
+  require(!std::isnan(any.mean_gap), name_of(at.quantity), source,
           "has no mean gap; give another position");
   const double origin = std::isnan(any.indentation) ? 0 : any.indentation + any.mean_gap;
   for (double& value : values) value = origin - value;
@@ -175,9 +175,9 @@ ContactAnswer answer(IndenterContact body, const Context& context) {
   auto force_law = law(body, context);
   const auto& [quantity, values] = body.at;
   require_that(quantity == Standing::normal_force || quantity == Standing::indentation,
-               word_of(quantity),
+               name_of(quantity),
                "given, but an indenter stands at `normal_force` or `indentation`");
-  for (const double value : values) require_positive(value, word_of(quantity));
+  for (const double value : values) require_positive(value, name_of(quantity));
   const bool by_force = quantity == Standing::normal_force;
   ContactAnswer answer{std::move(force_law),
                        by_force ? at_forces(values) : at_indentations(values)};

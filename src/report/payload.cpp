@@ -128,10 +128,10 @@ class Point {
   Json regimes() const {
     Json words = Json::array();
     for (const double value : part("answer/regime", 0, pressures_.size())) {
-      const auto known = std::ranges::find(Words<Regime>::values, value,
+      const auto known = std::ranges::find(EnumNames<Regime>::values, value,
                                            [](const auto& one) { return double(one.first); });
       words.push_back(std::string(
-          word_of(known == Words<Regime>::values.end() ? Regime::unknown : known->first)));
+          name_of(known == EnumNames<Regime>::values.end() ? Regime::unknown : known->first)));
     }
     return words;
   }

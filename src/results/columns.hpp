@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -37,7 +37,7 @@ constexpr bool is_optional<std::optional<T>> = true;
 template <class Value>
 Json json_value(const Value& value) {
   if constexpr (std::is_enum_v<Value>)
-    return Json(std::string(word_of(value)));
+    return Json(std::string(name_of(value)));
   else if constexpr (is_optional<Value>)
     return value ? json_value(*value) : Json();
   else

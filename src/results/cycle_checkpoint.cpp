@@ -13,7 +13,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "base/archive.hpp"
@@ -45,7 +45,7 @@ class StateWriter {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void put(const Kept& line, Enum value) {
-    group_.attribute(std::string(line.name), std::string(word_of(value)));
+    group_.attribute(std::string(line.name), std::string(name_of(value)));
   }
   void put(const Kept& line, double number) {
     group_.scalar(std::string(line.name), number, unit(line), std::string(line.meaning));
@@ -123,7 +123,7 @@ class StateReader {
   void get(const Kept& line, Enum& value) {
     const std::string name(line.name);
     const std::optional<Enum> found =
-        value_of<Enum>(reader_.text_attribute(path_, name).value_or(""));
+        parse_enum<Enum>(reader_.text_attribute(path_, name).value_or(""));
     require(found.has_value(), reader_.file().string(), name,
             "is missing; remove the damaged file");
     value = *found;
@@ -225,7 +225,7 @@ CycleSettings cycle_settings(const Grid2D& grid, const Material& material,
   add("steady_tolerance", options.steady_tolerance);
   add("tolerance", options.stick.tolerance);
   add("max_iterations", options.stick.max_iterations);
-  settings.emplace_back("boundary", word_of(options.stick.boundary));
+  settings.emplace_back("boundary", name_of(options.stick.boundary));
   settings.emplace_back("lateral", options.stick.hold_lateral ? "held" : "free");
   return settings;
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/twin_file.hpp>
@@ -40,8 +40,8 @@ double required_positive(TomlTable& table, std::string_view key, Dimension dimen
 
 template <class Enum>
 std::optional<Enum> enumerated(TomlTable& table, std::string_view key) {
-  const auto place = table.choice(key, words_of<Enum>());
-  return place ? std::optional(Words<Enum>::values[*place].first) : std::nullopt;
+  const auto place = table.choice(key, names_of<Enum>());
+  return place ? std::optional(EnumNames<Enum>::values[*place].first) : std::nullopt;
 }
 
 Grid2D read_grid(TomlTable& table) {

@@ -245,7 +245,7 @@ ContactModel contact_model(std::string_view name) {
                      fmt::format("is not known; known are {}", fmt::join(known, ", ")));
 }
 
-std::string_view word_of(ContactModel model) { return registry[std::size_t(model)].name; }
+std::string_view name_of(ContactModel model) { return registry[std::size_t(model)].name; }
 
 std::vector<ContactModel> all_contact_models() {
   std::vector<ContactModel> models;

@@ -294,7 +294,7 @@ double ModelResult::law_bend() const {
 const ModelResult& Realisation::of(ContactModel model) const {
   const auto found = std::ranges::find(models, model, &ModelResult::model);
   if (found == models.end())
-    throw InvalidInput("model", fmt::format("'{}'", word_of(model)),
+    throw InvalidInput("model", fmt::format("'{}'", name_of(model)),
                        "was not computed; ask for it in the configuration");
   return *found;
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 #include <salebra/base/error.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
@@ -242,7 +242,7 @@ void write_damping(Table table, const StudyResult& result) {
   std::visit([&](const auto& motion) { table.attributes(motion); }, configuration.motion);
   group.attribute("mode",
                   std::holds_alternative<Drag>(configuration.motion) ? "drag" : "equal-frequency");
-  group.attribute("hold", std::string(word_of(configuration.damping.hold)));
+  group.attribute("hold", std::string(name_of(configuration.damping.hold)));
   group.attribute("modulus_ratio", configuration.material.modulus_ratio());
   group.attribute("contact_modulus", configuration.material.contact_modulus);
   if (const double friction = configuration.known.friction_coefficient; !std::isnan(friction))
@@ -268,7 +268,7 @@ void write_answer(Table table, const StudyResult& result, const StudyAnswer& ans
                                      {"regime", &regimes}})
     table.put(find_quantity(name), *values, {"pressure"});
   ResultGroup& group = table.group();
-  group.attribute("validity", std::string(word_of(answer.validity)));
+  group.attribute("validity", std::string(name_of(answer.validity)));
   group.attribute("conditions", in_words(answer.conditions));
   group.attribute("slip_followed", answer.slip_followed ? "yes" : "no");
 }

@@ -7,7 +7,7 @@
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/study/twin_file.hpp>
@@ -32,12 +32,12 @@ TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& 
   if (!table.has("file")) table.fail("file", "is missing; name the file of the scan");
   measurement.surface = detail::read_measured(table, folder);
   ScanInstrument& instrument = measurement.instrument;
-  const auto kind = table.choice("instrument", words_of<Instrument>());
+  const auto kind = table.choice("instrument", names_of<Instrument>());
   if (!kind)
     table.fail("instrument",
                "is missing; give optical, stylus or afm, or ideal for heights as "
                "they are");
-  instrument.kind = Words<Instrument>::values[*kind].first;
+  instrument.kind = EnumNames<Instrument>::values[*kind].first;
   instrument.resolution = positive(table, "resolution", Dimension::length, 0);
   instrument.tip_radius = positive(table, "tip_radius", Dimension::length, 0);
   table.check((instrument.kind == Instrument::optical) == (instrument.resolution > 0), "resolution",
@@ -142,7 +142,7 @@ void write_twin(const std::filesystem::path& path, const SurfaceTwin& twin,
           fmt::format("must be at most {} in a file", most_draws));
   ResultFile file(path, provenance, options);
   ResultGroup plain = file.group("twin");
-  plain.attribute("form", word_of(twin.form));
+  plain.attribute("form", name_of(twin.form));
   for (const auto& [name, member] : parameters) {
     const TwinParameter& one = twin.*member;
     const Quantity quantity = find_quantity(name);
@@ -166,7 +166,7 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const ResultReader file(path);
   const std::optional<std::string> word =
       file.has("twin") ? file.text_attribute("twin", "form") : std::nullopt;
-  const std::optional<SpectrumForm> form = word ? value_of<SpectrumForm>(*word) : std::nullopt;
+  const std::optional<SpectrumForm> form = word ? parse_enum<SpectrumForm>(*word) : std::nullopt;
   if (!form) throw InvalidInput(path.string(), "is no surface twin, which `salebra twin` writes");
   const std::string place = "twin/draws/";
   const bool table = *form == SpectrumForm::table;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
 #include <vector>
@@ -20,7 +20,7 @@ enum class PsdConvention {
 };
 
 template <>
-struct Words<PsdConvention> {
+struct EnumNames<PsdConvention> {
   static constexpr auto values = std::to_array<std::pair<PsdConvention, std::string_view>>(
       {{PsdConvention::salebra, "salebra"},
        {PsdConvention::surface_topography, "surface_topography"},

@@ -24,7 +24,7 @@ double independent(bool tapered, bool profile) {
 
 std::string instrument_name(const ScanInstrument& instrument) {
   if (!instrument.name.empty()) return instrument.name;
-  std::string name(word_of(instrument.kind));
+  std::string name(name_of(instrument.kind));
   if (instrument.kind == Instrument::optical)
     name += " " + format_quantity(instrument.resolution, Dimension::length);
   if (instrument.has_tip()) name += " " + format_quantity(instrument.tip_radius, Dimension::length);

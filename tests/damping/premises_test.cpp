@@ -577,7 +577,7 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
         const Premises premises = premises_of(
             *one.law, one.mean, Drag{one.amplitude, velocities[i], normal.angular_frequency},
             {.friction_coefficient = friction, .excursion = excursions[j]});
-        CHECK(word_of(map.regime[i][j]) == word_of(premises.regime));
+        CHECK(name_of(map.regime[i][j]) == name_of(premises.regime));
         const double loss = map.loss_ratio(Index(i), Index(j));
         if (excursions[j] < way) {
           CHECK(map.regime[i][j] == Regime::unknown);
@@ -632,7 +632,7 @@ TEST_CASE("The loss in each regime is that of the simulated springs", "[regimes]
     const double stick = relaxation_damping(paraboloid, AtIndentation{mean}, drag).work_per_cycle;
     const RegimeMap map = regime_map(paraboloid, mean, {amplitude, omega}, {drag.drag_velocity},
                                      {excursion}, friction);
-    CHECK(word_of(map.regime[0][0]) == word_of(point.regime));
+    CHECK(name_of(map.regime[0][0]) == name_of(point.regime));
     INFO(map.slip_ratio(0, 0) * stick / loss.slip_work - 1
          << ' ' << map.loss_ratio(0, 0) * stick / loss.work - 1);
     // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.

@@ -82,7 +82,7 @@ TEST_CASE("Every deck of a table is read back as the law at its clearances, in e
   };
   const auto [name, length, mass, time] = GENERATE(
       System{"m,kg,s", 1, 1, 1}, System{"mm,t,s", 1e-3, 1e3, 1}, System{"mm,kg,ms", 1e-3, 1, 1e-3});
-  INFO(word_of(format) << " " << name);
+  INFO(name_of(format) << " " << name);
   DeckQuestion question;
   question.contacts = {cubic()};
   question.format = format;
@@ -125,7 +125,7 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
           "[export]") {
   const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
                                DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster);
-  INFO(word_of(format));
+  INFO(name_of(format));
   DeckQuestion question;
   question.format = format;
   question.contacts = {cubic()};

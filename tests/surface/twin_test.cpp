@@ -111,7 +111,7 @@ TEST_CASE("Moments of a draw are those of its density", "[twin]") {
       const std::vector<double> parameters{truth.amplitude, hurst, std::log(4e-5), std::log(5e-7)};
       const TwinDraw draw = twin_detail::draw_of(own, parameters, 1e5);
       const Moments moments = integrated(truth);
-      INFO(word_of(form) << ", H = " << hurst);
+      INFO(name_of(form) << ", H = " << hurst);
       // The corner between two points costs Simpson's rule 1e-6.
       CHECK(draw.rms_height == Approx(moments.rms_height).epsilon(1e-5));
       CHECK(draw.rms_slope == Approx(moments.rms_slope).epsilon(1e-5));
@@ -192,7 +192,7 @@ TEST_CASE("Slopes of the residuals are their differences", "[twin]") {
       moved[p] -= 2 * step;
       model.residuals(moved, work, down, nullptr);
       const Eigen::VectorXd difference = (up - down) / (2 * step);
-      INFO(word_of(form) << ", parameter " << p);
+      INFO(name_of(form) << ", parameter " << p);
       // Central differences: 1e-16/1e-6 of residuals up to 1000, and their third derivative.
       CHECK((slopes.col(p) - difference).norm() <= 2e-5 * (difference.norm() + 1));
     }

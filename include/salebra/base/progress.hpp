@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <string_view>
 
 namespace salebra {
@@ -28,7 +28,7 @@ enum class Termination {
 };
 
 template <>
-struct Words<Termination> {
+struct EnumNames<Termination> {
   static constexpr auto values = std::to_array<std::pair<Termination, std::string_view>>(
       {{Termination::converged, "converged"},
        {Termination::stalled, "stalled"},
@@ -48,7 +48,7 @@ constexpr std::string_view message(Termination termination) {
     case Termination::out_of_range:
       return "left the range of numbers; look at the units of heights and load";
     default:
-      return word_of(termination);
+      return name_of(termination);
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/loss.hpp>
 #include <salebra/damping/oscillation.hpp>
@@ -33,7 +33,7 @@ enum class Amplitude {
 };
 
 template <>
-struct Words<Amplitude> {
+struct EnumNames<Amplitude> {
   static constexpr auto values = std::to_array<std::pair<Amplitude, std::string_view>>(
       {{Amplitude::small, "small"}, {Amplitude::finite, "finite"}});
 };

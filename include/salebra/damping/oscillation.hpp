@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <variant>
 #include <vector>
@@ -135,7 +135,7 @@ SampledMotion sample(const TwoFrequencies& motion, double mean_indentation, int 
 enum class Hold { indentation, force };
 
 template <>
-struct Words<Hold> {
+struct EnumNames<Hold> {
   static constexpr auto values = std::to_array<std::pair<Hold, std::string_view>>(
       {{Hold::indentation, "indentation"}, {Hold::force, "force"}});
 };

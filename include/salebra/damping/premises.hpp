@@ -3,7 +3,7 @@
 
 #include <limits>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/damper.hpp>
@@ -82,7 +82,7 @@ enum class Verdict {
   unknown    ///< a parameter is missing: Premise::needs
 };
 template <>
-struct Words<Verdict> {
+struct EnumNames<Verdict> {
   static constexpr auto values =
       std::to_array<std::pair<Verdict, std::string_view>>({{Verdict::holds, "holds"},
                                                            {Verdict::doubtful, "doubtful"},
@@ -134,7 +134,7 @@ enum class Regime {
   unknown
 };
 template <>
-struct Words<Regime> {
+struct EnumNames<Regime> {
   static constexpr auto values =
       std::to_array<std::pair<Regime, std::string_view>>({{Regime::no_slip, "no slip"},
                                                           {Regime::partial_slip, "partial slip"},
@@ -371,7 +371,7 @@ enum class Validity {
   not_checked       ///< those that could be checked hold, and others could not be checked
 };
 template <>
-struct Words<Validity> {
+struct EnumNames<Validity> {
   static constexpr auto values = std::to_array<std::pair<Validity, std::string_view>>(
       {{Validity::valid, "valid"},
        {Validity::valid_with_care, "valid with care"},

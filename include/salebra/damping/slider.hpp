@@ -5,7 +5,7 @@
 #include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <vector>
@@ -45,7 +45,7 @@ enum class SliderStart {
 };
 
 template <>
-struct Words<SliderStart> {
+struct EnumNames<SliderStart> {
   static constexpr auto values = std::to_array<std::pair<SliderStart, std::string_view>>(
       {{SliderStart::rest, "rest"}, {SliderStart::sliding, "sliding"}});
 };
@@ -58,7 +58,7 @@ enum class SliderState {
 };
 
 template <>
-struct Words<SliderState> {
+struct EnumNames<SliderState> {
   static constexpr auto values = std::to_array<std::pair<SliderState, std::string_view>>(
       {{SliderState::steady, "steady"},
        {SliderState::pulsating, "pulsating"},

@@ -6,7 +6,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -25,7 +25,7 @@ enum class SeamCheck {
 };
 
 template <>
-struct Words<SeamCheck> {
+struct EnumNames<SeamCheck> {
   static constexpr auto values = std::to_array<std::pair<SeamCheck, std::string_view>>(
       {{SeamCheck::window, "window"}, {SeamCheck::free, "free"}});
 };

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/export/unit_system.hpp>
 #include <salebra/io/provenance.hpp>
 #include <salebra/questions/contact.hpp>
@@ -17,7 +17,7 @@ namespace salebra {
 
 enum class DeckFormat { csv, json, calculix, abaqus, ansys, code_aster, jenkins, c_header };
 template <>
-struct Words<DeckFormat> {
+struct EnumNames<DeckFormat> {
   static constexpr auto values = std::to_array<std::pair<DeckFormat, std::string_view>>(
       {{DeckFormat::csv, "csv"},
        {DeckFormat::json, "json"},
@@ -33,7 +33,7 @@ struct Words<DeckFormat> {
 /// one clearance: 2.5 % of them are below the one, and above the other.
 enum class DeckCase { mean, low, high };
 template <>
-struct Words<DeckCase> {
+struct EnumNames<DeckCase> {
   static constexpr auto values = std::to_array<std::pair<DeckCase, std::string_view>>(
       {{DeckCase::mean, "mean"}, {DeckCase::low, "low"}, {DeckCase::high, "high"}});
 };

@@ -6,7 +6,7 @@
 #include <optional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
@@ -34,7 +34,7 @@ struct Context {
 enum class Standing { normal_force, indentation, pressure, mean_gap };
 
 template <>
-struct Words<Standing> {
+struct EnumNames<Standing> {
   static constexpr auto values = std::to_array<std::pair<Standing, std::string_view>>(
       {{Standing::normal_force, "normal_force"},
        {Standing::indentation, "indentation"},

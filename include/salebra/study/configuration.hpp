@@ -61,7 +61,7 @@ std::span<const StudyModel> contact_models();
 
 /// Finds a model by its name. Throws InvalidInput "models: …" for an unknown name.
 ContactModel contact_model(std::string_view name);
-std::string_view word_of(ContactModel model);
+std::string_view name_of(ContactModel model);
 /// Returns all models without adhesion.
 std::vector<ContactModel> all_contact_models();
 /// Whether the summits of a model adhere.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 
 namespace salebra {
 
@@ -9,7 +9,7 @@ namespace salebra {
 enum class Axis { x, y };
 
 template <>
-struct Words<Axis> {
+struct EnumNames<Axis> {
   static constexpr auto values =
       std::to_array<std::pair<Axis, std::string_view>>({{Axis::x, "x"}, {Axis::y, "y"}});
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 
 namespace salebra {
 
@@ -27,7 +27,7 @@ enum class Detrend {
 };
 
 template <>
-struct Words<Detrend> {
+struct EnumNames<Detrend> {
   static constexpr auto values = std::to_array<std::pair<Detrend, std::string_view>>(
       {{Detrend::none, "none"},
        {Detrend::mean, "mean"},

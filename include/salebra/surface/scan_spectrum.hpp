@@ -5,7 +5,7 @@
 #include <optional>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,7 @@ enum class Instrument {
 };
 
 template <>
-struct Words<Instrument> {
+struct EnumNames<Instrument> {
   static constexpr auto values =
       std::to_array<std::pair<Instrument, std::string_view>>({{Instrument::ideal, "ideal"},
                                                               {Instrument::optical, "optical"},

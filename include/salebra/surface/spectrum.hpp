@@ -5,7 +5,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
 
@@ -69,7 +69,7 @@ enum class Window {
 };
 
 template <>
-struct Words<Window> {
+struct EnumNames<Window> {
   static constexpr auto values =
       std::to_array<std::pair<Window, std::string_view>>({{Window::automatic, "default"},
                                                           {Window::none, "none"},

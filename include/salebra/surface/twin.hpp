@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/surface/scan_spectrum.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <string>
@@ -19,7 +19,7 @@ enum class SpectrumForm {
 };
 
 template <>
-struct Words<SpectrumForm> {
+struct EnumNames<SpectrumForm> {
   static constexpr auto values =
       std::to_array<std::pair<SpectrumForm, std::string_view>>({{SpectrumForm::corner, "corner"},
                                                                 {SpectrumForm::smooth, "smooth"},

@@ -5,7 +5,7 @@
 #include <nanobind/stl/string.h>
 
 #include <salebra/base/error.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,9 +23,9 @@ struct Choice {
 
   /// Throws InvalidInput that names the field and what it may be.
   Enum value(std::string_view field) const {
-    if (const auto value = value_of<Enum>(text)) return *value;
+    if (const auto value = parse_enum<Enum>(text)) return *value;
     std::string allowed;
-    for (const std::string& word : words_of<Enum>())
+    for (const std::string& word : names_of<Enum>())
       allowed += (allowed.empty() ? "" : ", ") + word;
     throw InvalidInput(field, "'" + text + "'", "is none of " + allowed + "; choose one of them");
   }
@@ -37,7 +37,7 @@ constexpr auto literal_of() {
   constexpr std::string_view before = "typing.Literal[";
   constexpr std::size_t size = [&] {
     std::size_t all = before.size();
-    for (const auto& [value, word] : Words<Enum>::values) all += word.size() + 4;  // '…', and ]
+    for (const auto& [value, word] : EnumNames<Enum>::values) all += word.size() + 4;  // '…', and ]
     return all - 1;
   }();
   nb::detail::descr<size> text;
@@ -46,7 +46,7 @@ constexpr auto literal_of() {
     for (const char c : part) text.text[end++] = c;
   };
   add(before);
-  for (const auto& [value, word] : Words<Enum>::values) {
+  for (const auto& [value, word] : EnumNames<Enum>::values) {
     add(end == before.size() ? "'" : ", '");
     add(word);
     add("'");

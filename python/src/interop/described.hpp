@@ -8,7 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,7 +42,7 @@ constexpr bool has_words<std::vector<Item>> = has_words<Item>;
 
 inline auto words(const auto& value) {
   if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
-    return std::string(word_of(value));
+    return std::string(name_of(value));
   } else {
     std::vector<decltype(words(value.front()))> all;
     for (const auto& item : value) all.push_back(words(item));

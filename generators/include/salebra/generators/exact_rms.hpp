@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/generators/spectrum.hpp>
 
 namespace salebra {
@@ -11,7 +11,7 @@ namespace salebra {
 enum class Rms { height, slope };
 
 template <>
-struct Words<Rms> {
+struct EnumNames<Rms> {
   static constexpr auto values = std::to_array<std::pair<Rms, std::string_view>>(
       {{Rms::height, "height"}, {Rms::slope, "slope"}});
 };

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <string>
 #include <vector>
@@ -47,7 +47,7 @@ HeightDistribution sampled_heights(std::vector<double> heights);
 enum class Exact { heights, spectrum };
 
 template <>
-struct Words<Exact> {
+struct EnumNames<Exact> {
   static constexpr auto values = std::to_array<std::pair<Exact, std::string_view>>(
       {{Exact::heights, "heights"}, {Exact::spectrum, "spectrum"}});
 };

@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
@@ -21,7 +21,7 @@ class HeightDensity;
 enum class SummitDistribution { gaussian, exponential, tabulated };
 
 template <>
-struct Words<SummitDistribution> {
+struct EnumNames<SummitDistribution> {
   static constexpr auto values = std::to_array<std::pair<SummitDistribution, std::string_view>>(
       {{SummitDistribution::gaussian, "gaussian"},
        {SummitDistribution::exponential, "exponential"},
@@ -179,7 +179,7 @@ enum class SummitShape {
 };
 
 template <>
-struct Words<SummitShape> {
+struct EnumNames<SummitShape> {
   static constexpr auto values = std::to_array<std::pair<SummitShape, std::string_view>>(
       {{SummitShape::circular, "circular"}, {SummitShape::elliptical, "elliptical"}});
 };

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,7 +18,7 @@ namespace salebra {
 enum class Boundary { periodic, free };
 
 template <>
-struct Words<Boundary> {
+struct EnumNames<Boundary> {
   static constexpr auto values = std::to_array<std::pair<Boundary, std::string_view>>(
       {{Boundary::periodic, "periodic"}, {Boundary::free, "free"}});
 };

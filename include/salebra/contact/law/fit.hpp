@@ -3,7 +3,7 @@
 
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <vector>
 
@@ -44,7 +44,7 @@ enum class FitWeights {
 };
 
 template <>
-struct Words<FitWeights> {
+struct EnumNames<FitWeights> {
   static constexpr auto values =
       std::to_array<std::pair<FitWeights, std::string_view>>({{FitWeights::spacing, "spacing"},
                                                               {FitWeights::equal, "equal"},

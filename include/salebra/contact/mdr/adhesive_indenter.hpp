@@ -3,7 +3,7 @@
 
 #include <functional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 
 /// Adhesive contacts of axisymmetric indenters in closed form. Forces and indentations are positive
@@ -73,7 +73,7 @@ double tabor_parameter(double radius, double contact_modulus, double work, doubl
 enum class AdhesionModel { dmt, maugis_dugdale, jkr };
 
 template <>
-struct Words<AdhesionModel> {
+struct EnumNames<AdhesionModel> {
   static constexpr auto values = std::to_array<std::pair<AdhesionModel, std::string_view>>(
       {{AdhesionModel::dmt, "dmt"},
        {AdhesionModel::maugis_dugdale, "maugis_dugdale"},

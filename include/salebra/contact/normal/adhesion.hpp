@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <string>
 
@@ -18,7 +18,7 @@ namespace salebra {
 enum class AdhesionPotential { exponential, maugis, van_der_waals };
 
 template <>
-struct Words<AdhesionPotential> {
+struct EnumNames<AdhesionPotential> {
   static constexpr auto values = std::to_array<std::pair<AdhesionPotential, std::string_view>>(
       {{AdhesionPotential::exponential, "exponential"},
        {AdhesionPotential::maugis, "maugis"},

@@ -7,7 +7,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/words.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
@@ -17,7 +17,7 @@ namespace salebra {
 enum class Precision { mixed, full };
 
 template <>
-struct Words<Precision> {
+struct EnumNames<Precision> {
   static constexpr auto values = std::to_array<std::pair<Precision, std::string_view>>(
       {{Precision::mixed, "mixed"}, {Precision::full, "full"}});
 };
