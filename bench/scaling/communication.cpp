@@ -42,11 +42,11 @@ void count(Index n, int ranks) {
   const auto of_pair = transport->exchanged;
   const double model = 8 * cells / ranks * of_others;
 
-  detail::FramedField<float> field(rows.count(), n);
-  const RowExchange frame = detail::frame_rows(rows, Boundary::periodic);
+  detail::HaloField<float> field(rows.count(), n);
+  const RowExchange halo = detail::halo_rows(rows, Boundary::periodic);
   reset();
-  field.fill_frame(Boundary::periodic, frame);
-  const auto of_frame = transport->exchanged;
+  field.fill_halo(Boundary::periodic, halo);
+  const auto of_halo = transport->exchanged;
 
   reset();
   parallel::map_blocks<detail::PreconditionSums>(
@@ -55,7 +55,7 @@ void count(Index n, int ranks) {
 
   std::printf("%6ld %5d %5ld %10.3f %10.3f %6ld %6d %8.3f %8.3f %7.1f", long(n), ranks,
               long(rows.count()), of_pair.sent / 1e6, model / 1e6, of_pair.messages,
-              2 * (ranks - 1), of_frame.sent / 1e6, 24 * static_cast<double>(n) / 1e6,
+              2 * (ranks - 1), of_halo.sent / 1e6, 24 * static_cast<double>(n) / 1e6,
               of_sums.sent / 1e3);
   if (n <= largest_for_ladder) {
     const Grid2D grid{n, n, static_cast<double>(n), static_cast<double>(n)};
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
   std::printf(
       "sent by one process; a pair is a transform there and back, in float\n"
       "%6s %5s %5s %10s %10s %6s %6s %8s %8s %7s %9s %6s\n",
-      "N", "ranks", "rows", "pair, MB", "model", "mess.", "model", "frame MB", "model", "sums kB",
+      "N", "ranks", "rows", "pair, MB", "model", "mess.", "model", "halo MB", "model", "sums kB",
       "ladder MB", "mess.");
   for (const Index n : sizes)
     for (const int count_of_ranks : ranks) count(n, count_of_ranks);

@@ -17,7 +17,7 @@
 #include "base/fft.hpp"
 #include "base/memory.hpp"
 #include "base/spectrum_columns.hpp"
-#include "framed_field.hpp"
+#include "halo_field.hpp"
 #include "normal_symbol.hpp"
 
 namespace salebra {
@@ -337,15 +337,15 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
 
 void InverseStencil::apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,
                            Field& z) const {
-  static_assert(radius <= detail::frame);
+  static_assert(radius <= detail::halo);
   const Index nx = r.rows(), ny = r.cols();
-  detail::FramedField<double> framed(nx, ny);
+  detail::HaloField<double> with_halo(nx, ny);
   parallel::for_slabs(nx, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
       for (Index j = 0; j < ny; ++j)
-        if (mask(i, j) > 0) framed.row(i)[j] = r(i, j);
+        if (mask(i, j) > 0) with_halo.row(i)[j] = r(i, j);
   });
-  framed.fill_frame(boundary, detail::frame_rows(rows, boundary));
+  with_halo.fill_halo(boundary, detail::halo_rows(rows, boundary));
   z.resize(nx, ny);
   parallel::for_slabs(nx, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i)
@@ -354,7 +354,7 @@ void InverseStencil::apply(const Share& rows, const Field& mask, const Field& r,
         if (mask(i, j) > 0)
           for (int a = -radius; a <= radius; ++a)
             for (int b = -radius; b <= radius; ++b)
-              sum += weights_[index(a, b)] * framed.row(i + a)[j + b];
+              sum += weights_[index(a, b)] * with_halo.row(i + a)[j + b];
         z(i, j) = sum;
       }
   });

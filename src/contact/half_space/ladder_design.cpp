@@ -57,8 +57,8 @@ struct AxisWaves {
 };
 
 // T(θ) along a row of frequencies: factors of cos(jθ_y).
-std::array<double, frame + 1> row_of(const LadderStencil& stencil, const double* cosine) {
-  std::array<double, frame + 1> factors{};
+std::array<double, halo + 1> row_of(const LadderStencil& stencil, const double* cosine) {
+  std::array<double, halo + 1> factors{};
   const int width = stencil.radius + 1;
   for (int j = 0; j < width; ++j)
     for (int i = 0; i < width; ++i)

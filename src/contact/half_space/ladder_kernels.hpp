@@ -12,8 +12,8 @@ namespace salebra::detail {
 // does. One source is compiled for each vector width; no header with inline functions may be
 // included there.
 
-// A framed field: its first cell, the cells from one row to the next, and the cells of a row.
-struct FramedView {
+// A field with a halo: its first cell, the cells from one row to the next, and the cells of a row.
+struct HaloView {
   float* first;
   std::ptrdiff_t stride, ny;
 };
@@ -26,23 +26,23 @@ struct Shift {
 
 // What an ascent adds: T source, T a stencil, and P coarse.
 struct Ascent {
-  FramedView source;
+  HaloView source;
   const float* stencil;
-  FramedView coarse;
+  HaloView coarse;
   Shift shift;
 };
 
 struct LadderKernels {
   // coarse = Pᵀ fine: (1 4 6 4 1)/8 along each axis
   void (*restriction)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
-                      const FramedView& fine, const Shift& shift, const FramedView& coarse);
+                      const HaloView& fine, const Shift& shift, const HaloView& coarse);
   // Into the image, with a stencil of 5 × 5.
   void (*ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end, const Ascent& sum,
-                 const FramedView& image);
+                 const HaloView& image);
   // With a stencil of 7 × 7, for tiles of one row, into its cells.
   void (*last_ascent)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
                       const Ascent& sum, float* row);
-  // A stencil of 7 × 7, symmetric about both axes, on a framed field, for cells [begin, end) of a
+  // A stencil of 7 × 7, symmetric about both axes, on a field with a halo, for cells [begin, end) of a
   // list: their distances from the first cell of the field, in ascending order.
   void (*at_cells)(const double* field, std::ptrdiff_t stride, const double* stencil,
                    const std::ptrdiff_t* cells, std::ptrdiff_t begin, std::ptrdiff_t end,

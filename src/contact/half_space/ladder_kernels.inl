@@ -10,11 +10,11 @@ using Length = std::ptrdiff_t;
 typedef float Floats __attribute__((vector_size(register_bytes)));
 inline constexpr int lane_count = register_bytes / 4, registers_of_tile = tile_width / lane_count;
 
-// Tiles of a framed field to fetch ahead: rows of another tile are not predicted by the processor's
+// Tiles of a field with a halo to fetch ahead: rows of another tile are not predicted by the processor's
 // prefetcher.
 inline constexpr Length tiles_ahead = 8;
 
-SALEBRA_INLINE const float* cell(const FramedView& field, Length row, Length column) {
+SALEBRA_INLINE const float* cell(const HaloView& field, Length row, Length column) {
   return field.first + row * field.stride + column;
 }
 
@@ -65,8 +65,8 @@ SALEBRA_INLINE Floats twice(Floats numbers, Each<lane...>) {
   return __builtin_shufflevector(numbers, numbers, (lane / 2 + first)...);
 }
 
-void restriction(const Tile* tiles, Length begin, Length end, const FramedView& fine,
-                 const Shift& shift, const FramedView& coarse) {
+void restriction(const Tile* tiles, Length begin, Length end, const HaloView& fine,
+                 const Shift& shift, const HaloView& coarse) {
   const auto column_sum = [&](const float* centre) {
     const Length stride = fine.stride;
     return 0.125f * (load(centre - 2 * stride) + load(centre + 2 * stride)) +
@@ -94,7 +94,7 @@ void restriction(const Tile* tiles, Length begin, Length end, const FramedView& 
 
 // 16 cells of P coarse. Cell 2m of the row takes ⅛, ¾, ⅛ of the coarse cells m − 1, m, m + 1, cell
 // 2m + 1 half of m and of m + 1.
-SALEBRA_INLINE void interpolated(const FramedView& coarse, const Shift& shift, const Tile& tile,
+SALEBRA_INLINE void interpolated(const HaloView& coarse, const Shift& shift, const Tile& tile,
                                  float* result) {
   const Length x = tile.row + shift.x, y = tile.column + shift.y;
   const float* centre = cell(coarse, x / 2, y / 2 - 1);
@@ -127,7 +127,7 @@ SALEBRA_INLINE void ascend(const Ascent& sum, const Tile& tile, float* result) {
 }
 
 void ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum,
-            const FramedView& image) {
+            const HaloView& image) {
   for (Length t = begin; t < end; ++t) {
     float result[tile_width];
     ascend<2>(sum, tiles[t], result);
@@ -140,7 +140,7 @@ void last_ascent(const Tile* tiles, Length begin, Length end, const Ascent& sum,
   for (Length t = begin; t < end; ++t) {
     if (t + tiles_ahead < end) {
       const Tile& next = tiles[t + tiles_ahead];
-      __builtin_prefetch(cell(sum.source, next.row + frame, next.column));
+      __builtin_prefetch(cell(sum.source, next.row + halo, next.column));
     }
     float result[tile_width];
     ascend<3>(sum, tiles[t], result);
@@ -155,7 +155,7 @@ void at_cells(const double* field, Length stride, const double* stencil, const L
   for (Length k = begin; k < end;) {
     const Length first = cells[k];
     double together[tile_width];
-    StencilLoop<double, frame>::apply(field + first, stride, stencil, together);
+    StencilLoop<double, halo>::apply(field + first, stride, stencil, together);
     for (; k < end && cells[k] - first < tile_width; ++k) sums[k] = together[cells[k] - first];
   }
 }

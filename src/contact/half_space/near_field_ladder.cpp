@@ -19,7 +19,7 @@ constexpr double acceptable_error = 0.2;
 // side.
 constexpr Index reach = 2;
 
-FramedView view(const FramedField<float>& field) {
+HaloView view(const HaloField<float>& field) {
   return {field.row(0), field.stride(), field.ny()};
 }
 
@@ -103,7 +103,7 @@ std::optional<NearFieldLadder::Plan> NearFieldLadder::Plan::make(const Grid2D& g
 NearFieldLadder::NearFieldLadder(const Plan& plan, const Share& rows)
     : boundary_(plan.boundary),
       rows_(rows),
-      frame_rows_(frame_rows(rows, plan.boundary)),
+      halo_rows_(halo_rows(rows, plan.boundary)),
       error_(plan.error),
       ny_(plan.ny),
       stencil_(whole_stencil<49>(plan.stencils.front())) {
@@ -134,8 +134,8 @@ void NearFieldLadder::add_level(Index& nx, Index& ny) {
   Level level(of_level, boundary_);
   level.shift = level.local_shift = shift;
   level.local_shift.x += finer.begin() - 2 * of_level.begin();
-  level.source = FramedField<float>(of_level.count(), ny);
-  level.image = FramedField<float>(of_level.count(), ny);
+  level.source = HaloField<float>(of_level.count(), ny);
+  level.image = HaloField<float>(of_level.count(), ny);
   levels_.push_back(std::move(level));
 }
 
@@ -211,17 +211,17 @@ void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
   }
 }
 
-void NearFieldLadder::descend(FramedField<float>& source) {
+void NearFieldLadder::descend(HaloField<float>& source) {
   const LadderKernels& kernels = ladder_kernels();
-  source.fill_frame(boundary_, *frame_rows_);
+  source.fill_halo(boundary_, *halo_rows_);
   source_ = view(source);
-  FramedView finer = source_;
+  HaloView finer = source_;
   for (Level& level : levels_) {
-    const FramedView coarse = view(level.source);
+    const HaloView coarse = view(level.source);
     for_tiles_of(level.tiles, [&](Index begin, Index end) {
       kernels.restriction(level.tiles.data(), begin, end, finer, level.local_shift, coarse);
     });
-    level.source.fill_frame(boundary_, level.frame_rows);
+    level.source.fill_halo(boundary_, level.halo_rows);
     finer = coarse;
   }
   Level& last = levels_.back();
@@ -231,16 +231,16 @@ void NearFieldLadder::descend(FramedField<float>& source) {
   (*to_coarsest_)(last.source.row(0), bytes(last.source.stride()), field, bytes(ny), bytes(ny));
   coarsest_->apply(field, field);
   (*from_coarsest_)(field, bytes(ny), last.image.row(0), bytes(last.image.stride()), bytes(ny));
-  last.image.fill_frame(boundary_, last.frame_rows);
+  last.image.fill_halo(boundary_, last.halo_rows);
   for (std::size_t k = levels_.size() - 1; k-- > 0;) {
     Level& level = levels_[k];
     const Ascent sum{view(level.source), level.stencil.data(), view(levels_[k + 1].image),
                      levels_[k + 1].local_shift};
-    const FramedView image = view(level.image);
+    const HaloView image = view(level.image);
     for_tiles_of(level.tiles, [&](Index begin, Index end) {
       kernels.ascent(level.tiles.data(), begin, end, sum, image);
     });
-    level.image.fill_frame(boundary_, level.frame_rows);
+    level.image.fill_halo(boundary_, level.halo_rows);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/convolution.hpp"
-#include "framed_field.hpp"
+#include "halo_field.hpp"
 #include "half_space.hpp"
 #include "ladder_design.hpp"
 #include "ladder_kernels.hpp"
@@ -28,7 +28,7 @@ namespace salebra::detail {
 // cell of the grid.
 //
 // Over several processes a row of a level belongs to the process of the row of the finer level that
-// it lies on. An application sends the frame of each level, and the rows of the coarsest.
+// it lies on. An application sends the halo of each level, and the rows of the coarsest.
 class NearFieldLadder {
  public:
   // What the ladders of equal grids have in common.
@@ -63,19 +63,19 @@ class NearFieldLadder {
   void list_tiles(const std::vector<unsigned char>& in_use);
 
   // Everything that one application needs on the coarser levels. source: on the tiles in use, else
-  // zero; its frame is filled here. Collective.
-  void descend(FramedField<float>& source);
+  // zero; its halo is filled here. Collective.
+  void descend(HaloField<float>& source);
   // G~x on tiles [begin, end) of one row, all in use, into its cells.
   void collect(const Tile* tiles, Index begin, Index end, float* row) const;
 
  private:
   struct Level {
     Level(const Share& of_level, Boundary boundary)
-        : rows(of_level), frame_rows(detail::frame_rows(of_level, boundary)) {}
+        : rows(of_level), halo_rows(detail::halo_rows(of_level, boundary)) {}
 
     Share rows;
-    RowExchange frame_rows;
-    FramedField<float> source, image;
+    RowExchange halo_rows;
+    HaloField<float> source, image;
     Shift shift = {0, 0};                // of its cells on the finer grid, of all processes
     Shift local_shift = {0, 0};          // the same, rows counted from the first of this process
     std::array<float, 25> stencil = {};  // T there; of the coarsest unused
@@ -88,7 +88,7 @@ class NearFieldLadder {
 
   Boundary boundary_ = Boundary::periodic;
   Share rows_;  // of the grid
-  std::optional<RowExchange> frame_rows_;
+  std::optional<RowExchange> halo_rows_;
   double error_ = 0;
   Index ny_ = 0;
   std::array<float, 49> stencil_ = {};  // T1
@@ -99,7 +99,7 @@ class NearFieldLadder {
   std::optional<Convolution2D<float>> coarsest_;
   std::optional<RowExchange> to_coarsest_, from_coarsest_;
   LargeArray<float> coarsest_field_;
-  FramedView source_ = {};  // of the last descend()
+  HaloView source_ = {};  // of the last descend()
 };
 
 }  // namespace salebra::detail

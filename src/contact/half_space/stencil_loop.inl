@@ -19,7 +19,7 @@ inline constexpr int register_bytes = 32;
 inline constexpr int register_bytes = 16;
 #endif
 
-// Σ weight(i, j) x(i, j) over |i|, |j| <= radius around each of 16 cells of a framed field. The
+// Σ weight(i, j) x(i, j) over |i|, |j| <= radius around each of 16 cells of a field with a halo. The
 // weights, (2 radius + 1)², are symmetric about both axes.
 #if defined(__AVX512F__)
 // Reads whole cache lines: rows above and below are added before they are weighted, and neighbours

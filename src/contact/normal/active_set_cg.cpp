@@ -41,7 +41,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double con
     : grid_(grid),
       rows_(rows),
       boundary_(boundary),
-      frame_rows_(frame_rows(rows, boundary)),
+      halo_rows_(halo_rows(rows, boundary)),
       heights_(heights),
       rms_height_(rms_height),
       cell_compliance_(salebra::cell_compliance(grid, contact_modulus)),
@@ -49,11 +49,11 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double con
       compliance_(operators_->compliance<Real>()),
       kernels_(tile_kernels<Real>()),
       tiles_per_row_(tiles_across(grid.ny)) {
-  for (int i = -frame; i <= frame; ++i)
-    for (int j = -frame; j <= frame; ++j)
-      stencil_[static_cast<std::size_t>((i + frame) * (2 * frame + 1) + j + frame)] =
+  for (int i = -halo; i <= halo; ++i)
+    for (int j = -halo; j <= halo; ++j)
+      stencil_[static_cast<std::size_t>((i + halo) * (2 * halo + 1) + j + halo)] =
           static_cast<Real>(contact_modulus * operators_->inverse().weight(i, j));
-  static_assert(frame == InverseStencil::radius);
+  static_assert(halo == InverseStencil::radius);
 }
 
 // Changes the pressures so that their mean is the one asked, within the bound.
@@ -237,7 +237,7 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   const bool load_given = run.load_given();
   const auto a = arrays(run.target.bound);
 
-  frame_residual();
+  fill_halo_of_residual();
   const auto now = total_of(over_tiles<PreconditionSums>(
       [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); }));
   // At given load the steps must keep it: directions have no mean over the free cells.

@@ -12,7 +12,7 @@
 
 #include "base/convolution.hpp"
 #include "base/memory.hpp"
-#include "contact/half_space/framed_field.hpp"
+#include "contact/half_space/halo_field.hpp"
 #include "contact/half_space/half_space.hpp"
 #include "contact/half_space/near_field_ladder.hpp"
 #include "contact/half_space/normal_operators.hpp"
@@ -220,7 +220,7 @@ class ActiveSetCg {
   void collect_pressure(Run& run);
   void unpack_pressure(const Run& run, double scale) const;
   void begin_set(Run& run, const std::vector<SetSums>& parts);
-  void frame_residual();
+  void fill_halo_of_residual();
   double estimate_of(const StepSums& step, const Run& run, bool with_clipped) const;
   bool iterate(Run& run);
   // Iterates from tiles that are chosen until the solution, or what ends it before.
@@ -232,7 +232,7 @@ class ActiveSetCg {
   Grid2D grid_;
   Share rows_;
   Boundary boundary_;
-  RowExchange frame_rows_;
+  RowExchange halo_rows_;
   Heights heights_;
   double rms_height_;
   double cell_compliance_;
@@ -254,7 +254,7 @@ class ActiveSetCg {
   std::vector<double> nearest_;  // the same, of the last dense_gap(): least g, −∞ under load
   std::vector<Index> places_;    // of the cells of hold(), in packed fields
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
-  FramedField<Real> r_;
+  HaloField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;
   Real *z_ = nullptr, *m_ = nullptr, *t_ = nullptr, *w_ = nullptr;
   std::vector<unsigned char> quiet_;

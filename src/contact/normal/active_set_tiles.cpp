@@ -27,7 +27,7 @@ TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
           static_cast<Index>(tiles_.size()),
           grid_.ny,
           r_.stride(),
-          r_.row(-frame) - side_frame,
+          r_.row(-halo) - side_halo,
           p_,
           g_,
           t_,
@@ -49,7 +49,7 @@ void ActiveSetCg<Real>::reset() {
   if (r_) {
     r_.clear();
   } else {
-    r_ = FramedField<Real>(rows_.count(), grid_.ny);
+    r_ = HaloField<Real>(rows_.count(), grid_.ny);
   }
 }
 
@@ -204,11 +204,11 @@ void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
 }
 
-// Fills the frame of the residual, so that the stencil sees the periodic images and the rows of
+// Fills the halo of the residual, so that the stencil sees the periodic images and the rows of
 // other processes.
 template <class Real>
-void ActiveSetCg<Real>::frame_residual() {
-  r_.fill_frame(boundary_, frame_rows_);
+void ActiveSetCg<Real>::fill_halo_of_residual() {
+  r_.fill_halo(boundary_, halo_rows_);
 }
 
 // The correction that puts p on the tiles back to the load, given Σp over the cells below the

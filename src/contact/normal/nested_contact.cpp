@@ -116,11 +116,11 @@ class RowStretch {
       : coarse_(coarse),
         along_(along),
         boundary_(boundary),
-        p_framed_(static_cast<std::size_t>(coarse + 3)),
-        u_framed_(p_framed_) {}
+        p_with_halo_(static_cast<std::size_t>(coarse + 3)),
+        u_with_halo_(p_with_halo_) {}
 
   void load(const CoarseSolution& from, Index row) {
-    float *p = p_framed_.data() + 1, *u = u_framed_.data() + 1;
+    float *p = p_with_halo_.data() + 1, *u = u_with_halo_.data() + 1;
     const double* heights = from.grid.heights.values + row * coarse_;
     const double zero = from.grid.heights.zero;
     for (Index j = 0; j < coarse_; ++j) {
@@ -134,7 +134,7 @@ class RowStretch {
   }
 
   void write(float* p_row, float* u_row) const {
-    const float *p = p_framed_.data() + 1, *u = u_framed_.data() + 1;
+    const float *p = p_with_halo_.data() + 1, *u = u_with_halo_.data() + 1;
     const auto fine = static_cast<Index>(along_.size());
     if (fine == 2 * coarse_) {
       const Weights& between = along_[1];
@@ -159,7 +159,7 @@ class RowStretch {
   const Index coarse_;
   const std::vector<Weights>& along_;
   const Boundary boundary_;
-  std::vector<float> p_framed_, u_framed_;
+  std::vector<float> p_with_halo_, u_with_halo_;
 };
 
 // The stretched rows about one of the finer grid, and their weights.

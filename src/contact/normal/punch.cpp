@@ -40,7 +40,7 @@ void ActiveSetCg<Real>::begin_punch() {
 template <class Real>
 double ActiveSetCg<Real>::punch_step(double& curvature, PunchOutcome& outcome) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
-  frame_residual();
+  fill_halo_of_residual();
   const auto sums = total_of(over_tiles<PreconditionSums>(
       [&](Index begin, Index end) { return kernels_.precondition(a, begin, end); }));
   const double beta = outcome.iterations > 0 ? -sums.zw / curvature : 0;

@@ -13,7 +13,7 @@ namespace salebra::detail {
 // width; no header with inline functions may be included there, because the linker could then give
 // code for a wide machine to a narrow one.
 
-inline constexpr int stencil_size = (2 * frame + 1) * (2 * frame + 1);
+inline constexpr int stencil_size = (2 * halo + 1) * (2 * halo + 1);
 
 struct NewDirection {
   double z_mean, beta, t_mean;
@@ -24,7 +24,7 @@ struct Truncation {
   double scale, shift, full_from;
 };
 
-// A field is either framed, or tile after tile (packed) with zeros where a row ends within a tile.
+// A field is either with_halo, or tile after tile (packed) with zeros where a row ends within a tile.
 // Directions and their images are packed too: as whole fields they would be the half of what an
 // iteration reads and writes. The transform spreads and collects them row by row.
 template <class Real>
@@ -32,8 +32,8 @@ struct TileArrays {
   const Tile* tiles;
   std::ptrdiff_t tile_count;
   std::ptrdiff_t ny;             // cells of a row
-  std::ptrdiff_t framed_stride;  // from one row of r to the next
-  Real* r;                       // framed: (g − level) on the free cells, zero elsewhere
+  std::ptrdiff_t halo_stride;  // from one row of r to the next
+  Real* r;                       // with_halo: (g − level) on the free cells, zero elsewhere
   double* p;                     // packed: pressure
   double* g;                     // packed: Gp − h
   Real* t;                       // packed: search direction

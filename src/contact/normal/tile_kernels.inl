@@ -37,19 +37,19 @@ struct FullWidth {
 inline constexpr Size ahead = 16;
 
 // What a pass reads of the residual: nothing, its own cells, or all that the stencil reaches.
-enum class Reads { packed, residual, frame };
+enum class Reads { packed, residual, halo };
 
 template <Reads reads, class Real>
 SALEBRA_INLINE void fetch(const TileArrays<Real>& a, const Tile& tile) {
   if constexpr (reads == Reads::packed) return;
-  const Real* r = a.r + (tile.row + frame) * a.framed_stride + tile.column + side_frame;
+  const Real* r = a.r + (tile.row + halo) * a.halo_stride + tile.column + side_halo;
   if constexpr (reads == Reads::residual) __builtin_prefetch(r);
-  if constexpr (reads == Reads::frame) __builtin_prefetch(r + frame * a.framed_stride);
+  if constexpr (reads == Reads::halo) __builtin_prefetch(r + halo * a.halo_stride);
 }
 
 // Where a tile's cells are.
 struct Place {
-  Size packed, framed, column;
+  Size packed, with_halo, column;
 };
 
 // Calls body(place, width) for each tile; width is a constant for all but the last of a row.
@@ -59,7 +59,7 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
                               const QuietBody& quiet_body) {
   for (Size k = begin; k < end; ++k) {
     const Size row = a.tiles[k].row, column = a.tiles[k].column;
-    const Place place = {k * tile_width, (row + frame) * a.framed_stride + column + side_frame,
+    const Place place = {k * tile_width, (row + halo) * a.halo_stride + column + side_halo,
                          column};
     const bool whole = a.ny - column >= tile_width;
     if (k + ahead < a.tile_count) fetch<reads>(a, a.tiles[k + ahead]);
@@ -123,27 +123,27 @@ void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
       [&](const Place& place, auto width) {
         const double* g = a.g + place.packed;
         const Real* m = a.m + place.packed;
-        Real* r = a.r + place.framed;
+        Real* r = a.r + place.with_halo;
         for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
       },
       [&](const Place& place, auto width) {
-        for (Size i = 0; i < width; ++i) a.r[place.framed + i] = 0;
+        for (Size i = 0; i < width; ++i) a.r[place.with_halo + i] = 0;
       });
 }
 
 template <class Real>
-SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, FullWidth, Real* sums) {
-  StencilLoop<Real, frame>::apply(a.r + framed, a.framed_stride, a.stencil, sums);
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, FullWidth, Real* sums) {
+  StencilLoop<Real, halo>::apply(a.r + with_halo, a.halo_stride, a.stencil, sums);
 }
 
 template <class Real>
-SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size width, Real* sums) {
+SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, Size width, Real* sums) {
   for (Size c = 0; c < width; ++c) {
     Real sum = 0;
-    for (int i = -frame; i <= frame; ++i)
-      for (int j = -frame; j <= frame; ++j)
-        sum += a.stencil[(i + frame) * (2 * frame + 1) + j + frame] *
-               a.r[framed + i * a.framed_stride + j + c];
+    for (int i = -halo; i <= halo; ++i)
+      for (int j = -halo; j <= halo; ++j)
+        sum += a.stencil[(i + halo) * (2 * halo + 1) + j + halo] *
+               a.r[with_halo + i * a.halo_stride + j + c];
     sums[c] = sum;
   }
 }
@@ -151,11 +151,11 @@ SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size framed, Size w
 template <class Real>
 PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w, sum_r, sum_zr, sum_tr;
-  for_active_tiles<Reads::frame>(a, begin, end, [&](const Place& place, auto width) {
+  for_active_tiles<Reads::halo>(a, begin, end, [&](const Place& place, auto width) {
     const Real *m = a.m + place.packed, *t = a.t + place.packed, *w = a.w + place.packed,
-               *r = a.r + place.framed;
+               *r = a.r + place.with_halo;
     Real* z = a.z + place.packed;
-    apply_stencil(a, place.framed, width, z);
+    apply_stencil(a, place.with_halo, width, z);
     for (Size i = 0; i < width; ++i) {
       const Real free = z[i] * m[i];
       z[i] = free;
@@ -224,7 +224,7 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
       [&](const Place& place, auto width) {
         const Real *m = a.m + place.packed, *t = a.t + place.packed, *w = a.w + place.packed;
         double *p = a.p + place.packed, *g = a.g + place.packed;
-        Real* r = a.r + place.framed;
+        Real* r = a.r + place.with_halo;
         for (Size i = 0; i < width; ++i) {
           const double x = p[i] - alpha * static_cast<double>(t[i]);
           const double y = g[i] - alpha * static_cast<double>(w[i]);

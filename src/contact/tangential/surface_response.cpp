@@ -128,19 +128,19 @@ StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary bounda
       boundary_(boundary),
       stencil_(grid),
       field_(rows.count(), window.ny),
-      frame_rows_(frame_rows(rows, boundary)) {
-  static_assert(frame == InverseStencil::radius);
+      halo_rows_(halo_rows(rows, boundary)) {
+  static_assert(halo == InverseStencil::radius);
 }
 
 void StencilPreconditioner::hold(const PointList& points) {
   for (const Index cell : held_) field_.row(0)[cell] = 0;
-  held_ = points.framed;
+  held_ = points.with_halo;
 }
 
 void StencilPreconditioner::apply(const double* in, double* out) {
   double* field = field_.row(0);
   for_each(held_.size(), 4 * held_.size(), [&](std::size_t k) { field[held_[k]] = in[k]; });
-  field_.fill_frame(boundary_, frame_rows_);
+  field_.fill_halo(boundary_, halo_rows_);
   const Index count = static_cast<Index>(held_.size());
   parallel::for_slabs(
       count,
@@ -168,7 +168,7 @@ PointList ContactSystem::points(const ContactSet& cells) const {
       if (cells(ix, iy)) {
         list.cell.push_back(ix * cells.cols() + iy);
         list.windowed.push_back((ix - window_.x0) * window_.ny + iy - window_.y0);
-        list.framed.push_back(preconditioner_.framed_index(ix, iy));
+        list.with_halo.push_back(preconditioner_.framed_index(ix, iy));
       }
   }
   list.row_begins.push_back(list.size());

@@ -12,7 +12,7 @@
 
 #include "base/convolution.hpp"
 #include "contact/half_space/cell_window.hpp"
-#include "contact/half_space/framed_field.hpp"
+#include "contact/half_space/halo_field.hpp"
 #include "contact/half_space/half_space.hpp"
 #include "contact/normal/set_inverse.hpp"
 
@@ -34,12 +34,12 @@ double largest_of(const double* values, Index count);
 /// Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Cells of a set in row order, as positions in the window and in the preconditioner's framed
+/// Cells of a set in row order, as positions in the window and in the preconditioner's with_halo
 /// window: of the rows of this process.
 struct PointList {
   std::vector<Index> cell;        ///< ix·ny + iy in the fields
   std::vector<Index> windowed;    ///< ix·ny + iy in the window
-  std::vector<Index> framed;      ///< in StencilPreconditioner's field
+  std::vector<Index> with_halo;      ///< in StencilPreconditioner's field
   std::vector<Index> row_begins;  ///< the first point of each row of the window, and their number
   Index size() const { return static_cast<Index>(cell.size()); }
 };
@@ -107,8 +107,8 @@ class StencilPreconditioner {
   Boundary boundary_;
   InverseStencil stencil_;
   std::vector<Index> held_;  // where field_ may differ from zero
-  FramedField<double> field_;
-  RowExchange frame_rows_;
+  HaloField<double> field_;
+  RowExchange halo_rows_;
 };
 
 /// A response with its preconditioner and the points of a contact set: solves K τ = u on the set.

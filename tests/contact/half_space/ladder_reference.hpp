@@ -28,7 +28,7 @@ void for_tile_cells(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
 }
 
 inline void restriction(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
-                        const FramedView& fine, const Shift& shift, const FramedView& coarse) {
+                        const HaloView& fine, const Shift& shift, const HaloView& coarse) {
   for_tile_cells(tiles, begin, end, coarse.ny, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
     float sum = 0;
     for (std::ptrdiff_t a = -2; a <= 2; ++a)
@@ -55,7 +55,7 @@ inline float ascended(const Ascent& sum, int radius, std::ptrdiff_t i, std::ptrd
 }
 
 inline void ascent(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end, const Ascent& sum,
-                   const FramedView& image) {
+                   const HaloView& image) {
   for_tile_cells(tiles, begin, end, image.ny, [&](std::ptrdiff_t i, std::ptrdiff_t j) {
     image.first[i * image.stride + j] = ascended(sum, 2, i, j);
   });
@@ -72,10 +72,10 @@ inline void at_cells(const double* field, std::ptrdiff_t stride, const double* s
                      double* sums) {
   for (std::ptrdiff_t k = begin; k < end; ++k) {
     sums[k] = 0;
-    for (int a = -frame; a <= frame; ++a)
-      for (int b = -frame; b <= frame; ++b)
+    for (int a = -halo; a <= halo; ++a)
+      for (int b = -halo; b <= halo; ++b)
         sums[k] +=
-            stencil[(a + frame) * (2 * frame + 1) + b + frame] * field[cells[k] + a * stride + b];
+            stencil[(a + halo) * (2 * halo + 1) + b + halo] * field[cells[k] + a * stride + b];
   }
 }
 

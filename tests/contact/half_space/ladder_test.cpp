@@ -118,7 +118,7 @@ double sum_of_errors(const std::vector<LadderRung>& rungs, int depth) {
 struct TiledField {
   Grid2D grid;
   std::vector<unsigned char> in_use;
-  FramedField<float> source;
+  HaloField<float> source;
   std::vector<Tile> tiles;
   std::vector<Index> row_begins;
 
@@ -224,13 +224,13 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
     return static_cast<float>(std::uniform_int_distribution<int>(-16, 16)(random));
   };
   constexpr Index coarse_nx = 9, coarse_ny = 37, nx = 2 * coarse_nx, ny = 2 * coarse_ny;
-  FramedField<float> fine(nx, ny), coarse(coarse_nx, coarse_ny), image(nx, ny);
-  const auto fill = [&](FramedField<float>& field) {
-    for (Index i = -frame - 1; i <= field.nx() + frame; ++i)
+  HaloField<float> fine(nx, ny), coarse(coarse_nx, coarse_ny), image(nx, ny);
+  const auto fill = [&](HaloField<float>& field) {
+    for (Index i = -halo - 1; i <= field.nx() + halo; ++i)
       for (Index j = -8; j < field.ny() + 8; ++j) field.row(i)[j] = few_bits();
   };
-  const auto view = [](const FramedField<float>& field) {
-    return FramedView{field.row(0), field.stride(), field.ny()};
+  const auto view = [](const HaloField<float>& field) {
+    return HaloView{field.row(0), field.stride(), field.ny()};
   };
   std::array<float, 25> small{};
   std::array<float, 49> wide{};
@@ -261,10 +261,10 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
   if (vector_width() == VectorWidth::avx512) tables.push_back({"avx512", avx512::ladder_table()});
 #endif
   const LadderKernels plain = reference::ladder_table();
-  const auto same = [](const FramedField<float>& a, const FramedField<float>& b) {
-    for (Index i = -frame - 1; i <= a.nx() + frame; ++i)
-      if (!std::equal(a.row(i) - side_frame, a.row(i) - side_frame + a.stride(),
-                      b.row(i) - side_frame))
+  const auto same = [](const HaloField<float>& a, const HaloField<float>& b) {
+    for (Index i = -halo - 1; i <= a.nx() + halo; ++i)
+      if (!std::equal(a.row(i) - side_halo, a.row(i) - side_halo + a.stride(),
+                      b.row(i) - side_halo))
         return false;
     return true;
   };
@@ -273,7 +273,7 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
       CAPTURE(name, shift.x);
       fill(fine);
       fill(coarse);
-      FramedField<float> found(coarse_nx, coarse_ny), wanted(coarse_nx, coarse_ny);
+      HaloField<float> found(coarse_nx, coarse_ny), wanted(coarse_nx, coarse_ny);
       const auto coarse_tiles = tiles_of(coarse_nx, coarse_ny);
       const auto coarse_count = static_cast<Index>(coarse_tiles.size());
       kernels.restriction(coarse_tiles.data(), 0, coarse_count, view(fine), shift, view(found));
@@ -282,7 +282,7 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
 
       const auto tiles = tiles_of(nx, ny);
       const auto count = static_cast<Index>(tiles.size());
-      FramedField<float> image_found(nx, ny), image_wanted(nx, ny);
+      HaloField<float> image_found(nx, ny), image_wanted(nx, ny);
       kernels.ascent(tiles.data(), 0, count, {view(fine), small.data(), view(coarse), shift},
                      view(image_found));
       plain.ascent(tiles.data(), 0, count, {view(fine), small.data(), view(coarse), shift},
@@ -301,13 +301,13 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
         CHECK(row_found == row_wanted);
       }
     }
-  FramedField<double> field(nx, ny);
+  HaloField<double> field(nx, ny);
   std::vector<Index> listed;
   for (Index i = 0; i < nx; ++i)
     for (Index j = 0; j < ny; ++j)
       if (random() % 3 != 0) listed.push_back(i * field.stride() + j);
-  for (Index i = -frame; i < nx + frame; ++i)
-    for (Index j = -frame; j < ny + frame; ++j) field.row(i)[j] = few_bits();
+  for (Index i = -halo; i < nx + halo; ++i)
+    for (Index j = -halo; j < ny + halo; ++j) field.row(i)[j] = few_bits();
   const std::vector<double> weights(wide.begin(), wide.end());
   const auto sums = [&](const LadderKernels& kernels, Index parts) {
     std::vector<double> found(listed.size());
@@ -323,8 +323,8 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
     CHECK(sums(kernels, 1) == exact);
   }
   // Sums that are rounded do not depend on where threads cut the list.
-  for (Index i = -frame; i < nx + frame; ++i)
-    for (Index j = -frame; j < ny + frame; ++j) field.row(i)[j] /= 3;
+  for (Index i = -halo; i < nx + halo; ++i)
+    for (Index j = -halo; j < ny + halo; ++j) field.row(i)[j] /= 3;
   for (const auto& [name, kernels] : tables) {
     CAPTURE(name);
     CHECK(sums(kernels, 1) == sums(kernels, 97));

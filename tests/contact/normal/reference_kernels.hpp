@@ -12,9 +12,9 @@
 // begins here.
 namespace salebra::detail::reference {
 
-// One cell of a tile: its place in a packed array, in the framed residual, and in its row.
+// One cell of a tile: its place in a packed array, in the with_halo residual, and in its row.
 struct Cell {
-  std::ptrdiff_t tile, packed, framed, column;
+  std::ptrdiff_t tile, packed, with_halo, column;
 };
 
 // Calls body(cell) for the cells of the tiles [begin, end) that lie within their row.
@@ -25,7 +25,7 @@ void for_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t e
     const Tile& tile = a.tiles[k];
     for (std::ptrdiff_t i = 0; i < tile_width && tile.column + i < a.ny; ++i)
       body(Cell{k, k * tile_width + i,
-                (tile.row + frame) * a.framed_stride + side_frame + tile.column + i,
+                (tile.row + halo) * a.halo_stride + side_halo + tile.column + i,
                 tile.column + i});
   }
 }
@@ -42,7 +42,7 @@ void for_active_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrd
 template <class Real>
 void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level) {
   for_cells(a, begin, end, [&](const Cell& c) {
-    a.r[c.framed] =
+    a.r[c.with_halo] =
         a.quiet[c.tile] ? Real(0) : a.m[c.packed] * static_cast<Real>(a.g[c.packed] - level);
   });
 }
@@ -53,13 +53,13 @@ PreconditionSums precondition(const TileArrays<Real>& a, std::ptrdiff_t begin, s
   PreconditionSums sums;
   for_active_cells(a, begin, end, [&](const Cell& c) {
     Real smoothed = 0;
-    for (int i = -frame; i <= frame; ++i)
-      for (int j = -frame; j <= frame; ++j)
-        smoothed += a.stencil[(i + frame) * (2 * frame + 1) + j + frame] *
-                    a.r[c.framed + i * a.framed_stride + j];
+    for (int i = -halo; i <= halo; ++i)
+      for (int j = -halo; j <= halo; ++j)
+        smoothed += a.stencil[(i + halo) * (2 * halo + 1) + j + halo] *
+                    a.r[c.with_halo + i * a.halo_stride + j];
     a.z[c.packed] = a.m[c.packed] * smoothed;
     const double z = a.z[c.packed], m = a.m[c.packed], t = m * double(a.t[c.packed]),
-                 w = a.w[c.packed], r = a.r[c.framed];
+                 w = a.w[c.packed], r = a.r[c.with_halo];
     sums.z += z;
     sums.zw += z * w;
     sums.zz += z * z;
@@ -106,7 +106,7 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
     const double m = a.m[c.packed];
     p -= alpha * double(a.t[c.packed]);
     g -= alpha * double(a.w[c.packed]);
-    if (!a.quiet[c.tile]) a.r[c.framed] = static_cast<Real>(m * (g - level));
+    if (!a.quiet[c.tile]) a.r[c.with_halo] = static_cast<Real>(m * (g - level));
     const double clipped = std::clamp(p, 0.0, a.bound), beyond = p - clipped;
     const bool saturated = clipped >= a.bound;
     sums.outside += beyond * beyond;

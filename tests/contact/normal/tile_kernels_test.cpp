@@ -42,7 +42,7 @@ constexpr std::ptrdiff_t rows = 9, ny = 53, tiles_per_row = 4;
 template <class Real>
 struct Tiles {
   std::vector<Tile> tiles;
-  std::ptrdiff_t framed_stride = tiles_per_row * tile_width + 2 * side_frame;
+  std::ptrdiff_t halo_stride = tiles_per_row * tile_width + 2 * side_halo;
   std::vector<double> p, g;
   std::vector<Real> r, t, w, z, m, row;
   std::vector<unsigned char> quiet;
@@ -63,22 +63,22 @@ struct Tiles {
     for (auto* field : {&t, &w, &z, &m}) field->assign(packed, 0);
     p.assign(packed, 0);
     g.assign(packed, 0);
-    r.assign(static_cast<std::size_t>((rows + 2 * frame) * framed_stride), 0);
+    r.assign(static_cast<std::size_t>((rows + 2 * halo) * halo_stride), 0);
     row.assign(ny, 0);
     quiet.assign(tiles.size(), 0);
     for (Real& value : row) value = coarse();
     // Symmetric about both axes, as InverseStencil's is: the widest kernels add opposite neighbours
     // before they are weighted.
-    for (int i = 0; i <= frame; ++i)
-      for (int j = 0; j <= frame; ++j) {
+    for (int i = 0; i <= halo; ++i)
+      for (int j = 0; j <= halo; ++j) {
         const Real weight = static_cast<Real>(whole(16)) / 8;
         for (const int row_of : {-i, i})
           for (const int column : {-j, j})
-            stencil[static_cast<std::size_t>((row_of + frame) * (2 * frame + 1) + column + frame)] =
+            stencil[static_cast<std::size_t>((row_of + halo) * (2 * halo + 1) + column + halo)] =
                 weight;
       }
     const auto a = arrays();
-    // The frame, too, holds images of the residual.
+    // The halo, too, holds images of the residual.
     for (Real& value : r) value = coarse();
     for (std::size_t k = 0; k < tiles.size(); ++k) {
       const auto first = static_cast<std::ptrdiff_t>(k);
@@ -92,7 +92,7 @@ struct Tiles {
         g[at] = apart ? std::abs(fine()) + 1 : fine();
         w[at] = coarse();
         z[at] = coarse();
-        Real& residual = r[static_cast<std::size_t>(c.framed)];
+        Real& residual = r[static_cast<std::size_t>(c.with_halo)];
         if (quiet[k] || idle) {
           residual = 0;
           return;
@@ -111,7 +111,7 @@ struct Tiles {
     return {tiles.data(),
             static_cast<std::ptrdiff_t>(tiles.size()),
             ny,
-            framed_stride,
+            halo_stride,
             r.data(),
             p.data(),
             g.data(),

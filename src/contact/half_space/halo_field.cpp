@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A field with a frame around it, which repeats the opposite edge, holds rows of other processes,
+// A field with a halo around it, which repeats the opposite edge, holds rows of other processes,
 // or is zero.
-#include "framed_field.hpp"
+#include "halo_field.hpp"
 
 #include <algorithm>
 #include <salebra/base/parallel.hpp>
@@ -9,7 +9,7 @@
 namespace salebra::detail {
 namespace {
 
-// Vectors of a tile, and of twice a tile on the finer grid, may end beyond the frame of the last
+// Vectors of a tile, and of twice a tile on the finer grid, may end beyond the halo of the last
 // row.
 constexpr Index slack = 4 * tile_width;
 
@@ -22,16 +22,16 @@ void append_tiles(const unsigned char* in_use, Index row, Index across, std::vec
 }
 
 template <class Real>
-FramedField<Real>::FramedField(Index nx, Index ny)
+HaloField<Real>::HaloField(Index nx, Index ny)
     : nx_(nx),
       ny_(ny),
-      stride_(tiles_across(ny) * tile_width + 2 * side_frame),
+      stride_(tiles_across(ny) * tile_width + 2 * side_halo),
       data_(large_array<Real>(static_cast<std::size_t>((nx + 2 * rows_around) * stride_ + slack))) {
   clear();
 }
 
 template <class Real>
-void FramedField<Real>::clear() {
+void HaloField<Real>::clear() {
   const Index rows = nx_ + 2 * rows_around;
   parallel::for_slabs(
       rows,
@@ -43,7 +43,7 @@ void FramedField<Real>::clear() {
 }
 
 template <class Real>
-void FramedField<Real>::fill_frame(Boundary boundary, const RowExchange& frame_rows) {
+void HaloField<Real>::fill_halo(Boundary boundary, const RowExchange& halo_rows) {
   const auto wrapped = [](Index k, Index n) { return (k % n + n) % n; };
   if (boundary == Boundary::periodic)
     parallel::for_slabs(
@@ -51,7 +51,7 @@ void FramedField<Real>::fill_frame(Boundary boundary, const RowExchange& frame_r
         [&](Index begin, Index end) {
           for (Index i = begin; i < end; ++i) {
             Real* cells = row(i);
-            for (Index k = 1; k <= frame; ++k) {
+            for (Index k = 1; k <= halo; ++k) {
               cells[-k] = cells[wrapped(-k, ny_)];
               cells[ny_ + k - 1] = cells[wrapped(k - 1, ny_)];
             }
@@ -59,19 +59,19 @@ void FramedField<Real>::fill_frame(Boundary boundary, const RowExchange& frame_r
         },
         nx_ * ny_);
   const std::size_t bytes = static_cast<std::size_t>(stride_) * sizeof(Real);
-  frame_rows(row(0) - side_frame, bytes, row(-frame) - side_frame, bytes, bytes);
+  halo_rows(row(0) - side_halo, bytes, row(-halo) - side_halo, bytes, bytes);
 }
 
-RowExchange frame_rows(const Share& rows, Boundary boundary) {
-  const auto framed = [&](int rank) {
-    return RowExchange::Window{rows.begin_of(rank) - frame,
-                               rows.end_of(rank) - rows.begin_of(rank) + 2 * frame};
+RowExchange halo_rows(const Share& rows, Boundary boundary) {
+  const auto with_halo = [&](int rank) {
+    return RowExchange::Window{rows.begin_of(rank) - halo,
+                               rows.end_of(rank) - rows.begin_of(rank) + 2 * halo};
   };
-  return {rows, framed,
+  return {rows, with_halo,
           boundary == Boundary::periodic ? RowExchange::Edge::repeat : RowExchange::Edge::none};
 }
 
-template class FramedField<float>;
-template class FramedField<double>;
+template class HaloField<float>;
+template class HaloField<double>;
 
 }  // namespace salebra::detail

@@ -15,34 +15,34 @@ inline Index tiles_across(Index ny) { return (ny + tile_width - 1) / tile_width;
 // Appends the tiles of a row that are in use, one flag each.
 void append_tiles(const unsigned char* in_use, Index row, Index across, std::vector<Tile>& tiles);
 
-// A field (nx, ny) with a frame around it, so that a stencil needs no test for the edge: as many
+// A field (nx, ny) with a halo around it, so that a stencil needs no test for the edge: as many
 // rows as the widest stencil reaches and one more, for splines of the next coarser grid, and at
 // least a tile at both sides.
 template <class Real>
-class FramedField {
+class HaloField {
  public:
-  FramedField() = default;
-  FramedField(Index nx, Index ny);  // zero
+  HaloField() = default;
+  HaloField(Index nx, Index ny);  // zero
 
   explicit operator bool() const { return data_ != nullptr; }
   Index nx() const { return nx_; }
   Index ny() const { return ny_; }
   Index stride() const { return stride_; }
   // The first cell of a row, −rows_around <= row < nx + rows_around.
-  Real* row(Index row) const { return data_.get() + (row + rows_around) * stride_ + side_frame; }
+  Real* row(Index row) const { return data_.get() + (row + rows_around) * stride_ + side_halo; }
 
   void clear();
-  // Puts the cells of the opposite edge into the frame, where the field repeats, and the rows of
+  // Puts the cells of the opposite edge into the halo, where the field repeats, and the rows of
   // other processes, where it is spread over several. Collective.
-  void fill_frame(Boundary boundary, const RowExchange& frame_rows);
+  void fill_halo(Boundary boundary, const RowExchange& halo_rows);
 
  private:
-  static constexpr Index rows_around = frame + 1;
+  static constexpr Index rows_around = halo + 1;
   Index nx_ = 0, ny_ = 0, stride_ = 0;
   LargeArray<Real> data_;
 };
 
-// The rows of the frame of a field, and with them how a field whose rows are shared so is framed.
-RowExchange frame_rows(const Share& rows, Boundary boundary);
+// The rows of the halo of a field, and with them how a field whose rows are shared so is with_halo.
+RowExchange halo_rows(const Share& rows, Boundary boundary);
 
 }  // namespace salebra::detail
