@@ -4,7 +4,7 @@
 // usage: contact_adhesion [N_MAX [SEED]], or contact_adhesion --sphere [N_MAX]
 // H = 0.8, rms slope 1, cut-off 16 cells, roll-off a quarter of the side; w = 0.32 E*·cell,
 // ρ = 1.33 cells (2.66 of van der Waals: the same largest tension), P = 0.01 E* and 0.05 E*. Prints a row for each potential and size: contacts,
-// exact pairs of transforms, applications of the ladder, CPU seconds.
+// exact pairs of transforms, applications of the multilevel kernel, CPU seconds.
 // --sphere: a paraboloid that is drawn off, by the potential of Maugis, against the formula of Maugis and Dugdale: for each Tabor number and
 // grid the largest error of the force and of the contact radius at four indentations.
 
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   const Index largest = argc > 1 ? std::atol(argv[1]) : 1024;
   const auto seed = static_cast<std::uint64_t>(argc > 2 ? std::atol(argv[2]) : 1);
   parallel::set_threads(1);
-  std::puts("points,potential,pressure,area,contacts,pairs,ladder,cpu s,termination");
+  std::puts("points,potential,pressure,area,contacts,pairs,multilevel,cpu s,termination");
   for (Index n = 256; n <= largest; n *= 2) {
     const auto side = static_cast<double>(n);
     const SelfAffineSpectrum spectrum(
@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
         const double spent = bench::cpu_seconds() - before;
         std::printf("%ld²,%s,%g,%.4f,%d,%d,%d,%.2f,%s\n", static_cast<long>(n),
                     std::string(name).c_str(), pressure, state.contact_area_fraction,
-                    state.outer_iterations, state.fft_count, state.ladder_count, spent,
+                    state.outer_iterations, state.fft_count, state.multilevel_count, spent,
                     std::string(name_of(state.termination)).c_str());
         std::fflush(stdout);
       }

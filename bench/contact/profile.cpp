@@ -6,7 +6,7 @@
 // LOAD is p/(E*·rms slope) on a self-affine surface: H = 0.8, roll-off at 1/8 of the side, shortest
 // wave 8 cells, rms slope 0.1. The solver's levels are run one by one as press() runs
 // them. A transform takes each row from the tiles and hands it back to them: this counts as part of
-// it. What a solve takes beyond its transforms and the ladder is its other pointwise passes.
+// it. What a solve takes beyond its transforms and the multilevel kernel is its other pointwise passes.
 
 #include <algorithm>
 #include <array>
@@ -62,9 +62,9 @@ double register_seconds(int threads) {
 }
 
 struct Share {
-  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, ladder = 0, pointwise = 0;
+  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, multilevel = 0, pointwise = 0;
   double total() const {
-    return setup + prolongation + single_pairs + double_pairs + ladder + pointwise;
+    return setup + prolongation + single_pairs + double_pairs + multilevel + pointwise;
   }
 };
 
@@ -109,8 +109,8 @@ void profile(const Surface& surface, double load) {
     const double solve = now() - start;
     share.double_pairs += outcome.exact_fft_seconds;
     share.single_pairs += outcome.fft_seconds - outcome.exact_fft_seconds;
-    share.ladder += outcome.ladder_seconds;
-    share.pointwise += solve - outcome.fft_seconds - outcome.ladder_seconds;
+    share.multilevel += outcome.multilevel_seconds;
+    share.pointwise += solve - outcome.fft_seconds - outcome.multilevel_seconds;
     pair = (outcome.fft_seconds - outcome.exact_fft_seconds) /
            (outcome.fft_count - outcome.exact_fft_count);
   }
@@ -126,7 +126,7 @@ void profile(const Surface& surface, double load) {
   line("set-up: plans, symbol, stencil", fine.setup);
   line("transforms in float", fine.single_pairs);
   line("transforms in double", fine.double_pairs);
-  line("the ladder", fine.ladder);
+  line("the multilevel kernel", fine.multilevel);
   line("other pointwise passes", fine.pointwise);
   std::printf("  %-44s %8.3f s\n", "all", total);
   std::printf("  a pair in float takes %.2f ms with the passes that make and take its rows\n",

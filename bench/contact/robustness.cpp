@@ -22,7 +22,7 @@ using namespace salebra;
 
 struct Tally {
   std::string family;
-  int runs = 0, failures = 0, on_ladder = 0, iterations = 0, most = 0;
+  int runs = 0, failures = 0, on_multilevel = 0, iterations = 0, most = 0;
   double residual = 0, balance = 0;
 };
 
@@ -40,7 +40,7 @@ class Outcomes {
            const NormalContactState& state, double residual, double balance, double allowed) {
     Tally& tally = row(family, precision);
     ++tally.runs;
-    tally.on_ladder += state.ladder_count > 0 ? 1 : 0;
+    tally.on_multilevel += state.multilevel_count > 0 ? 1 : 0;
     tally.iterations += state.iterations;
     tally.most = std::max(tally.most, state.iterations);
     tally.residual = std::max(tally.residual, residual);
@@ -58,10 +58,10 @@ class Outcomes {
 
   void print() const {
     std::printf("\n%-42s %-7s %5s %8s %9s  %10s %6s  %9s  %10s\n", "contacts", "inner", "runs",
-                "failures", "on ladder", "iterations", "most", "worst e_c", "target off");
+                "failures", "on multilevel kernels", "iterations", "most", "worst e_c", "target off");
     for (const Tally& tally : rows_)
       std::printf("%-50s %5d %8d %9d  %10.1f %6d  %9.1e  %10.1e\n", tally.family.c_str(),
-                  tally.runs, tally.failures, tally.on_ladder,
+                  tally.runs, tally.failures, tally.on_multilevel,
                   static_cast<double>(tally.iterations) / tally.runs, tally.most, tally.residual,
                   tally.balance);
     std::printf("%zu failures\n", failures_.size());

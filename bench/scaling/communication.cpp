@@ -9,7 +9,7 @@
 #include <salebra/base/share.hpp>
 #include <vector>
 
-#include "contact/half_space/near_field_ladder.hpp"
+#include "contact/half_space/multilevel_kernel.hpp"
 #include "contact/half_space/normal_symbol.hpp"
 #include "contact/normal/tile_sums.hpp"
 #include "one_of_many.hpp"
@@ -19,7 +19,7 @@ using salebra::testing::OneOfMany;
 
 namespace {
 
-// The ladder's symbol is made by each process as a whole, for larger grids in half a minute and
+// The multilevel kernel's symbol is made by each process as a whole, for larger grids in half a minute and
 // more.
 constexpr Index largest_for_ladder = 16384;
 
@@ -59,13 +59,13 @@ void count(Index n, int ranks) {
               of_sums.sent / 1e3);
   if (n <= largest_for_ladder) {
     const Grid2D grid{n, n, static_cast<double>(n), static_cast<double>(n)};
-    auto ladder = detail::NearFieldLadder::make(
+    auto multilevel = detail::MultilevelKernel::make(
         grid, rows, detail::normal_symbol(grid, 1, Boundary::periodic, rows), 1,
         Boundary::periodic);
-    ladder->list_tiles(std::vector<unsigned char>(
+    multilevel->list_tiles(std::vector<unsigned char>(
         static_cast<std::size_t>(rows.count() * detail::tiles_across(n)), 0));
     reset();
-    ladder->descend(field);
+    multilevel->descend(field);
     std::printf(" %9.3f %6ld", transport->exchanged.sent / 1e6, transport->exchanged.messages);
   }
   std::printf("\n");
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
       "sent by one process; a pair is a transform there and back, in float\n"
       "%6s %5s %5s %10s %10s %6s %6s %8s %8s %7s %9s %6s\n",
       "N", "ranks", "rows", "pair, MB", "model", "mess.", "model", "halo MB", "model", "sums kB",
-      "ladder MB", "mess.");
+      "multilevel MB", "mess.");
   for (const Index n : sizes)
     for (const int count_of_ranks : ranks) count(n, count_of_ranks);
 }

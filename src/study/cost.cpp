@@ -166,7 +166,7 @@ double contact_seconds(const SurfaceWork& work, double load) {
 }
 
 /// The time of one contact for what its group sends from machine to machine, counted on one machine
-/// (docs/scaling.md): the transforms' columns and the ladder's messages.
+/// (docs/scaling.md): the transforms' columns and the multilevel kernel's messages.
 double network_seconds(const SurfaceWork& work, double load) {
   const double nodes = std::ceil(double(work.nodes) / work.groups),
                ranks = double(work.ranks) / work.groups;
@@ -198,7 +198,7 @@ double surface_memory(const SurfaceWork& work) {
   const double contact = (work.tangential_stiffness ? 56 + 196 * std::sqrt(load) : 43 + 62 * load) +
                          (together && work.normal_stiffness ? 8 : 0) + (isolated ? 36 : 0) +
                          (work.adhesive ? memory_of_adhesion : 0);
-  // What each process makes of the whole grid: the coarser levels of the ladder, or symbols.
+  // What each process makes of the whole grid: the coarser levels of the multilevel kernel, or symbols.
   const double whole = together ? (isolated ? 4 : 1.5) * cells : 0;
   // A process that is alone presses a load on each thread.
   const double at_once =
@@ -229,7 +229,7 @@ Cost estimate_cost(const SurfaceWork& work) {
   const double ranks = std::max(1, work.ranks / work.groups);
   const double gain = ranks * gain_of(work.threads, 1);
   constexpr double generation_per_cell = 5e-9;  // s, of one thread
-  // s, of the ladder, which each process makes as a whole, for a contact and for its stiffness.
+  // s, of the multilevel kernel, which each process makes as a whole, for a contact and for its stiffness.
   const double set_up = ranks > 1 ? (work.normal_stiffness ? 2 : 1) * 3.7e-9 : 0;
   const auto cells = static_cast<double>(work.grid.points());
   // Loads are dealt to the groups; a process alone presses one on each thread.

@@ -35,7 +35,7 @@ TEST_CASE("A contact is described by the agreed keys and is the same for one and
   const auto answer = test.answer(press + "--threads 1");
   CHECK(keys(answer) ==
         "pressure force contact_area_fraction mean_gap indentation max_pressure elastic_energy "
-        "iterations fft_count ladder_count residual converged seconds");
+        "iterations fft_count multilevel_count residual converged seconds");
   CHECK(answer["converged"] == true);
   CHECK(answer["pressure"] == Approx(2e7).epsilon(1e-9));
   CHECK(answer["force"] == Approx(2e7 * 16e-12).epsilon(1e-9));

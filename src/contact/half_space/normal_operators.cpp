@@ -60,12 +60,12 @@ Convolution2D<Real> NormalOperators::compliance() {
   return *made;
 }
 
-std::optional<NearFieldLadder> NormalOperators::ladder() {
+std::optional<MultilevelKernel> NormalOperators::multilevel() {
   const std::lock_guard lock(mutex_);
-  if (!ladder_)
-    ladder_ = NearFieldLadder::Plan::make(grid_, rows_, symbol_, contact_modulus_, boundary_);
-  if (!*ladder_) return std::nullopt;
-  return NearFieldLadder(**ladder_, rows_);
+  if (!multilevel_)
+    multilevel_ = MultilevelKernel::Plan::make(grid_, rows_, symbol_, contact_modulus_, boundary_);
+  if (!*multilevel_) return std::nullopt;
+  return MultilevelKernel(**multilevel_, rows_);
 }
 
 template Convolution2D<float> NormalOperators::compliance<float>();

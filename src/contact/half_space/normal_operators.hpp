@@ -8,13 +8,13 @@
 
 #include "base/convolution.hpp"
 #include "half_space.hpp"
-#include "near_field_ladder.hpp"
+#include "multilevel_kernel.hpp"
 #include "normal_symbol.hpp"
 
 namespace salebra::detail {
 
 // What the contacts on equal grids have in common: the symbol, transforms, the stencil of the
-// preconditioner and the ladder, each made when it is first needed. Any thread may ask.
+// preconditioner and the multilevel kernel, each made when it is first needed. Any thread may ask.
 class NormalOperators {
  public:
   NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary, const Share& rows);
@@ -28,7 +28,7 @@ class NormalOperators {
   const InverseStencil& inverse() const { return inverse_; }
   template <class Real>
   Convolution2D<Real> compliance();
-  std::optional<NearFieldLadder> ladder();
+  std::optional<MultilevelKernel> multilevel();
 
  private:
   bool serves(const Grid2D& grid, double contact_modulus, Boundary boundary) const;
@@ -42,7 +42,7 @@ class NormalOperators {
   std::mutex mutex_;
   std::optional<Convolution2D<float>> single_;
   std::optional<Convolution2D<double>> exact_;
-  std::optional<std::optional<NearFieldLadder::Plan>> ladder_;
+  std::optional<std::optional<MultilevelKernel::Plan>> multilevel_;
 };
 
 }  // namespace salebra::detail

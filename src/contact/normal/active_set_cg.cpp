@@ -24,11 +24,11 @@ constexpr double usual_threshold = 0.5;
 constexpr std::array<double, 2> other_thresholds = {1.0, 0.1};
 // In float, the residual is computed afresh when the estimate of e_c has fallen by this factor …
 constexpr double refresh_after = 1e-4;
-// … and on the ladder, whose own error is a few per cent.
-constexpr double ladder_refresh_after = 0.03;
-// Fresh residuals on the ladder are computed in double once e_c is below this.
+// … and on the multilevel kernel, whose own error is a few per cent.
+constexpr double multilevel_refresh_after = 0.03;
+// Fresh residuals on the multilevel kernel are computed in double once e_c is below this.
 constexpr double exact_below = 2e-6;
-// Where so many fresh residuals in a row did not halve e_c, the ladder is left.
+// Where so many fresh residuals in a row did not halve e_c, the multilevel kernel is left.
 constexpr int most_misses = 2;
 // A start for a finer level needs no more than this many refreshes.
 constexpr int most_inexact_refreshes = 3;
@@ -106,7 +106,7 @@ Convolution2D<double>& ActiveSetCg<Real>::exact_compliance() {
 // own.
 template <class Real>
 Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
-  if (on_ladder_ || tiles_.empty()) {
+  if (on_multilevel_ || tiles_.empty()) {
     // With room for that of the exact check, which is twice as large and comes later: memory counts
     // once it is touched.
     compliance_.keep_spectrum_in(pool(2 * compliance_.spectrum_bytes()));
@@ -298,16 +298,16 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   collect_pressure(run);
   const bool exact =
       run.limits.exact &&
-      !(on_ladder_ && run.estimate > std::max(exact_below, 0.7 * run.limits.tolerance));
+      !(on_multilevel_ && run.estimate > std::max(exact_below, 0.7 * run.limits.tolerance));
   const bool whole = last || run.estimate < 2 * run.limits.tolerance || run.interrupted() ||
                      run.outcome.iterations >= run.limits.max_iterations ||
                      (!run.limits.exact && run.refreshes + 1 >= most_inexact_refreshes);
   const auto [level, residual] = dense_gap(run, exact, whole);
   run.level = level;
   run.outcome.residual = residual;
-  if (on_ladder_) {
+  if (on_multilevel_) {
     run.misses = residual > 0.5 * run.at_refresh ? run.misses + 1 : 0;
-    if (run.misses >= most_misses) on_ladder_ = false;
+    if (run.misses >= most_misses) on_multilevel_ = false;
     run.best = std::max(run.best, residual);
   }
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());
@@ -334,7 +334,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   } else {
     run.level = target.value;
   }
-  ladder_share_ = limits.ladder_share;
+  multilevel_share_ = limits.multilevel_share;
   auto [level, residual] =
       dense_gap(run, false, run.load_given() && !limits.expected_level.has_value());
   // A start that meets the tolerance is iterated once as well. Otherwise, where each of several
@@ -347,7 +347,7 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
   }
   run.level = level;
   choose_tiles(run, widest_margin);
-  if (on_ladder_) run.at_refresh = residual;
+  if (on_multilevel_) run.at_refresh = residual;
   go_on(run);
   if (run.finished || !limits.exact) run.outcome.level = run.level;
   return run.outcome;
@@ -366,7 +366,7 @@ void ActiveSetCg<Real>::go_on(Run& run) {
       limits.take_checkpoint();
     }
     const bool stalled = run.stalls > other_thresholds.size();
-    const double factor = on_ladder_ && limits.exact ? ladder_refresh_after : refresh_after;
+    const double factor = on_multilevel_ && limits.exact ? multilevel_refresh_after : refresh_after;
     const bool fresh_needed =
         run.estimate < 0.7 * limits.tolerance || run.interrupted() ||
         run.outcome.iterations >= limits.max_iterations ||

@@ -14,7 +14,7 @@
 #include "base/memory.hpp"
 #include "contact/half_space/halo_field.hpp"
 #include "contact/half_space/half_space.hpp"
-#include "contact/half_space/near_field_ladder.hpp"
+#include "contact/half_space/multilevel_kernel.hpp"
 #include "contact/half_space/normal_operators.hpp"
 #include "contact_residual.hpp"
 #include "load_correction.hpp"
@@ -66,7 +66,7 @@ class ActiveSetCg {
                           Field* pressure = nullptr);
 
   // Makes a set of cells ready for invert(): ix·ny + iy of the rows of this process, in row order.
-  // False where the ladder cannot be used.
+  // False where the multilevel kernel cannot be used.
   bool hold(const std::vector<Index>& cells);
   // q ≈ G⁻¹u on the cells of hold(), with G~ in place of G: CG until a step gains less than this
   // part of all that was gained.
@@ -91,7 +91,7 @@ class ActiveSetCg {
     std::size_t stalls = 0;
     double at_refresh = 1;  // e_c at the last refresh
     int refreshes = 0;
-    int misses = 0;  // refreshes on the ladder that did not find e_c much smaller
+    int misses = 0;  // refreshes on the multilevel kernel that did not find e_c much smaller
     double estimate = 0;
     bool finished = false;
 
@@ -132,22 +132,22 @@ class ActiveSetCg {
         tile_points());
   }
 
-  // Gx, or G~x on the ladder, of a field x that lives on the tiles: spread(begin, end, row) writes
+  // Gx, or G~x on the multilevel kernel, of a field x that lives on the tiles: spread(begin, end, row) writes
   // the tiles [begin, end) of a row into it, collect(begin, end, row) takes them from the row of Gx
   // and returns its sums. Row by row of this process, those of rows without tiles being Sums{}. On
-  // the ladder x is spread over the residual, which is made anew before it is read again.
+  // the multilevel kernel x is spread over the residual, which is made anew before it is read again.
   template <class Sums, class Spread, class Collect>
   std::vector<Sums> displace(const Spread& spread, const Collect& collect) {
     std::vector<Sums> sums(static_cast<std::size_t>(rows_.count()));
     if constexpr (std::is_same_v<Real, float>) {
-      if (on_ladder_) {
+      if (on_multilevel_) {
         for_rows_in_use(
             [&](Index row, Index begin, Index end) { spread(begin, end, r_.row(row)); });
-        ladder_->descend(r_);
+        multilevel_->descend(r_);
         for_rows_in_use([&](Index row, Index begin, Index end) {
           thread_local std::vector<float> room;
           room.resize(static_cast<std::size_t>(grid_.ny));
-          ladder_->collect(tiles_.data(), begin, end, room.data());
+          multilevel_->collect(tiles_.data(), begin, end, room.data());
           sums[static_cast<std::size_t>(row)] = collect(begin, end, room.data());
         });
         return sums;
@@ -190,8 +190,8 @@ class ActiveSetCg {
    public:
     template <class Outcome>
     Applying(const ActiveSetCg& solver, Outcome& outcome)
-        : stopwatch_(solver.on_ladder_ ? outcome.ladder_seconds : outcome.fft_seconds) {
-      ++(solver.on_ladder_ ? outcome.ladder_count : outcome.fft_count);
+        : stopwatch_(solver.on_multilevel_ ? outcome.multilevel_seconds : outcome.fft_seconds) {
+      ++(solver.on_multilevel_ ? outcome.multilevel_count : outcome.fft_count);
     }
 
    private:
@@ -241,11 +241,11 @@ class ActiveSetCg {
   std::optional<Convolution2D<double>> exact_compliance_;  // made when it is first needed
   std::array<Real, stencil_size> stencil_;
   const TileKernels<Real>& kernels_;
-  std::optional<NearFieldLadder> ladder_;  // made when it is first needed
+  std::optional<MultilevelKernel> multilevel_;  // made when it is first needed
   bool operator_chosen_ = false;           // of this solve
-  LadderShare ladder_share_;               // of the limits
+  MultilevelShare multilevel_share_;               // of the limits
   bool spectrum_in_pool_ = false;          // that of compliance_
-  bool on_ladder_ = false;  // the iterations apply the ladder in place of a transform
+  bool on_multilevel_ = false;  // the iterations apply the multilevel kernel in place of a transform
 
   Index tiles_per_row_;
   std::vector<Tile> tiles_;            // row by row

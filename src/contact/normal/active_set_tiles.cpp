@@ -11,7 +11,7 @@ namespace salebra::detail {
 namespace {
 
 // The share of the first tiles, which are the most. Measured on one core (bench/contact): the
-// ladder is as fast as a transform of 512² where about a third of the points are in tiles, of 1024²
+// multilevel is as fast as a transform of 512² where about a third of the points are in tiles, of 1024²
 // at some more than half of them, and of 2048² where all are; what surrounds the stencils weighs
 // less on large grids.
 double worthwhile_share(double points) {
@@ -41,7 +41,7 @@ TileArrays<Real> ActiveSetCg<Real>::arrays(double bound) {
 
 template <class Real>
 void ActiveSetCg<Real>::reset() {
-  operator_chosen_ = on_ladder_ = false;
+  operator_chosen_ = on_multilevel_ = false;
   tiles_.clear();
   row_begins_.assign(static_cast<std::size_t>(rows_.count() + 1), 0);
   in_use_.assign(static_cast<std::size_t>(rows_.count() * tiles_per_row_), 0);
@@ -93,7 +93,7 @@ void ActiveSetCg<Real>::list_tiles() {
   choose_operator();
 }
 
-// The ladder where few tiles are in use: its work goes with their number, that of a transform does
+// The multilevel kernel where few tiles are in use: its work goes with their number, that of a transform does
 // not. Chosen once in a solve, since a change costs more than it saves.
 template <class Real>
 void ActiveSetCg<Real>::choose_operator() {
@@ -102,17 +102,17 @@ void ActiveSetCg<Real>::choose_operator() {
       operator_chosen_ = true;
       const double points =
           static_cast<double>(operators_->symbol().period_x * operators_->symbol().period_y);
-      const double most = ladder_share_.value_or(worthwhile_share(points));
+      const double most = multilevel_share_.value_or(worthwhile_share(points));
       double tile_points = 0;  // of all processes
       for (const double of_block : over_tiles<double>([](Index begin, Index end) {
              return static_cast<double>((end - begin) * tile_width);
            }))
         tile_points += of_block;
       if (tile_points > most * points) return;
-      if (!ladder_) ladder_ = operators_->ladder();
-      on_ladder_ = ladder_.has_value();
+      if (!multilevel_) multilevel_ = operators_->multilevel();
+      on_multilevel_ = multilevel_.has_value();
     }
-    if (on_ladder_) ladder_->list_tiles(in_use_);
+    if (on_multilevel_) multilevel_->list_tiles(in_use_);
   }
 }
 

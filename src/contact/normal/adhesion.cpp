@@ -369,15 +369,15 @@ class AdhesiveSolve {
     static_cast<NormalContactState&>(state_) = press(raised_, modulus_, target, inner);
     state_.iterations += before.iterations;
     state_.fft_count += before.fft_count;
-    state_.ladder_count += before.ladder_count;
+    state_.multilevel_count += before.multilevel_count;
     // A contact that stalls is as sharp as rounding lets it be.
     return state_.converged() || state_.termination == Termination::stalled;
   }
 
   struct Counts {
-    int iterations, fft_count, ladder_count;
+    int iterations, fft_count, multilevel_count;
   };
-  Counts counts() const { return {state_.iterations, state_.fft_count, state_.ladder_count}; }
+  Counts counts() const { return {state_.iterations, state_.fft_count, state_.multilevel_count}; }
 
   double mean_of(const Field& field) const {
     return parallel::sum_blocks(

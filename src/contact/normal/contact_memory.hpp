@@ -8,7 +8,7 @@ namespace salebra::detail {
 
 /// What a contact takes in this process in addition to the heights, bytes: 43 a cell with contact
 /// on a tenth of them, with Precision::full 58. Full contact takes 24 and 31 more, a free boundary
-/// the padding of its transforms. One of several processes sets up the ladder, or the response of
+/// the padding of its transforms. One of several processes sets up the multilevel kernel, or the response of
 /// an isolated surface, for the whole grid. Measured: docs/performance.md, "Memory", and
 /// bench/scaling.
 inline double contact_memory(const Surface& surface, const NormalContactOptions& options) {

@@ -26,10 +26,10 @@ struct ContactTarget {
   bool load_given() const { return kind == Kind::mean_pressure; }
 };
 
-// Part of the transform's points that may be in tiles in use where the near-field ladder takes the
+// Part of the transform's points that may be in tiles in use where the multilevel kernel takes the
 // place of transforms; 0: it never does. Its work goes with the tiles, that of a transform does
 // not. No value: what is faster, as measured (active_set_tiles.cpp).
-using LadderShare = std::optional<double>;
+using MultilevelShare = std::optional<double>;
 
 struct PunchLimits {
   // Stop when the load grew by less than this part of itself in two iterations running. The load is
@@ -37,8 +37,8 @@ struct PunchLimits {
   double relative_gain = 1e-11;
   int max_iterations = 1000;
   std::function<bool(int iteration)> keep_going = {};
-  LadderShare ladder_share = {};
-  // On the ladder a round of CG ends, and the residual is computed afresh, when a step gains less
+  MultilevelShare multilevel_share = {};
+  // On the multilevel kernel a round of CG ends, and the residual is computed afresh, when a step gains less
   // than this part of what the round gained.
   double round_ends = 1e-4;
 };
@@ -48,8 +48,8 @@ struct PunchOutcome {
   double residual = 0;  // rms of 1 − Gq over the punch
   int iterations = 0;
   int fft_count = 0;
-  int ladder_count = 0;
-  double fft_seconds = 0, ladder_seconds = 0;  // for profiles
+  int multilevel_count = 0;
+  double fft_seconds = 0, multilevel_seconds = 0;  // for profiles
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -70,7 +70,7 @@ struct ActiveSetLimits {
   // When e_c has not halved in this many iterations, CG restarts with another threshold, and at
   // last gives way to gradient_projection().
   int patience = 40;
-  LadderShare ladder_share = {};
+  MultilevelShare multilevel_share = {};
   // About where the contact plane will be, where it is not prescribed; it saves work and changes no
   // result.
   std::optional<double> expected_level = {};
@@ -82,10 +82,10 @@ struct ActiveSetOutcome {
   int iterations = 0;
   int fft_count = 0;
   int exact_fft_count = 0;  // of them in double precision, where the inner loop is not
-  int ladder_count = 0;     // applications of the near-field ladder in place of a transform
-  // Profiles read these: seconds in transforms, of them in exact ones, on the ladder, and the cells
+  int multilevel_count = 0;     // applications of the multilevel kernel in place of a transform
+  // Profiles read these: seconds in transforms, of them in exact ones, on the multilevel kernel, and the cells
   // of the tiles summed over the iterations.
-  double fft_seconds = 0, exact_fft_seconds = 0, ladder_seconds = 0;
+  double fft_seconds = 0, exact_fft_seconds = 0, multilevel_seconds = 0;
   double active_cells = 0, resting_cells = 0;
   Termination termination = Termination::iteration_limit;
 

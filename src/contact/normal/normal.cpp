@@ -317,7 +317,7 @@ NormalContactState state_of(Solution&& solution, const ContactTarget& target, co
   state.residual = outcome.residual;
   state.iterations = outcome.iterations;
   state.fft_count = outcome.fft_count;
-  state.ladder_count = outcome.ladder_count;
+  state.multilevel_count = outcome.multilevel_count;
   // Numbers beyond the range of double pass every comparison.
   const bool finite = std::isfinite(state.force) && std::isfinite(state.mean_gap) &&
                       std::isfinite(state.elastic_energy);

@@ -59,7 +59,7 @@ double ActiveSetCg<Real>::punch_step(double& curvature, PunchOutcome& outcome) {
 template <class Real>
 bool ActiveSetCg<Real>::hold(const std::vector<Index>& cells) {
   reset();
-  ladder_share_ = std::numeric_limits<double>::infinity();
+  multilevel_share_ = std::numeric_limits<double>::infinity();
   const auto tile_of = [&](Index cell) {
     return static_cast<std::size_t>(cell / grid_.ny * tiles_per_row_ +
                                     cell % grid_.ny / tile_width);
@@ -77,7 +77,7 @@ bool ActiveSetCg<Real>::hold(const std::vector<Index>& cells) {
     places_.push_back(static_cast<Index>((tiles - 1) * tile_width) + cell % grid_.ny % tile_width);
     m_[places_.back()] = Real(1);
   }
-  return on_ladder_;
+  return on_multilevel_;
 }
 
 template <class Real>
@@ -95,7 +95,7 @@ void ActiveSetCg<Real>::invert(const double* u, double step_ends, double* q,
 }
 
 // CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then
-// taken from 2Σq − q·Gq in double precision, whose error is quadratic in that of q. On the ladder
+// taken from 2Σq − q·Gq in double precision, whose error is quadratic in that of q. On the multilevel kernel
 // CG goes in rounds, each about an exact residual: what is left to gain falls by (eps/(1 − eps))²
 // or more from round to round.
 template <class Real>
@@ -103,7 +103,7 @@ PunchOutcome ActiveSetCg<Real>::punch_load(const double* p, double bound, const 
                                            Field* pressure) {
   PunchOutcome outcome;
   reset();
-  ladder_share_ = limits.ladder_share;
+  multilevel_share_ = limits.multilevel_share;
   hold_punch_set(p, bound);
   std::fill_n(g_, tile_points(), -1.0);
   begin_punch();
@@ -138,7 +138,7 @@ template <class Real>
 Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutcome& outcome) {
   double curvature = 1, gained = 0, round_gained = 0;
   double contraction = 1;  // of what is left to gain, from round to round
-  if (on_ladder_) contraction = std::pow(ladder_->error() / (1 - ladder_->error()), 2);
+  if (on_multilevel_) contraction = std::pow(multilevel_->error() / (1 - multilevel_->error()), 2);
   double last_round = 0;
   int small_gains = 0;
   while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
@@ -151,7 +151,7 @@ Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutc
     }
     gained += gain;
     round_gained += gain;
-    if (!on_ladder_) {
+    if (!on_multilevel_) {
       small_gains = gain < limits.relative_gain * gained ? small_gains + 1 : 0;
     } else if (gain < std::max(limits.round_ends * round_gained,
                                std::min(limits.round_ends, limits.relative_gain) * gained)) {
@@ -161,7 +161,7 @@ Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutc
       if (contraction * last_round < limits.relative_gain * gained) {
         small_gains = gains_in_a_row;
       } else {
-        if (contraction > 0.25) on_ladder_ = false;
+        if (contraction > 0.25) on_multilevel_ = false;
         renew_punch_residual();
         ++outcome.fft_count;
       }
@@ -223,7 +223,7 @@ void ActiveSetCg<Real>::measure_punch(PunchOutcome& outcome, Field* pressure) {
 // g = Gq − 1 on the tiles, by a transform, and r.
 template <class Real>
 void ActiveSetCg<Real>::renew_punch_residual() {
-  const bool on_ladder = std::exchange(on_ladder_, false);
+  const bool on_multilevel = std::exchange(on_multilevel_, false);
   struct Nothing {};
   displace<Nothing>(
       [&](Index begin, Index end, Real* row) {
@@ -243,7 +243,7 @@ void ActiveSetCg<Real>::renew_punch_residual() {
         }
         return Nothing{};
       });
-  on_ladder_ = on_ladder;
+  on_multilevel_ = on_multilevel;
   const auto a = arrays(std::numeric_limits<double>::infinity());
   for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, 0); });
 }
@@ -304,7 +304,7 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
   return {.normal_stiffness = outcome.load * contact_modulus * cell,
           .iterations = outcome.iterations,
           .fft_count = outcome.fft_count,
-          .ladder_count = outcome.ladder_count,
+          .multilevel_count = outcome.multilevel_count,
           .residual = outcome.residual,
           .termination = outcome.termination};
 }

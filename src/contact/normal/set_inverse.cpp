@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Approximate inverse of the normal compliance on a contact set, by the near-field ladder.
+// Approximate inverse of the normal compliance on a contact set, by the multilevel kernel.
 #include "set_inverse.hpp"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ bool SetInverse::hold(const std::vector<Index>& cells) {
   if (!parts_) return false;
   parts_->count = cells.size();
   if (parts_->solver.hold(cells)) return true;
-  parts_.reset();  // no other set of this grid has a ladder either
+  parts_.reset();  // no other set of this grid has a multilevel kernel either
   return false;
 }
 
@@ -64,6 +64,6 @@ void SetInverse::apply(const double* u, double* q) {
   for (std::size_t k = 0; k < count; ++k) q[k] *= scale;
 }
 
-int SetInverse::ladder_count() const { return parts_ ? parts_->outcome.ladder_count : 0; }
+int SetInverse::multilevel_count() const { return parts_ ? parts_->outcome.multilevel_count : 0; }
 
 }  // namespace salebra::detail

@@ -10,7 +10,7 @@
 namespace salebra::detail {
 
 // Approximate inverse of normal_compliance() on a set of cells, E* = 1, without a transform of the
-// grid: CG in float with the near-field ladder in its place, until the error in the norm of G is
+// grid: CG in float with the multilevel kernel in its place, until the error in the norm of G is
 // about a tenth. It is not the same linear map for every vector: an iteration that is
 // preconditioned with it needs β = −<z, Ad>/<d, Ad>.
 class SetInverse {
@@ -21,11 +21,11 @@ class SetInverse {
   ~SetInverse();
 
   // The set: ix·ny + iy of the rows of this process, in row order. False where the grid has no
-  // ladder: apply() must not be called then. Both are collective.
+  // multilevel: apply() must not be called then. Both are collective.
   bool hold(const std::vector<Index>& cells);
   // One value for each cell of the set; q may be u.
   void apply(const double* u, double* q);
-  int ladder_count() const;  // applications so far
+  int multilevel_count() const;  // applications so far
 
  private:
   struct Parts;

@@ -121,7 +121,7 @@ StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
   const auto add = [&](const StickReport& report) {
     stiffness.iterations += report.iterations;
     stiffness.fft_count += report.fft_count;
-    stiffness.ladder_count += report.ladder_count;
+    stiffness.multilevel_count += report.multilevel_count;
     stiffness.residual = std::max(stiffness.residual, report.residual);
     stiffness.termination = std::max(stiffness.termination, report.termination);
   };

@@ -8,7 +8,7 @@
 
 #include "base/memory.hpp"
 #include "conjugate_gradients.hpp"
-#include "contact/half_space/ladder_kernels.hpp"
+#include "contact/half_space/multilevel_passes.hpp"
 #include "contact/normal/contact_memory.hpp"
 
 namespace salebra::detail {
@@ -145,7 +145,7 @@ void StencilPreconditioner::apply(const double* in, double* out) {
   parallel::for_slabs(
       count,
       [&](Index begin, Index end) {
-        ladder_kernels().at_cells(field, field_.stride(), stencil_.weights(), held_.data(), begin,
+        multilevel_passes().at_cells(field, field_.stride(), stencil_.weights(), held_.data(), begin,
                                   end, out);
       },
       InverseStencil::width * InverseStencil::width * count);
@@ -233,9 +233,9 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
     return report.termination == Termination::interrupted;
   };
   if (!inverse_) inverse_.emplace(window_grid_, rows_, boundary_);
-  const bool on_ladder = inverse_->hold(points.windowed);
-  if (!on_ladder) preconditioner_.hold(points);
-  const int first_ladder = inverse_->ladder_count();
+  const bool on_multilevel = inverse_->hold(points.windowed);
+  if (!on_multilevel) preconditioner_.hold(points);
+  const int first_multilevel = inverse_->multilevel_count();
   const CgOutcome outcome = conjugate_gradients(
       [&](const std::vector<double>& in, std::vector<double>& out) {
         response_.apply(points, in.data(), points, out.data());
@@ -243,7 +243,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
       [&](const std::vector<double>& in, std::vector<double>& out) {
         for (int c = 0; c < components; ++c) {
           const std::size_t offset = size_of(c * points.size());
-          if (on_ladder)
+          if (on_multilevel)
             inverse_->apply(in.data() + offset, out.data() + offset);
           else
             preconditioner_.apply(in.data() + offset, out.data() + offset);
@@ -256,7 +256,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
       tractions, misfit);
   report.iterations = outcome.iterations;
   report.fft_count = response_.fft_count() - first_fft;
-  report.ladder_count = inverse_->ladder_count() - first_ladder;
+  report.multilevel_count = inverse_->multilevel_count() - first_multilevel;
   return report;
 }
 

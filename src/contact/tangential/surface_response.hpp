@@ -133,7 +133,7 @@ class ContactSystem {
   /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
   /// Preconditioned by SetInverse for each component: Cerruti's response has Σ(1−ν_i)/(G_i q) and
   /// Σ1/(G_i q) as eigenvalues, so that the condition number is their ratio, 1/(1 − ν), but for
-  /// what the error of SetInverse adds. Where there is no ladder, by the stencil. On return
+  /// what the error of SetInverse adds. Where there is no multilevel, by the stencil. On return
   /// residual is in m, and `misfit` (components × points) holds u − Kτ.
   struct Limits {
     double tolerance;

@@ -36,7 +36,7 @@ TEST_CASE("Checkpoints change no bit of a contact, and a later one starts from t
   Index side = 128;
   double pressure = 5e-3;
   SECTION("by transforms") {}
-  SECTION("on the ladder") {
+  SECTION("on the multilevel kernel") {
     side = 512;
     pressure = 5e-4;
   }

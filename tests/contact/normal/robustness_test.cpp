@@ -274,7 +274,7 @@ TEST_CASE("What contacts of equal grids share changes none of them", "[normal]")
          {&states[0], &states[1], &states[2], &states[3], &last}) {
       CHECK((state->contact_pressure == alone.contact_pressure).all());
       CHECK((state->gap == alone.gap).all());
-      CHECK(state->ladder_count == alone.ladder_count);
+      CHECK(state->multilevel_count == alone.multilevel_count);
     }
   }
   const auto of = [](Index side, double modulus) {

@@ -46,7 +46,7 @@ void require_same(const NormalContactState& alone, const NormalContactState& tog
                   const Share& rows) {
   if (!together.converged()) throw Error("not converged");
   if (alone.iterations != together.iterations || alone.fft_count != together.fft_count ||
-      alone.ladder_count != together.ladder_count)
+      alone.multilevel_count != together.multilevel_count)
     throw Error("another number of iterations");
   if (!same_bits(alone.mean_pressure, together.mean_pressure) ||
       !same_bits(alone.mean_gap, together.mean_gap) ||
@@ -96,7 +96,7 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
     const Surface surface = test::rough_surface({192, 192, 192, 192});
     compare(surface, to_pressure(GENERATE(5e-4, 5e-3, 5e-2)), options, ranks);
   }
-  SECTION("on the ladder") {
+  SECTION("on the multilevel kernel") {
     const Surface surface = test::rough_surface({512, 512, 512, 512});
     compare(surface, to_pressure(5e-4), options, ranks);
   }
@@ -168,7 +168,7 @@ TEST_CASE("A contact over processes has the bits of one process for two threads 
   parallel::set_threads(0);
 }
 
-TEST_CASE("The ladder over processes has the bits of one process", "[spread]") {
+TEST_CASE("The multilevel kernel over processes has the bits of one process", "[spread]") {
   using namespace salebra::detail;
   const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
   const int ranks = GENERATE(2, 3, 5, 8);
@@ -182,19 +182,19 @@ TEST_CASE("The ladder over processes has the bits of one process", "[spread]") {
     ActiveSetCg<float> solver(surface.grid, mine.share(), 1, boundary,
                               {mine.heights.data(), highest}, 1);
     ActiveSetLimits limits;
-    limits.ladder_share = infinite;
+    limits.multilevel_share = infinite;
     return solver.solve({ContactTarget::Kind::mean_pressure, 1e-3, infinite}, limits, p.data(),
                         g.data());
   };
   Field p, g;
   const ActiveSetOutcome alone = solve(surface, p, g);
   REQUIRE(alone.converged());
-  REQUIRE(alone.ladder_count > 10);
+  REQUIRE(alone.multilevel_count > 10);
   run_ranks(ranks, [&](const Communicator& all) {
     const Surface mine = spread(surface, all);
     Field my_p, my_g;
     const ActiveSetOutcome together = solve(mine, my_p, my_g);
-    if (alone.ladder_count != together.ladder_count || alone.fft_count != together.fft_count)
+    if (alone.multilevel_count != together.multilevel_count || alone.fft_count != together.fft_count)
       throw Error("another number of iterations");
     if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
       throw Error("other bits of a field");
@@ -235,7 +235,7 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
           "[spread]") {
   const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
   const int ranks = GENERATE(2, 3, 8);
-  // The smaller grid has no ladder: its stick solves are preconditioned by the stencil.
+  // The smaller grid has no multilevel: its stick solves are preconditioned by the stencil.
   const Index n = GENERATE(96, 256);
   const Surface surface = test::rough_surface({n, n, double(n), double(n)});
   const Material material = Material::of_contact_modulus(1, 0.3);

@@ -69,7 +69,7 @@ struct NormalContactState {
   double residual = 0;               ///< e_c reached
   int iterations = 0;                ///< on the finest level
   int fft_count = 0;     ///< forward-and-backward pairs of the finest level, both precisions
-  int ladder_count = 0;  ///< applications of the multilevel kernel there, each replacing a pair
+  int multilevel_count = 0;  ///< applications of the multilevel kernel there, each replacing a pair
   Termination termination = Termination::iteration_limit;
   Communicator ranks = {};  ///< processes that share the fields, as for the surface
 
@@ -93,8 +93,8 @@ constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
   visit(&S::iterations, Quantity{"iterations", dimensionless, "iterations of the solver"});
   visit(&S::fft_count,
         Quantity{"fft_count", dimensionless, "Fourier transforms of the solver, in pairs"});
-  visit(&S::ladder_count,
-        Quantity{"ladder_count", dimensionless, "applications of the near-field ladder"});
+  visit(&S::multilevel_count,
+        Quantity{"multilevel_count", dimensionless, "applications of the multilevel kernel"});
   visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
   visit(&S::ranks, Kept{});

@@ -24,7 +24,7 @@ struct PunchStiffness {
   double normal_stiffness = 0;  ///< N/m
   int iterations = 0;
   int fft_count = 0;
-  int ladder_count = 0;  ///< applications of the multilevel kernel, each replacing a pair
+  int multilevel_count = 0;  ///< applications of the multilevel kernel, each replacing a pair
   double residual =
       0;  ///< relative rms error of the displacement over the set; the error of K is of the order
           ///< of its square
@@ -40,7 +40,7 @@ constexpr void describe(auto&& visit, std::type_identity<PunchStiffness>) {
         Kept{"normal_stiffness", "normal stiffness dF/d(indentation)", Dimension::stiffness});
   visit(&S::iterations, Kept{"iterations", "iterations of the solver"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of the solver, in pairs"});
-  visit(&S::ladder_count, Kept{"ladder_count", "applications of the near-field ladder"});
+  visit(&S::multilevel_count, Kept{"multilevel_count", "applications of the multilevel kernel"});
   visit(&S::residual, Kept{"residual", "rms error of the displacement over the set, relative"});
   visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});

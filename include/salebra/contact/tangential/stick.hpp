@@ -27,7 +27,7 @@ struct StickOptions {
 struct StickReport {
   int iterations = 0;
   int fft_count = 0;     ///< forward-and-backward pairs of scalar fields
-  int ladder_count = 0;  ///< applications of the near-field ladder, in the preconditioner
+  int multilevel_count = 0;  ///< applications of the multilevel kernel, in the preconditioner
   double residual =
       0;  ///< rms of the displacement error over the contact set, in units of the scale
   Termination termination = Termination::iteration_limit;
@@ -41,7 +41,7 @@ struct StickReport {
 ///     û_x = Σ_i [1/(G_i q)] [(1 − ν_i q_x²/q²) τ̂_x − (ν_i q_x q_y/q²) τ̂_y],  û_y by exchange, û(0) = 0      (periodic)
 ///     u_x = Σ_i 1/(2πG_i) ∬{[(1−ν_i)/r + ν_i x²/r³] τ_x + ν_i xy/r³ τ_y},  summed over the cells' corners    (free)
 /// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field
-/// ladder (src/contact/README.md, "The ladder"). Grids without a ladder have a 7 × 7 stencil of |q|.
+/// multilevel (src/contact/README.md, "The multilevel kernel"). Grids without a multilevel kernel have a 7 × 7 stencil of |q|.
 /// Displacements of a periodic half-space count from its mean plane. The coupling to the normal
 /// direction (∝ 1 − 2ν) is neglected. Kernels and transforms are kept between calls: sets that fit
 /// into the window of an earlier one cost no set-up. One object may be used by one thread at a
@@ -84,7 +84,7 @@ struct StickStiffness {
   double xy = 0;
   int iterations = 0;    ///< of both solves
   int fft_count = 0;     ///< pairs of both solves
-  int ladder_count = 0;  ///< of both solves
+  int multilevel_count = 0;  ///< of both solves
   double residual = 0;   ///< the larger of both
   Termination termination = Termination::iteration_limit;
 
@@ -98,7 +98,7 @@ constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
   visit(&S::xy, Kept{"xy", "force along x over displacement along y", Dimension::stiffness});
   visit(&S::iterations, Kept{"iterations", "iterations of both solves"});
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms of both solves, in pairs"});
-  visit(&S::ladder_count, Kept{"ladder_count", "applications of the near-field ladder"});
+  visit(&S::multilevel_count, Kept{"multilevel_count", "applications of the multilevel kernel"});
   visit(&S::residual, Kept{"residual", "rms error of the displacement over the set, relative"});
   visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});

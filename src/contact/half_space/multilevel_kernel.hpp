@@ -10,8 +10,8 @@
 #include "base/convolution.hpp"
 #include "halo_field.hpp"
 #include "half_space.hpp"
-#include "ladder_design.hpp"
-#include "ladder_kernels.hpp"
+#include "multilevel_design.hpp"
+#include "multilevel_passes.hpp"
 #include "normal_symbol.hpp"
 
 namespace salebra::detail {
@@ -29,13 +29,13 @@ namespace salebra::detail {
 //
 // Over several processes a row of a level belongs to the process of the row of the finer level that
 // it lies on. An application sends the halo of each level, and the rows of the coarsest.
-class NearFieldLadder {
+class MultilevelKernel {
  public:
-  // What the ladders of equal grids have in common.
+  // What the multilevel kernels of equal grids have in common.
   struct Plan {
     Boundary boundary = Boundary::periodic;
     Index nx = 0, ny = 0;                 // of the grid
-    std::vector<LadderStencil> stencils;  // T1, T2, … in m/Pa
+    std::vector<MultilevelStencil> stencils;  // T1, T2, … in m/Pa
     double error = 0;
     QuarterSymbol left;  // C
 
@@ -46,13 +46,13 @@ class NearFieldLadder {
                                     const NormalSymbol& symbol, double contact_modulus,
                                     Boundary boundary);
   };
-  NearFieldLadder(const Plan& plan, const Share& rows);
-  static std::optional<NearFieldLadder> make(const Grid2D& grid, const Share& rows,
+  MultilevelKernel(const Plan& plan, const Share& rows);
+  static std::optional<MultilevelKernel> make(const Grid2D& grid, const Share& rows,
                                              const NormalSymbol& symbol, double contact_modulus,
                                              Boundary boundary) {
     const auto plan = Plan::make(grid, rows, symbol, contact_modulus, boundary);
     if (!plan) return std::nullopt;
-    return NearFieldLadder(*plan, rows);
+    return MultilevelKernel(*plan, rows);
   }
 
   int depth() const { return static_cast<int>(levels_.size()); }

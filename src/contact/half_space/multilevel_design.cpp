@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stencils of the near-field ladder, fitted to a symbol, and the symbol that they leave for the
+// Stencils of the multilevel kernel, fitted to a symbol, and the symbol that they leave for the
 // coarser grid.
-#include "ladder_design.hpp"
+#include "multilevel_design.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -57,7 +57,7 @@ struct AxisWaves {
 };
 
 // T(θ) along a row of frequencies: factors of cos(jθ_y).
-std::array<double, halo + 1> row_of(const LadderStencil& stencil, const double* cosine) {
+std::array<double, halo + 1> row_of(const MultilevelStencil& stencil, const double* cosine) {
   std::array<double, halo + 1> factors{};
   const int width = stencil.radius + 1;
   for (int j = 0; j < width; ++j)
@@ -84,7 +84,7 @@ Sample sample(const FoldedSymbol& symbol, Index i, Index j) {
 
 // The columns of this process; those of the others are zero.
 template <class Fine>
-QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil, const Share& columns) {
+QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil, const Share& columns) {
   QuarterSymbol coarse{fine.period_x / 2, fine.period_y / 2, {}, {}};
   const AxisWaves x(fine.period_x, stencil.radius), y(fine.period_y, stencil.radius);
   const Index rows = coarse.period_x / 2 + 1;
@@ -122,7 +122,7 @@ QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil, const Sh
 }
 
 template <class Fine>
-QuarterSymbol coarsened(const Fine& fine, const LadderStencil& stencil) {
+QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil) {
   return coarsened(fine, stencil, Share(fine.period_y / 4 + 1));
 }
 
@@ -180,7 +180,7 @@ double largest_error(const std::vector<Aliases>& classes, const Eigen::VectorXd&
   return largest;
 }
 
-LadderRung fitted_rung(const QuarterSymbol& fine, int radius) {
+MultilevelRung fitted_rung(const QuarterSymbol& fine, int radius) {
   const Index half = std::min(fine.period_x, fine.period_y) / 4;
   const auto every = [&](Index frequencies) { return std::max<Index>(1, half / frequencies); };
   const auto classes = aliases_of(fine, radius, every(fitted_frequencies));
@@ -213,14 +213,14 @@ LadderRung fitted_rung(const QuarterSymbol& fine, int radius) {
     }
     for (double& value : emphasis) value /= mean;
   }
-  LadderRung rung{{radius, {best.data(), best.data() + best.size()}}, 0};
-  rung.error = largest_error(aliases_of(fine, radius, every(measured_frequencies)), best);
-  return rung;
+  MultilevelRung level{{radius, {best.data(), best.data() + best.size()}}, 0};
+  level.error = largest_error(aliases_of(fine, radius, every(measured_frequencies)), best);
+  return level;
 }
 
 // Rungs so far, and the symbol that they leave.
 struct Design {
-  std::vector<LadderRung> rungs;
+  std::vector<MultilevelRung> levels;
   QuarterSymbol left;
 };
 
@@ -243,26 +243,26 @@ Design begun(double dx_over_dy, Boundary boundary) {
 
 }  // namespace
 
-double LadderStencil::weight(int i, int j) const {
+double MultilevelStencil::weight(int i, int j) const {
   return weights[static_cast<std::size_t>(std::abs(i) * (radius + 1) + std::abs(j))];
 }
 
-std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int depth) {
+std::vector<MultilevelRung> multilevel_design(double dx_over_dy, Boundary boundary, int depth) {
   static std::mutex mutex;
   static std::map<std::pair<double, Boundary>, Design> designs;
   const std::lock_guard lock(mutex);
   const auto [place, is_new] = designs.try_emplace({dx_over_dy, boundary});
   Design& design = place->second;
   if (is_new) design = begun(dx_over_dy, boundary);
-  while (static_cast<int>(design.rungs.size()) < depth) {
-    design.rungs.push_back(
-        fitted_rung(design.left, design.rungs.empty() ? widest_radius : usual_radius));
-    design.left = coarsened(design.left, design.rungs.back().stencil);
+  while (static_cast<int>(design.levels.size()) < depth) {
+    design.levels.push_back(
+        fitted_rung(design.left, design.levels.empty() ? widest_radius : usual_radius));
+    design.left = coarsened(design.left, design.levels.back().stencil);
   }
-  return {design.rungs.begin(), design.rungs.begin() + depth};
+  return {design.levels.begin(), design.levels.begin() + depth};
 }
 
-QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil,
+QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& stencil,
                             const Communicator& ranks) {
   const Share columns(ranks, fine.period_y / 4 + 1);
   std::vector<Index> begins;
@@ -296,7 +296,7 @@ QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stenc
   }
   return coarse;
 }
-QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil) {
+QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const MultilevelStencil& stencil) {
   return coarsened(fine, stencil);
 }
 

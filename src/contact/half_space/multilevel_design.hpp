@@ -10,30 +10,30 @@
 namespace salebra::detail {
 
 // A stencil even in both axes: Σ weight(i, j) x(a + i, b + j) over |i|, |j| <= radius.
-struct LadderStencil {
+struct MultilevelStencil {
   int radius = 0;
   std::vector<double> weights;  // (radius + 1)², of i, j >= 0
   double weight(int i, int j) const;
 };
 
-// One rung of a ladder G ≈ T + P C Pᵀ: T a stencil, P the interpolation of a cubic B-spline with
+// One level of a multilevel kernel G ≈ T + P C Pᵀ: T a stencil, P the interpolation of a cubic B-spline with
 // taps (1 4 6 4 1)/8 along each axis from a grid of half as many cells, C a convolution there,
-// which is the G of the next rung.
-struct LadderRung {
-  LadderStencil stencil;
-  // Bound of |G^−½ (T + P C Pᵀ − G) G^−½| over the frequencies looked at. The errors of rungs add
+// which is the G of the next level.
+struct MultilevelRung {
+  MultilevelStencil stencil;
+  // Bound of |G^−½ (T + P C Pᵀ − G) G^−½| over the frequencies looked at. The errors of levels add
   // up at most.
   double error = 0;
 };
 
-inline constexpr int most_rungs = 6;
+inline constexpr int max_levels = 6;
 
 // Stencils for cells of dx × dy with dx dy = 1 and E* = 1, the widest first. Each minimises the
 // largest error over the frequencies of a grid of 512² cells: linear least squares with the best C,
 // which is explicit, and weights raised where the error is large: Lawson's algorithm, Rice and Usow
-// (1968). depth <= most_rungs. Cost: some milliseconds a rung, once for each ratio of sides and
+// (1968). depth <= max_levels. Cost: some milliseconds a level, once for each ratio of sides and
 // boundary.
-std::vector<LadderRung> ladder_design(double dx_over_dy, Boundary boundary, int depth);
+std::vector<MultilevelRung> multilevel_design(double dx_over_dy, Boundary boundary, int depth);
 
 // A symbol, even along both axes, on a quarter of its period: (period_x/2 + 1, period_y/2 + 1).
 struct QuarterSymbol {
@@ -50,8 +50,8 @@ struct QuarterSymbol {
 // over the four frequencies θ_k that look the same on the coarser grid, W_k = |g_k|. C(0) = (g(0) −
 // T(0))/4, which takes a constant to where G takes it.
 // Each process makes its columns and gets those of all. Collective.
-QuarterSymbol coarse_symbol(const NormalSymbol& fine, const LadderStencil& stencil,
+QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& stencil,
                             const Communicator& ranks);
-QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const LadderStencil& stencil);
+QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const MultilevelStencil& stencil);
 
 }  // namespace salebra::detail

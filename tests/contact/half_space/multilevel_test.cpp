@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The near-field ladder: its stencils against the exact symbol, its kernels against plain loops,
+// The multilevel kernel: its stencils against the exact symbol, its kernels against plain loops,
 // the operator against transforms.
 #include <Eigen/Dense>
 #include <algorithm>
@@ -13,15 +13,15 @@
 #include <vector>
 
 #include "base/vector_width.hpp"
-#include "contact/half_space/near_field_ladder.hpp"
-#include "ladder_reference.hpp"
+#include "contact/half_space/multilevel_kernel.hpp"
+#include "multilevel_reference.hpp"
 
 namespace salebra::detail {
 namespace {
 
 using std::numbers::pi;
 
-double transform_of(const LadderStencil& stencil, double x, double y) {
+double transform_of(const MultilevelStencil& stencil, double x, double y) {
   double sum = 0;
   for (int i = -stencil.radius; i <= stencil.radius; ++i)
     for (int j = -stencil.radius; j <= stencil.radius; ++j)
@@ -31,10 +31,10 @@ double transform_of(const LadderStencil& stencil, double x, double y) {
 
 double spline(double x, double y) { return std::pow(std::cos(x / 2) * std::cos(y / 2), 4); }
 
-// G~ of the whole ladder on the frequencies that look the same on its coarsest grid, as a dense
+// G~ of the whole multilevel on the frequencies that look the same on its coarsest grid, as a dense
 // matrix with G taken out on both sides: G^−½ G~ G^−½ − 1, from the definition of G~ and not from
 // that of its stencils' fit. Frequencies are θ + 2π(a, b)/2^depth.
-Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, double dx,
+Eigen::MatrixXd relative_error(const std::vector<MultilevelRung>& levels, int depth, double dx,
                                double theta_x, double theta_y) {
   const int copies = 1 << depth;
   const auto symbol = [&](double x, double y) {
@@ -56,7 +56,7 @@ Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, 
         const double weight = std::pow(spline(u, v), 2) * metric;
         squares += weight;
         moved += weight * metric *
-                 (value - transform_of(rungs[static_cast<std::size_t>(level - 1)].stencil, u, v));
+                 (value - transform_of(levels[static_cast<std::size_t>(level - 1)].stencil, u, v));
       }
     return {moved / (4 * squares * squares), 4 * squares};
   };
@@ -80,7 +80,7 @@ Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, 
         // Pᵀ of e^{iθx} is 4v(θ) e^{2iθX}, summed over fine cells; P puts ¼ of it on each alias.
         if (same)
           stand_in(k, l) +=
-              path * transform_of(rungs[static_cast<std::size_t>(level)].stencil, kx, ky);
+              path * transform_of(levels[static_cast<std::size_t>(level)].stencil, kx, ky);
         path *= 4 * spline(kx, ky) * spline(lx, ly);
         kx *= 2, ky *= 2, lx *= 2, ly *= 2;
       }
@@ -95,22 +95,22 @@ Eigen::MatrixXd relative_error(const std::vector<LadderRung>& rungs, int depth, 
   return stand_in - Eigen::MatrixXd::Identity(size, size);
 }
 
-double spectral_error(const std::vector<LadderRung>& rungs, int depth, double dx, int samples) {
+double spectral_error(const std::vector<MultilevelRung>& levels, int depth, double dx, int samples) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(0.02, 0.98);
   double largest = 0;
   for (int k = 0; k < samples; ++k) {
     const double x = 2 * pi * any(random) / (1 << depth), y = 2 * pi * any(random) / (1 << depth);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-        relative_error(rungs, depth, dx, x, y));
+        relative_error(levels, depth, dx, x, y));
     largest = std::max({largest, -modes.eigenvalues().minCoeff(), modes.eigenvalues().maxCoeff()});
   }
   return largest;
 }
 
-double sum_of_errors(const std::vector<LadderRung>& rungs, int depth) {
+double sum_of_errors(const std::vector<MultilevelRung>& levels, int depth) {
   double sum = 0;
-  for (int k = 0; k < depth; ++k) sum += rungs[static_cast<std::size_t>(k)].error;
+  for (int k = 0; k < depth; ++k) sum += levels[static_cast<std::size_t>(k)].error;
   return sum;
 }
 
@@ -148,15 +148,15 @@ struct TiledField {
   }
 
   // G~ of it on its tiles, zero elsewhere.
-  Field image(NearFieldLadder& ladder) {
-    ladder.list_tiles(in_use);
-    ladder.descend(source);
+  Field image(MultilevelKernel& multilevel) {
+    multilevel.list_tiles(in_use);
+    multilevel.descend(source);
     Field values = Field::Zero(grid.nx, grid.ny);
     std::vector<float> row(static_cast<std::size_t>(grid.ny));
     for (Index i = 0; i < grid.nx; ++i) {
       const Index begin = row_begins[static_cast<std::size_t>(i)],
                   end = row_begins[static_cast<std::size_t>(i + 1)];
-      ladder.collect(tiles.data(), begin, end, row.data());
+      multilevel.collect(tiles.data(), begin, end, row.data());
       for (Index k = begin; k < end; ++k) {
         const Index first = tiles[static_cast<std::size_t>(k)].column;
         for (Index j = first; j < std::min<Index>(first + tile_width, grid.ny); ++j)
@@ -174,8 +174,8 @@ Field exact_image(const Field& field, const Grid2D& grid, Boundary boundary) {
   return image;
 }
 
-std::optional<NearFieldLadder> ladder_for(const Grid2D& grid, Boundary boundary) {
-  return NearFieldLadder::make(grid, Share(grid.nx),
+std::optional<MultilevelKernel> multilevel_for(const Grid2D& grid, Boundary boundary) {
+  return MultilevelKernel::make(grid, Share(grid.nx),
                                normal_symbol(grid, 1, boundary, Share(grid.nx)), 1, boundary);
 }
 
@@ -185,10 +185,10 @@ Grid2D cells(Index nx, Index ny, double dx = 1, double dy = 1) {
 
 }  // namespace
 
-TEST_CASE("The ladder's stencils keep within their spectral error at any frequency") {
+TEST_CASE("The multilevel kernel's stencils keep within their spectral error at any frequency") {
   // The design looks at a grid of frequencies and at a bound of the error; the random frequencies
   // here lie between, where the error is no larger by more than a few per cent of itself.
-  const auto square = ladder_design(1, Boundary::periodic, 4);
+  const auto square = multilevel_design(1, Boundary::periodic, 4);
   for (const int depth : {1, 2, 3}) {
     const double error = spectral_error(square, depth, 1, 60);
     CHECK(error < 1.03 * sum_of_errors(square, depth));
@@ -196,28 +196,28 @@ TEST_CASE("The ladder's stencils keep within their spectral error at any frequen
     CHECK(error > 0.3 * sum_of_errors(square, depth));
   }
   const double ratio = 1.5;
-  const auto longer = ladder_design(ratio, Boundary::periodic, 2);
+  const auto longer = multilevel_design(ratio, Boundary::periodic, 2);
   CHECK(spectral_error(longer, 2, std::sqrt(ratio), 60) < 1.03 * sum_of_errors(longer, 2));
 }
 
-TEST_CASE("The ladder's stencils are as good as the best known of their size") {
+TEST_CASE("The multilevel kernel's stencils are as good as the best known of their size") {
   // 7 × 7 and then 5 × 5 with the cubic B-spline, fitted to the largest eigenvalue by another
   // program: 0.026, 0.008, 0.005, 0.004. Here the Frobenius norm is made small in its place, which
   // costs up to two fifths.
-  const auto rungs = ladder_design(1, Boundary::periodic, 4);
+  const auto levels = multilevel_design(1, Boundary::periodic, 4);
   const std::array best = {0.026, 0.008, 0.005, 0.004};
-  for (std::size_t k = 0; k < best.size(); ++k) CHECK(rungs[k].error < 1.4 * best[k]);
+  for (std::size_t k = 0; k < best.size(); ++k) CHECK(levels[k].error < 1.4 * best[k]);
 }
 
 TEST_CASE("A stencil of the wrong scale has an error that gives it away") {
-  auto rungs = ladder_design(1, Boundary::periodic, 4);
-  const double right = spectral_error(rungs, 2, 1, 30);
-  for (double& weight : rungs[1].stencil.weights) weight *= 4;
+  auto levels = multilevel_design(1, Boundary::periodic, 4);
+  const double right = spectral_error(levels, 2, 1, 30);
+  for (double& weight : levels[1].stencil.weights) weight *= 4;
   // The solver would still converge with it, only more slowly.
-  CHECK(spectral_error(rungs, 2, 1, 30) > 3 * right);
+  CHECK(spectral_error(levels, 2, 1, 30) > 3 * right);
 }
 
-TEST_CASE("The ladder's kernels of every vector width do what the plain ones do") {
+TEST_CASE("The multilevel kernel's kernels of every vector width do what the plain ones do") {
   // Numbers and weights of few bits: every sum is exact in float, whatever its order.
   std::mt19937 random(7);
   const auto few_bits = [&] {
@@ -234,7 +234,7 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
   };
   std::array<float, 25> small{};
   std::array<float, 49> wide{};
-  // Symmetric about both axes, as the ladder's are: the widest kernels add opposite neighbours
+  // Symmetric about both axes, as the multilevel kernel's are: the widest kernels add opposite neighbours
   // before they are weighted.
   const auto fill_stencil = [&](auto& stencil, int radius) {
     for (int i = 0; i <= radius; ++i)
@@ -255,12 +255,12 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
         if (random() % 3 != 0) tiles.push_back({i, j});
     return tiles;
   };
-  std::vector<std::pair<const char*, LadderKernels>> tables{{"baseline", baseline::ladder_table()}};
+  std::vector<std::pair<const char*, MultilevelKernels>> tables{{"baseline", baseline::multilevel_table()}};
 #ifdef SALEBRA_X86_KERNELS
-  if (vector_width() != VectorWidth::baseline) tables.push_back({"avx2", avx2::ladder_table()});
-  if (vector_width() == VectorWidth::avx512) tables.push_back({"avx512", avx512::ladder_table()});
+  if (vector_width() != VectorWidth::baseline) tables.push_back({"avx2", avx2::multilevel_table()});
+  if (vector_width() == VectorWidth::avx512) tables.push_back({"avx512", avx512::multilevel_table()});
 #endif
-  const LadderKernels plain = reference::ladder_table();
+  const MultilevelKernels plain = reference::multilevel_table();
   const auto same = [](const HaloField<float>& a, const HaloField<float>& b) {
     for (Index i = -halo - 1; i <= a.nx() + halo; ++i)
       if (!std::equal(a.row(i) - side_halo, a.row(i) - side_halo + a.stride(),
@@ -309,7 +309,7 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
   for (Index i = -halo; i < nx + halo; ++i)
     for (Index j = -halo; j < ny + halo; ++j) field.row(i)[j] = few_bits();
   const std::vector<double> weights(wide.begin(), wide.end());
-  const auto sums = [&](const LadderKernels& kernels, Index parts) {
+  const auto sums = [&](const MultilevelKernels& kernels, Index parts) {
     std::vector<double> found(listed.size());
     const Index count = static_cast<Index>(listed.size());
     for (Index k = 0; k < parts; ++k)
@@ -331,7 +331,7 @@ TEST_CASE("The ladder's kernels of every vector width do what the plain ones do"
   }
 }
 
-TEST_CASE("On any tiles the ladder is the compliance up to its spectral error") {
+TEST_CASE("On any tiles the multilevel kernel is the compliance up to its spectral error") {
   struct Case {
     Grid2D grid;
     Boundary boundary;
@@ -346,22 +346,22 @@ TEST_CASE("On any tiles the ladder is the compliance up to its spectral error") 
         Case{cells(161, 255, 1.5, 1), Boundary::free}, Case{cells(256, 256), Boundary::free}})
     for (const double part : {0.02, 0.3, 1.0}) {
       CAPTURE(grid.nx, grid.ny, grid.dx(), boundary == Boundary::free, part);
-      auto ladder = ladder_for(grid, boundary);
-      REQUIRE(ladder);
+      auto multilevel = multilevel_for(grid, boundary);
+      REQUIRE(multilevel);
       TiledField x(grid, part, 3);
-      const Field field = x.field(), stand_in = x.image(*ladder);
+      const Field field = x.field(), stand_in = x.image(*multilevel);
       Field exact = exact_image(field, grid, boundary);
       const double quadratic = (field * exact).sum(), found = (field * stand_in).sum();
       // Random numbers spread over all frequencies: they see some mean of the error, not the
       // largest.
-      CHECK(std::abs(found - quadratic) < ladder->error() * quadratic);
+      CHECK(std::abs(found - quadratic) < multilevel->error() * quadratic);
 
       // Between two fields on the same tiles it is symmetric, up to the rounding of float.
       TiledField y(grid, part, 3);
       for (Index i = 0; i < grid.nx; ++i)
         for (Index j = 0; j < grid.ny; ++j)
           y.source.row(i)[j] *= static_cast<float>(1 + std::sin(0.1 * static_cast<double>(i * j)));
-      const Field other = y.field(), other_image = y.image(*ladder);
+      const Field other = y.field(), other_image = y.image(*multilevel);
       const double scale = std::sqrt(field.square().sum() * other_image.square().sum());
       CHECK(std::abs((field * other_image).sum() - (other * stand_in).sum()) < 1e-5 * scale);
     }
@@ -369,17 +369,17 @@ TEST_CASE("On any tiles the ladder is the compliance up to its spectral error") 
 
 TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
   // The mirror images of these waves are no aliases of them on the coarse grids, and x·G~x is one
-  // number, which follows from the rungs without grids or tiles. All stencils, both splines and C
+  // number, which follows from the levels without grids or tiles. All stencils, both splines and C
   // take part. Float rounds to some 1e-7. A centre of T2 that is off by 1 % changes the number by
   // up to 1e-3.
   for (const int depth : {2, 3}) {
     const Index n = 128 << depth;
     const Grid2D grid = cells(n, n);
-    auto ladder = ladder_for(grid, Boundary::periodic);
-    REQUIRE(ladder);
-    REQUIRE(ladder->depth() == depth);
-    const auto rungs = ladder_design(1, Boundary::periodic, depth);
-    CHECK(ladder->error() == Approx(sum_of_errors(rungs, depth)));
+    auto multilevel = multilevel_for(grid, Boundary::periodic);
+    REQUIRE(multilevel);
+    REQUIRE(multilevel->depth() == depth);
+    const auto levels = multilevel_design(1, Boundary::periodic, depth);
+    CHECK(multilevel->error() == Approx(sum_of_errors(levels, depth)));
     for (const auto& [k, l] :
          {std::array{1, 3}, std::array{7, 25}, std::array{41, 5}, std::array{63, 61},
           std::array{101, 93}, std::array{155, 181}, std::array{253, 251}}) {
@@ -391,20 +391,20 @@ TEST_CASE("Wave by wave the operator is what its stencils and splines say") {
           x.source.row(i)[j] = static_cast<float>(std::cos(theta_x * static_cast<double>(i)) *
                                                   std::cos(theta_y * static_cast<double>(j)));
       const Field field = x.field();
-      const double found = (field * x.image(*ladder)).sum() / field.square().sum();
+      const double found = (field * x.image(*multilevel)).sum() / field.square().sum();
       const double exact = 2 / std::hypot(theta_x, theta_y);
-      const double relative = relative_error(rungs, depth, 1, theta_x, theta_y)(0, 0);
+      const double relative = relative_error(levels, depth, 1, theta_x, theta_y)(0, 0);
       CHECK(found == Approx((1 + relative) * exact).epsilon(1e-6));
     }
   }
 }
 
-TEST_CASE("A ladder with new tiles forgets what was on the old ones") {
+TEST_CASE("A multilevel with new tiles forgets what was on the old ones") {
   // This is as in a solve, where a refresh drops tiles: what is left on a coarser level would act
   // on all cells through the last transform.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
-    auto used = ladder_for(grid, boundary), fresh = ladder_for(grid, boundary);
+    auto used = multilevel_for(grid, boundary), fresh = multilevel_for(grid, boundary);
     REQUIRE((used && fresh));
     TiledField before(grid, 0.05, 1), after(grid, 0.01, 2), same(grid, 0.01, 2);
     before.image(*used);
@@ -417,8 +417,8 @@ TEST_CASE("Smooth loads sink in as the half-space does") {
   // error, which belongs to the shortest.
   for (const auto boundary : {Boundary::periodic, Boundary::free}) {
     const Grid2D grid = cells(512, 512);
-    auto ladder = ladder_for(grid, boundary);
-    REQUIRE(ladder);
+    auto multilevel = multilevel_for(grid, boundary);
+    REQUIRE(multilevel);
     TiledField x(grid, 1, 1);
     for (Index i = 0; i < grid.nx; ++i)
       for (Index j = 0; j < grid.ny; ++j) {
@@ -428,7 +428,7 @@ TEST_CASE("Smooth loads sink in as the half-space does") {
                                                 std::cos(41 * a) * std::cos(13 * b) +
                                                 (boundary == Boundary::free ? 1 : 0));
       }
-    const Field field = x.field(), stand_in = x.image(*ladder);
+    const Field field = x.field(), stand_in = x.image(*multilevel);
     const Field exact = exact_image(field, grid, boundary);
     CHECK((stand_in - exact).abs().maxCoeff() < 0.03 * exact.abs().maxCoeff());
   }
@@ -436,38 +436,38 @@ TEST_CASE("Smooth loads sink in as the half-space does") {
 
 TEST_CASE("A constant pressure has no displacement where the mean is the reference") {
   const Grid2D grid = cells(512, 256);
-  auto ladder = ladder_for(grid, Boundary::periodic);
-  REQUIRE(ladder);
+  auto multilevel = multilevel_for(grid, Boundary::periodic);
+  REQUIRE(multilevel);
   TiledField x(grid, 1, 1);
   for (Index i = 0; i < grid.nx; ++i) std::fill_n(x.source.row(i), grid.ny, 1.0f);
   // The scale is the displacement of one cell under the same pressure, 1.12: rounding of float in
   // sums of some hundred numbers.
-  CHECK(x.image(*ladder).abs().maxCoeff() < 2e-4);
+  CHECK(x.image(*multilevel).abs().maxCoeff() < 2e-4);
 }
 
-TEST_CASE("The ladder has the same bits for every number of threads") {
+TEST_CASE("The multilevel kernel has the same bits for every number of threads") {
   const int before = parallel::threads();
   const Grid2D grid = cells(300, 500);
   Field first;
   for (const int threads : {1, 2, 3, 7}) {
     parallel::set_threads(threads);
-    auto ladder = ladder_for(grid, Boundary::periodic);
-    REQUIRE(ladder);
+    auto multilevel = multilevel_for(grid, Boundary::periodic);
+    REQUIRE(multilevel);
     TiledField x(grid, 0.2, 5);
-    const Field image = x.image(*ladder);
+    const Field image = x.image(*multilevel);
     if (first.size() == 0) first = image;
     CHECK((image == first).all());
   }
   parallel::set_threads(before);
 }
 
-TEST_CASE("Where its stencils would be poor or its grids do not halve, there is no ladder") {
-  CHECK(ladder_for(cells(512, 512, 1, 2), Boundary::periodic));
-  CHECK_FALSE(ladder_for(cells(512, 512, 1, 6), Boundary::periodic));
-  CHECK_FALSE(ladder_for(cells(512, 512, 50, 1), Boundary::periodic));
-  CHECK_FALSE(ladder_for(cells(64, 64), Boundary::periodic));
-  CHECK_FALSE(ladder_for(cells(501, 512), Boundary::periodic));
-  CHECK(ladder_for(cells(501, 512), Boundary::free));
+TEST_CASE("Where its stencils would be poor or its grids do not halve, there is no multilevel") {
+  CHECK(multilevel_for(cells(512, 512, 1, 2), Boundary::periodic));
+  CHECK_FALSE(multilevel_for(cells(512, 512, 1, 6), Boundary::periodic));
+  CHECK_FALSE(multilevel_for(cells(512, 512, 50, 1), Boundary::periodic));
+  CHECK_FALSE(multilevel_for(cells(64, 64), Boundary::periodic));
+  CHECK_FALSE(multilevel_for(cells(501, 512), Boundary::periodic));
+  CHECK(multilevel_for(cells(501, 512), Boundary::free));
 }
 
 }  // namespace salebra::detail

@@ -7,8 +7,8 @@
 
 namespace salebra::detail {
 
-// The pointwise passes of the near-field ladder, over tiles [begin, end) of a list, and the stencil
-// that stands in for an inverse. The tests' ladder_reference.hpp says in plain loops what each
+// The pointwise passes of the multilevel kernel, over tiles [begin, end) of a list, and the stencil
+// that stands in for an inverse. The tests' multilevel_reference.hpp says in plain loops what each
 // does. One source is compiled for each vector width; no header with inline functions may be
 // included there.
 
@@ -32,7 +32,7 @@ struct Ascent {
   Shift shift;
 };
 
-struct LadderKernels {
+struct MultilevelKernels {
   // coarse = Pᵀ fine: (1 4 6 4 1)/8 along each axis
   void (*restriction)(const Tile* tiles, std::ptrdiff_t begin, std::ptrdiff_t end,
                       const HaloView& fine, const Shift& shift, const HaloView& coarse);
@@ -50,17 +50,17 @@ struct LadderKernels {
 };
 
 // The table for the widest vectors that this processor has.
-const LadderKernels& ladder_kernels();
+const MultilevelKernels& multilevel_passes();
 
 // The table of each width; the last two exist in builds for x86-64.
 namespace baseline {
-LadderKernels ladder_table();
+MultilevelKernels multilevel_table();
 }
 namespace avx2 {
-LadderKernels ladder_table();
+MultilevelKernels multilevel_table();
 }
 namespace avx512 {
-LadderKernels ladder_table();
+MultilevelKernels multilevel_table();
 }
 
 }  // namespace salebra::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contacts and punches that iterate on the near-field ladder, against those that iterate with
+// Contacts and punches that iterate on the multilevel kernel, against those that iterate with
 // transforms.
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -24,7 +24,7 @@ struct Solved {
 
 // On one grid of unit cells with E* = 1, from a start that the next coarser grid gives.
 Solved solve(const Surface& surface, Boundary boundary, const ContactTarget& target,
-             double tolerance, LadderShare share) {
+             double tolerance, MultilevelShare share) {
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const auto levels = multigrid_levels(surface.grid, surface.share(), heights, boundary, 2);
@@ -41,7 +41,7 @@ Solved solve(const Surface& surface, Boundary boundary, const ContactTarget& tar
               0.6 / cell_compliance(grid, 1), here.pressure.data());
     }
     ActiveSetLimits limits{k == 0 ? tolerance : 1e-3, 1000, k == 0};
-    limits.ladder_share = k == 0 ? share : 0;
+    limits.multilevel_share = k == 0 ? share : 0;
     ActiveSetCg<float> solver(grid, 1, boundary, levels[k].heights, rms);
     here.outcome = solver.solve(target, limits, here.pressure.data(), here.gap.data());
   }
@@ -71,7 +71,7 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
     ContactTarget target;
     int most_pairs;
   };
-  int contacts = 0, ladder_pairs = 0, applications = 0, transform_pairs = 0;
+  int contacts = 0, multilevel_pairs = 0, applications = 0, transform_pairs = 0;
   const Surface square = unit_cells(512, 512, 1);
   const double depth = square.heights.maxCoeff() - square.heights.mean();
   for (const auto& [surface, boundary, target, most_pairs] :
@@ -88,61 +88,61 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
         Case{unit_cells(256, 256, 7), Boundary::free, pressed(0.02, 0.03), 12}}) {
     CAPTURE(surface.grid.nx, surface.grid.ny, boundary == Boundary::free, target.value,
             target.bound);
-    const Solved ladder = solve(surface, boundary, target, 1e-8, 1.0);
+    const Solved multilevel = solve(surface, boundary, target, 1e-8, 1.0);
     const Solved exact = solve(surface, boundary, target, 1e-8, 0.0);
-    REQUIRE(ladder.outcome.converged());
+    REQUIRE(multilevel.outcome.converged());
     REQUIRE(exact.outcome.converged());
-    CHECK(ladder.outcome.ladder_count > 0);
-    CHECK(ladder.outcome.fft_count <= most_pairs);
-    CHECK(exact.outcome.ladder_count == 0);
+    CHECK(multilevel.outcome.multilevel_count > 0);
+    CHECK(multilevel.outcome.fft_count <= most_pairs);
+    CHECK(exact.outcome.multilevel_count == 0);
     CHECK(exact.outcome.fft_count > most_pairs);
     // e_c bounds the misfit of gaps where there is pressure; two solutions to 1e-8 differ in energy
     // by no more than some 1e-8, and in pressures by the root of that.
-    const double difference = std::sqrt((ladder.pressure - exact.pressure).square().sum() /
+    const double difference = std::sqrt((multilevel.pressure - exact.pressure).square().sum() /
                                         exact.pressure.square().sum());
     CHECK(difference < 1e-3);
-    CHECK(ladder.pressure.mean() == Approx(exact.pressure.mean()).epsilon(1e-6));
-    CHECK(std::abs(ladder.area() - exact.area()) < 1e-3 * exact.area() + 2.0 / 65536);
+    CHECK(multilevel.pressure.mean() == Approx(exact.pressure.mean()).epsilon(1e-6));
+    CHECK(std::abs(multilevel.area() - exact.area()) < 1e-3 * exact.area() + 2.0 / 65536);
     // Float serves until e_c is 2e-6; from there to 1e-8 a refresh in double gains a factor of 20
     // or more.
-    CHECK(ladder.outcome.exact_fft_count <= 3);
+    CHECK(multilevel.outcome.exact_fft_count <= 3);
     ++contacts;
-    ladder_pairs += ladder.outcome.fft_count;
-    applications += ladder.outcome.ladder_count;
+    multilevel_pairs += multilevel.outcome.fft_count;
+    applications += multilevel.outcome.multilevel_count;
     transform_pairs += exact.outcome.fft_count;
   }
   // A refresh gains a factor of 20 to 30, so four or five lead from the e_c of a usual start, 0.05,
   // to 1e-8; the first gap is one more. 5.6 pairs a contact are measured. One superfluous refresh
   // in each contact exceeds the limit.
-  CHECK(ladder_pairs <= 6 * contacts);
-  // A refresh comes as soon as the error of the ladder is what is left, so that no steps are lost:
+  CHECK(multilevel_pairs <= 6 * contacts);
+  // A refresh comes as soon as the error of the multilevel kernel is what is left, so that no steps are lost:
   // 0.94 applications for each pair of the transforms are measured, and 1.22 where refreshes wait
   // for an estimate of 1e-4 of the last e_c.
   CHECK(applications < 1.1 * transform_pairs);
 }
 
-TEST_CASE("The tolerance is met by an exact gap in double, however far the ladder is off") {
+TEST_CASE("The tolerance is met by an exact gap in double, however far the multilevel kernel is off") {
   const Surface surface = unit_cells(512, 512, 8);
   for (const double tolerance : {1e-3, 1e-6, 1e-11}) {
-    const Solved ladder = solve(surface, Boundary::periodic, pressed(0.02), tolerance, 1.0);
-    REQUIRE(ladder.outcome.converged());
-    CHECK(ladder.outcome.exact_fft_count > 0);
+    const Solved multilevel = solve(surface, Boundary::periodic, pressed(0.02), tolerance, 1.0);
+    REQUIRE(multilevel.outcome.converged());
+    CHECK(multilevel.outcome.exact_fft_count > 0);
     // Three and four pairs are measured for 1e-3 and 1e-6. Where a refresh in double waits until
     // e_c is 2e-6, 1e-3 takes seven.
-    if (tolerance > 1e-8) CHECK(ladder.outcome.fft_count <= 5);
+    if (tolerance > 1e-8) CHECK(multilevel.outcome.fft_count <= 5);
     // Found again by another transform, whose rounding is far below.
     auto compliance = normal_compliance<double>(surface.grid, 1, Boundary::periodic);
     Field gap(surface.grid.nx, surface.grid.ny);
-    compliance.apply(ladder.pressure.data(), gap.data());
+    compliance.apply(multilevel.pressure.data(), gap.data());
     gap -= surface.heights;
     const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
     const double residual =
-        (ladder.pressure * (gap - gap.minCoeff())).sum() / (ladder.pressure.sum() * rms);
+        (multilevel.pressure * (gap - gap.minCoeff())).sum() / (multilevel.pressure.sum() * rms);
     CHECK(residual < 1.01 * tolerance);
   }
 }
 
-TEST_CASE("Tiles that come into contact only after a refresh are on the ladder too") {
+TEST_CASE("Tiles that come into contact only after a refresh are on the multilevel kernel too") {
   // A start far from the solution: all pressure is on one patch, and sinks the summits around it
   // below the plane. The first tiles are those of the patch, and the contact is elsewhere.
   const Surface surface = unit_cells(256, 256, 5);
@@ -154,12 +154,12 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the ladder t
       Field p = Field::Zero(256, 256), g(256, 256);
       p.block(120, 120, 8, 8) = pressure;
       ActiveSetLimits limits{1e-8, 200, true};
-      limits.ladder_share = 1.0;
+      limits.multilevel_share = 1.0;
       ActiveSetCg<float> solver(surface.grid, 1, Boundary::free, heights, rms);
       const ActiveSetOutcome outcome =
           solver.solve({ContactTarget::Kind::level, depth * rms}, limits, p.data(), g.data());
       CHECK(outcome.converged());
-      CHECK(outcome.ladder_count > 0);
+      CHECK(outcome.multilevel_count > 0);
       // It takes as many as from any start: seven are measured. With the tiles of the patch alone
       // there are 28 and more, or no end.
       CHECK(outcome.fft_count <= 8);
@@ -172,7 +172,7 @@ TEST_CASE(
   const ContactTarget target = pressed(0.01);
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
-  const auto solved = [&](std::optional<double> expected, LadderShare share) {
+  const auto solved = [&](std::optional<double> expected, MultilevelShare share) {
     // Few cells carry load at first: the gap of those that do is always kept.
     Solved found{Field::Zero(512, 512),
                  Field::Constant(512, 512, std::numeric_limits<double>::quiet_NaN()),
@@ -180,7 +180,7 @@ TEST_CASE(
     found.pressure.block(100, 200, 64, 64) = 64 * target.value;
     ActiveSetLimits limits;
     limits.tolerance = 1e-8;
-    limits.ladder_share = share;
+    limits.multilevel_share = share;
     limits.expected_level = expected;
     found.outcome = ActiveSetCg<float>(surface.grid, 1, Boundary::periodic, heights, rms)
                         .solve(target, limits, found.pressure.data(), found.gap.data());
@@ -210,46 +210,46 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A punch takes three exact transforms on the ladder and has the same stiffness") {
+TEST_CASE("A punch takes three exact transforms on the multilevel kernel and has the same stiffness") {
   for (const auto boundary : {Boundary::periodic, Boundary::free})
     for (const double load : {0.005, 0.1}) {
       const Index n = boundary == Boundary::free ? 256 : 512;
       const Surface surface = unit_cells(n, n, 9);
       const Solved contact = solve(surface, boundary, pressed(load), 1e-8, 0.0);
-      const auto punch = [&](LadderShare share) {
+      const auto punch = [&](MultilevelShare share) {
         PunchLimits limits;
-        limits.ladder_share = share;
+        limits.multilevel_share = share;
         return ActiveSetCg<float>(surface.grid, 1, boundary, {}, 0)
             .punch_load(contact.pressure.data(), infinite, limits);
       };
-      const PunchOutcome ladder = punch(1.0), exact = punch(0.0);
+      const PunchOutcome multilevel = punch(1.0), exact = punch(0.0);
       CAPTURE(boundary == Boundary::free, load);
-      REQUIRE(ladder.converged());
-      CHECK(ladder.fft_count <= 3);
+      REQUIRE(multilevel.converged());
+      CHECK(multilevel.fft_count <= 3);
       CHECK(exact.fft_count > 8);
       // Both stop when no more than 1e-11 of the load is left to gain, in one step or in a round.
-      CHECK(ladder.load == Approx(exact.load).epsilon(1e-10));
+      CHECK(multilevel.load == Approx(exact.load).epsilon(1e-10));
     }
 }
 
-TEST_CASE("Where exact residuals in float gain no more, a punch leaves the ladder and ends") {
+TEST_CASE("Where exact residuals in float gain no more, a punch leaves the multilevel kernel and ends") {
   // Rounding of a float residual, 1e-7, leaves its square to gain, 1e-14. Asked for less, each
-  // further round on the ladder gains as much as the one before. Without new residuals CG ends.
+  // further round on the multilevel kernel gains as much as the one before. Without new residuals CG ends.
   const Surface surface = unit_cells(512, 512, 9);
   const Solved contact = solve(surface, Boundary::periodic, pressed(0.1), 1e-8, 0.0);
   PunchLimits limits;
   limits.relative_gain = 1e-20;
   limits.max_iterations = 200;
-  limits.ladder_share = 1.0;
+  limits.multilevel_share = 1.0;
   const PunchOutcome outcome = ActiveSetCg<float>(surface.grid, 1, Boundary::periodic, {}, 0)
                                    .punch_load(contact.pressure.data(), infinite, limits);
   CHECK(outcome.converged());
-  CHECK(outcome.ladder_count > 0);
-  CHECK(outcome.ladder_count < outcome.iterations);
+  CHECK(outcome.multilevel_count > 0);
+  CHECK(outcome.multilevel_count < outcome.iterations);
 }
 
 TEST_CASE(
-    "Between exact residuals the ladder contracts the error of a punch as its spectral error "
+    "Between exact residuals the multilevel kernel contracts the error of a punch as its spectral error "
     "says") {
   // The first round solves G~ q = 1 on the set. The error in the metric of G~ falls by eps/(1 −
   // eps) at least, and what is left to gain by its square. The metric of G differs from that of G~
@@ -259,30 +259,30 @@ TEST_CASE(
     const Solved contact = solve(surface, Boundary::periodic, pressed(load), 1e-6, 0.0);
     PunchLimits limits;
     limits.relative_gain = 1e-13;
-    limits.ladder_share = 0.0;
+    limits.multilevel_share = 0.0;
     ActiveSetCg<float> sharp(surface.grid, 1, Boundary::periodic, {}, 0);
     const double load_exact = sharp.punch_load(contact.pressure.data(), infinite, limits).load;
-    const auto ladder = NearFieldLadder::make(
+    const auto multilevel = MultilevelKernel::make(
         surface.grid, surface.share(),
         normal_symbol(surface.grid, 1, Boundary::periodic, surface.share()), 1, Boundary::periodic);
-    REQUIRE(ladder);
-    const double contraction = std::pow(ladder->error() / (1 - ladder->error()), 2);
+    REQUIRE(multilevel);
+    const double contraction = std::pow(multilevel->error() / (1 - multilevel->error()), 2);
     // A gain asked for that one round must reach, because what is left by the bound is below it;
     // solved to 1e-4 within the round.
     limits.relative_gain = 1.01 * contraction;
     limits.round_ends = 1e-8;
-    limits.ladder_share = 1.0;
+    limits.multilevel_share = 1.0;
     ActiveSetCg<float> once(surface.grid, 1, Boundary::periodic, {}, 0);
     const PunchOutcome outcome = once.punch_load(contact.pressure.data(), infinite, limits);
     CHECK(outcome.fft_count == 1);
     const double left = 1 - outcome.load / load_exact;
     CHECK(left < contraction);
-    // It is a ladder and not the exact operator.
+    // It is a multilevel kernel and not the exact operator.
     CHECK(left > 1e-4 * contraction);
   }
 }
 
-TEST_CASE("A contact on the ladder has the same bits for every number of threads") {
+TEST_CASE("A contact on the multilevel kernel has the same bits for every number of threads") {
   const int before = parallel::threads();
   const Surface surface = unit_cells(512, 512, 11);
   Solved first;

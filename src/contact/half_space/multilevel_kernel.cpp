@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The near-field ladder as an operator: its levels, their tiles, and one application.
-#include "near_field_ladder.hpp"
+// The multilevel kernel as an operator: its levels, their tiles, and one application.
+#include "multilevel_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ void for_tiles_of(const std::vector<Tile>& tiles, const Body& body) {
 }
 
 template <std::size_t size>
-std::array<float, size> whole_stencil(const LadderStencil& stencil) {
+std::array<float, size> whole_stencil(const MultilevelStencil& stencil) {
   std::array<float, size> weights{};
   std::size_t k = 0;
   for (int i = -stencil.radius; i <= stencil.radius; ++i)
@@ -64,14 +64,14 @@ std::array<float, size> whole_stencil(const LadderStencil& stencil) {
 
 }  // namespace
 
-std::optional<NearFieldLadder::Plan> NearFieldLadder::Plan::make(const Grid2D& grid,
+std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D& grid,
                                                                  const Share& rows,
                                                                  const NormalSymbol& symbol,
                                                                  double contact_modulus,
                                                                  Boundary boundary) {
   int depth = 0;
   for (Index x = symbol.period_x, y = symbol.period_y;
-       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= least_period && depth < most_rungs;
+       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= least_period && depth < max_levels;
        x /= 2, y /= 2)
     ++depth;
   if (depth == 0) return std::nullopt;
@@ -80,7 +80,7 @@ std::optional<NearFieldLadder::Plan> NearFieldLadder::Plan::make(const Grid2D& g
   if (ratio > 8 || ratio < 1.0 / 8) return std::nullopt;
   Plan plan{boundary, grid.nx, grid.ny, {}, 0, {}};
   const double scale = std::sqrt(grid.cell_area()) / contact_modulus;
-  for (auto& [stencil, error] : ladder_design(ratio, boundary, depth)) {
+  for (auto& [stencil, error] : multilevel_design(ratio, boundary, depth)) {
     plan.error += error;
     for (double& weight : stencil.weights) weight *= scale;
     plan.stencils.push_back(std::move(stencil));
@@ -100,7 +100,7 @@ std::optional<NearFieldLadder::Plan> NearFieldLadder::Plan::make(const Grid2D& g
   return plan;
 }
 
-NearFieldLadder::NearFieldLadder(const Plan& plan, const Share& rows)
+MultilevelKernel::MultilevelKernel(const Plan& plan, const Share& rows)
     : boundary_(plan.boundary),
       rows_(rows),
       halo_rows_(halo_rows(rows, plan.boundary)),
@@ -116,7 +116,7 @@ NearFieldLadder::NearFieldLadder(const Plan& plan, const Share& rows)
 }
 
 // The next level below the last; nx, ny are the cells of that, and then of the new one.
-void NearFieldLadder::add_level(Index& nx, Index& ny) {
+void MultilevelKernel::add_level(Index& nx, Index& ny) {
   Shift shift = {0, 0};
   if (boundary_ == Boundary::periodic) {
     nx /= 2;
@@ -140,7 +140,7 @@ void NearFieldLadder::add_level(Index& nx, Index& ny) {
 }
 
 // The transform of what the stencils leave, in whole blocks of rows.
-void NearFieldLadder::add_coarsest(Index nx, Index ny, const QuarterSymbol& left) {
+void MultilevelKernel::add_coarsest(Index nx, Index ny, const QuarterSymbol& left) {
   const Share last = levels_.back().rows, whole_blocks(rows_.ranks(), nx, least_coarsest_rows);
   const auto all_of = [](const Share& share) {
     return [share](int rank) {
@@ -156,7 +156,7 @@ void NearFieldLadder::add_coarsest(Index nx, Index ny, const QuarterSymbol& left
   coarsest_->set_symbol(0, 0, [&](Index i, Index j) { return left.value[left.index(i, j)]; });
 }
 
-void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
+void MultilevelKernel::list_tiles(const std::vector<unsigned char>& in_use) {
   const bool periodic = boundary_ == Boundary::periodic;
   const std::vector<unsigned char>* finer = &in_use;
   const Share* finer_rows = &rows_;
@@ -211,8 +211,8 @@ void NearFieldLadder::list_tiles(const std::vector<unsigned char>& in_use) {
   }
 }
 
-void NearFieldLadder::descend(HaloField<float>& source) {
-  const LadderKernels& kernels = ladder_kernels();
+void MultilevelKernel::descend(HaloField<float>& source) {
+  const MultilevelKernels& kernels = multilevel_passes();
   source.fill_halo(boundary_, *halo_rows_);
   source_ = view(source);
   HaloView finer = source_;
@@ -244,9 +244,9 @@ void NearFieldLadder::descend(HaloField<float>& source) {
   }
 }
 
-void NearFieldLadder::collect(const Tile* tiles, Index begin, Index end, float* row) const {
+void MultilevelKernel::collect(const Tile* tiles, Index begin, Index end, float* row) const {
   const Level& first = levels_.front();
-  ladder_kernels().last_ascent(
+  multilevel_passes().last_ascent(
       tiles, begin, end, {source_, stencil_.data(), view(first.image), first.local_shift}, row);
 }
 

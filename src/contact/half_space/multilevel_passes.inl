@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Included once for each instruction set, with SALEBRA_SIMD naming it.
-#include "ladder_kernels.hpp"
+#include "multilevel_passes.hpp"
 #include "stencil_loop.inl"
 
 namespace salebra::detail::SALEBRA_SIMD {
@@ -160,6 +160,6 @@ void at_cells(const double* field, Length stride, const double* stencil, const L
   }
 }
 
-LadderKernels ladder_table() { return {restriction, ascent, last_ascent, at_cells}; }
+MultilevelKernels multilevel_table() { return {restriction, ascent, last_ascent, at_cells}; }
 
 }  // namespace salebra::detail::SALEBRA_SIMD

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_ladder — exact transforms, ladder applications and processor time of contacts that
-// iterate on the near-field ladder, beside those that iterate with transforms.
+// contact_multilevel — exact transforms, multilevel applications and processor time of contacts that
+// iterate on the multilevel kernel, beside those that iterate with transforms.
 //
-// usage: contact_ladder [N [SEEDS [REPEATS]]]          default: 512 1 1; one thread
+// usage: contact_multilevel [N [SEEDS [REPEATS]]]          default: 512 1 1; one thread
 //
 // Self-affine surfaces as in contact_profile, with shortest waves of 8 and 2 cells; the free ones
 // are N/2 points wide, so that both have the same transform. Each line is the worst of the seeds:
-// pairs of transforms of the finest grid to e_c <= 1e-8 by transforms, on the ladder wherever it
+// pairs of transforms of the finest grid to e_c <= 1e-8 by transforms, on the multilevel kernel wherever it
 // can be used, and as the solver chooses; the seconds of the first over those of the others (least
 // of the repeats, which take turns). `contraction` is that of the error of a punch on the contact's
 // cells from one exact residual to the next, to be compared with eps/(1 − eps), which bounds it.
@@ -30,7 +30,7 @@
 namespace {
 
 using namespace salebra;
-using detail::LadderShare;
+using detail::MultilevelShare;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -46,7 +46,7 @@ struct Solved {
 };
 
 // Surfaces have cells of size 1 here and E* = 1.
-Solved solve(const Surface& surface, const Case& c, LadderShare share) {
+Solved solve(const Surface& surface, const Case& c, MultilevelShare share) {
   const double start = bench::cpu_seconds();
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, 0.1 * c.load,
@@ -69,26 +69,26 @@ Solved solve(const Surface& surface, const Case& c, LadderShare share) {
     gap = uninitialised_field(grid.nx, grid.ny);
     detail::ActiveSetCg<float> solver(grid, 1, c.boundary, levels[k].heights, rms);
     detail::ActiveSetLimits limits{k == 0 ? 1e-8 : 1e-3, 1000, k == 0};
-    limits.ladder_share = share;
+    limits.multilevel_share = share;
     solved.outcome = solver.solve(target, limits, solved.pressure.data(), gap.data());
   }
   solved.seconds = bench::cpu_seconds() - start;
   return solved;
 }
 
-// The error of a punch after one round on the ladder over that before, in the metric of G.
+// The error of a punch after one round on the multilevel kernel over that before, in the metric of G.
 double contraction(const Surface& surface, const Case& c, const Field& pressure) {
-  const auto punch = [&](double relative_gain, LadderShare share) {
+  const auto punch = [&](double relative_gain, MultilevelShare share) {
     detail::PunchLimits limits;
     limits.relative_gain = relative_gain;
-    limits.ladder_share = share;
+    limits.multilevel_share = share;
     limits.round_ends = 1e-8;  // the bound is that of an exact solve within the round
     return detail::ActiveSetCg<float>(surface.grid, 1, c.boundary, {}, 0)
         .punch_load(pressure.data(), 0.1 * c.hardness, limits);
   };
   // A gain of a tenth is reached after one round, whatever the stencils.
   const auto once = punch(0.1, 1.0);
-  if (once.ladder_count == 0) return 0;
+  if (once.multilevel_count == 0) return 0;
   return std::sqrt(std::max(0.0, 1 - once.load / punch(1e-13, 0.0).load));
 }
 
@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
       cases.push_back({boundary, 8, 0.02, hardness});
 
   std::printf("%-9s %-8s %7s %6s %8s  %5s %12s %12s  %7s %7s  %11s %8s\n", "points", "boundary",
-              "cut-off", "f", "hardness", "pairs", "on ladder", "as chosen", "ladder", "chosen",
+              "cut-off", "f", "hardness", "pairs", "on multilevel kernels", "as chosen", "multilevel", "chosen",
               "contraction", "e_c");
   bool all_converged = true;
   for (const Case& c : cases) {
@@ -136,10 +136,10 @@ int main(int argc, char** argv) {
       seconds.fill(infinite);
       for (int repeat = 0; repeat < repeats; ++repeat)
         for (std::size_t k = 0; k < 3; ++k) {
-          constexpr std::array<LadderShare, 3> shares = {0.0, 1.0, std::nullopt};
+          constexpr std::array<MultilevelShare, 3> shares = {0.0, 1.0, std::nullopt};
           const Solved found = solve(surface, c, shares[k]);
           worst[k].pairs = std::max(worst[k].pairs, found.outcome.fft_count);
-          worst[k].applications = std::max(worst[k].applications, found.outcome.ladder_count);
+          worst[k].applications = std::max(worst[k].applications, found.outcome.multilevel_count);
           seconds[k] = std::min(seconds[k], found.seconds);
           residual = std::max(residual, found.outcome.residual);
           all_converged = all_converged && found.outcome.converged();
@@ -159,12 +159,12 @@ int main(int argc, char** argv) {
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     const Index points = boundary == Boundary::free ? n / 2 : n;
     const Grid2D grid{points, points, static_cast<double>(points), static_cast<double>(points)};
-    if (const auto ladder = detail::NearFieldLadder::make(
+    if (const auto multilevel = detail::MultilevelKernel::make(
             grid, Share(points), detail::normal_symbol(grid, 1, boundary, Share(points)), 1,
             boundary))
       std::printf("%s: %d levels, eps %.4f, eps/(1 - eps) %.4f\n",
-                  boundary == Boundary::free ? "free" : "periodic", ladder->depth(),
-                  ladder->error(), ladder->error() / (1 - ladder->error()));
+                  boundary == Boundary::free ? "free" : "periodic", multilevel->depth(),
+                  multilevel->error(), multilevel->error() / (1 - multilevel->error()));
   }
   return all_converged ? 0 : 1;
 }

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdlib>
 
-#include "contact/half_space/ladder_kernels.hpp"
+#include "contact/half_space/multilevel_passes.hpp"
 
-// The ladder's kernels in their plainest form, cell by cell. The tests compare the fast kernels
+// The multilevel kernel's kernels in their plainest form, cell by cell. The tests compare the fast kernels
 // with these, and a reader begins here.
 namespace salebra::detail::reference {
 
@@ -79,6 +79,6 @@ inline void at_cells(const double* field, std::ptrdiff_t stride, const double* s
   }
 }
 
-inline LadderKernels ladder_table() { return {restriction, ascent, last_ascent, at_cells}; }
+inline MultilevelKernels multilevel_table() { return {restriction, ascent, last_ascent, at_cells}; }
 
 }  // namespace salebra::detail::reference
