@@ -44,7 +44,7 @@ int main(int argc, char** argv) try {
                 format_quantity(sample.mean_gap, Dimension::length).c_str(),
                 100 * sample.contact_area_fraction);
 
-  // 3. The exponential law, and the question whether it holds. Where it does not, use the curve
+  // 3. The exponential law, and the problem whether it holds. Where it does not, use the curve
   //    itself, as in example 04.
   const ExponentialFit fit = fit_exponential(curve);
   const ExponentialTest test = test_exponential(curve);

@@ -3,7 +3,7 @@
 
 #include <optional>
 #include <salebra/base/grid.hpp>
-#include <salebra/contact/law/fit.hpp>  // a fit has one face, and is no question
+#include <salebra/contact/law/fit.hpp>  // a fit has one face, and is no problem
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <string>
 #include <vector>

@@ -51,7 +51,7 @@ Json model_json(const StudyResult& result, const StudyModel& model) {
   return answer;
 }
 
-Json comparison_json(const StudyResult& result, const StudyAnswer& found) {
+Json comparison_json(const StudyResult& result, const StudySolution& found) {
   const StudyTheories theories = result.theories();
   Json theory = answer_json(theories);
   theory.erase("relative_pressure");  // an axis of the whole answer
@@ -144,7 +144,7 @@ std::string loads_table(const StudyResult& result) {
          to_table(rows);
 }
 
-std::string damping_table(const StudyResult& result, const StudyAnswer& found) {
+std::string damping_table(const StudyResult& result, const StudySolution& found) {
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   std::vector<std::vector<std::string>> rows{{"model", "route"}};
   const auto shown = shown_pressures(result, 5);
@@ -186,7 +186,7 @@ std::string pull_off_table(const StudyResult& result) {
   return rows.size() == 1 ? "" : "Pull-off\n" + to_table(rows) + "\n";
 }
 
-std::string comparison_text(const StudyResult& result, const StudyAnswer& found) {
+std::string comparison_text(const StudyResult& result, const StudySolution& found) {
   const std::string contact = heading(result) + slopes_table(result) + law_verdict(result) + "\n" +
                               loads_table(result) + "\n";
   if (result.configuration.adhesion)
@@ -206,7 +206,7 @@ void run(const CompareArguments& arguments, Session& session) {
   configuration.models =
       arguments.models.empty() ? configuration.compared_models : contact_models(arguments.models);
   run_study("compare", configuration, arguments.study, session, [](const StudyResult& result) {
-    const StudyAnswer found = answer_of(result);
+    const StudySolution found = solution_of(result);
     return PointAnswer{comparison_json(result, found), comparison_text(result, found)};
   });
 }

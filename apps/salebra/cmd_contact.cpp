@@ -8,7 +8,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/study/configuration.hpp>
 
 #include "contact_command.hpp"

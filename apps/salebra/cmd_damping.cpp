@@ -7,9 +7,9 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/contact/mdr/adhesive_indenter.hpp>  // closed forms, which are no question
+#include <salebra/contact/mdr/adhesive_indenter.hpp>  // closed forms, which are no problem
 #include <salebra/io/result_file.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 
 #include "damping_maps.hpp"
 #include "figures.hpp"
@@ -59,8 +59,8 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
   return motion.all_motions();
 }
 
-ContactQuestion contact_of(const DampingArguments& arguments, Session& session) {
-  return arguments.law.question(arguments.material, session, arguments.premises.hardness);
+ContactProblem contact_of(const DampingArguments& arguments, Session& session) {
+  return arguments.law.problem(arguments.material, session, arguments.premises.hardness);
 }
 
 // --trajectory: one period of (time, indentation, displacement).
@@ -77,12 +77,12 @@ void follow_file(const DampingArguments& arguments, Session& session) {
                          {"transverse", Dimension::length, {"y"}}},
                         3)
           .columns;
-  PathQuestion question{.contact = arguments.law.question_of_law(arguments.material),
+  PathProblem problem{.contact = arguments.law.question_of_law(arguments.material),
                         .path = {columns[0], columns[1], columns[2]},
                         .facts = arguments.premises.facts(arguments.material)};
-  if (columns.size() > 3) question.transverse = columns[3];
-  const SampledMotion& path = question.path;
-  const PathAnswer answer = ask(question, session.context());
+  if (columns.size() > 3) problem.transverse = columns[3];
+  const SampledMotion& path = problem.path;
+  const PathSolution answer = solve(problem, session.context());
   if (session.has_output()) {
     ResultFile file(session.output(), session.provenance(), session.write_options());
     QuantityGroup group(file.group("trajectory"));
@@ -90,9 +90,9 @@ void follow_file(const DampingArguments& arguments, Session& session) {
     group.dataset("indentation", path.indentation, {"time"});
     group.dataset("tangential", path.displacement, {"time"});
     group.dataset("tangential_force", answer.loss.tangential_force, {"time"});
-    if (!question.transverse.empty()) {
+    if (!problem.transverse.empty()) {
       const Quantity quantity = quantity_of("transverse");
-      group.plain().dataset("transverse", question.transverse, {"time"},
+      group.plain().dataset("transverse", problem.transverse, {"time"},
                             std::string(si_unit(quantity.dimension)),
                             std::string(quantity.long_name));
       group.dataset("transverse_force", answer.loss.transverse_force, {"time"});
@@ -152,7 +152,7 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
 // An indenter without a motion.
 void answer_at_rest(const DampingArguments& arguments, Session& session) {
   arguments.law.at.require_one("a contact at rest takes one, and damping needs a motion");
-  const ContactAnswer contact = ask(contact_of(arguments, session), session.context());
+  const ContactSolution contact = solve(contact_of(arguments, session), session.context());
   session.warn(contact.doubts);
   const auto& law = static_cast<const IndenterLaw&>(*contact.law);
   const double indentation = indentation_of(law, contact.positions.front());
@@ -163,7 +163,7 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
 }
 
 // One period of a single case that a picture can show; nothing for a motion that never repeats.
-void plot_case(const DampingArguments& arguments, const DampingAnswer& answer, Session& session) {
+void plot_case(const DampingArguments& arguments, const DampingSolution& answer, Session& session) {
   if (!session.has_plot()) return;
   require_that(arguments.force_amplitude.empty(), "--plot",
                "one case of --force-amplitude has no picture; give it as a range");
@@ -177,7 +177,7 @@ void plot_case(const DampingArguments& arguments, const DampingAnswer& answer, S
 
 void lose(const DampingArguments& arguments, Session& session) {
   const std::vector<Motion> motions = motions_of(arguments);
-  DampingQuestion question{.contact = {},
+  DampingProblem problem{.contact = {},
                            .motions = motions,
                            .force_amplitude = arguments.force_amplitude,
                            .hold = *parse_enum<Hold>(arguments.hold),
@@ -186,7 +186,7 @@ void lose(const DampingArguments& arguments, Session& session) {
                            .steps = arguments.steps};
   Varied varied = arguments.motion.varied();
   find_varied(arguments.law.at, varied);
-  find_varied(question, varied);
+  find_varied(problem, varied);
   const auto& [quantity, values] = varied;
   arguments.maps.check(motions, session);
   if (arguments.law.surface.given())
@@ -194,8 +194,8 @@ void lose(const DampingArguments& arguments, Session& session) {
                 arguments.motion.mode != "two-frequencies",
             "--surface", arguments.law.surface.file,
             "takes one motion of equal frequencies or drag; give several --pressure, or a --curve");
-  question.contact = contact_of(arguments, session);
-  const DampingAnswer answer = ask(std::move(question), session.context());
+  problem.contact = contact_of(arguments, session);
+  const DampingSolution answer = solve(std::move(problem), session.context());
   session.warn(answer.contact.doubts);
   session.warn(answer.doubts);
   const bool one = values.empty();
@@ -228,7 +228,7 @@ void lose(const DampingArguments& arguments, Session& session) {
 }
 
 // The fields of a map that this answer has.
-std::vector<std::pair<std::string, const Field*>> fields_of(const DamperAnswer& answer) {
+std::vector<std::pair<std::string, const Field*>> fields_of(const DamperSolution& answer) {
   std::vector<std::pair<std::string, const Field*>> fields;
   for (const auto& [name, field] :
        {std::pair{"damping_constant", &answer.map.damping_constant},
@@ -239,7 +239,7 @@ std::vector<std::pair<std::string, const Field*>> fields_of(const DamperAnswer& 
   return fields;
 }
 
-void write_map(const DamperAnswer& answer, const std::optional<double>& falling_slope,
+void write_map(const DamperSolution& answer, const std::optional<double>& falling_slope,
                const Session& session) {
   const DamperMap& map = answer.map;
   ResultFile file(session.output(), session.provenance(), session.write_options());
@@ -275,7 +275,7 @@ Json constants(const Field& map) {
 // For people, a map is a row for each pair of amplitude and frequency: in one table with the list
 // of amplitudes and that of frequencies, each amplitude would stand beside a frequency it has
 // nothing to do with.
-std::string text_of(const Json& answer, const DamperAnswer& found) {
+std::string text_of(const Json& answer, const DamperSolution& found) {
   const DamperMap& map = found.map;
   Json pairs = Json::array();
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
@@ -292,7 +292,7 @@ std::string text_of(const Json& answer, const DamperAnswer& found) {
   return text;
 }
 
-DamperQuestion damper_question(const DampingArguments& arguments) {
+DamperProblem damper_question(const DampingArguments& arguments) {
   const MotionOptions& motion = arguments.motion;
   require_that(motion.mode == "drag" && arguments.force_amplitude.empty(),
                arguments.force_amplitude.empty() ? "--mode" : "--force-amplitude",
@@ -305,7 +305,7 @@ DamperQuestion damper_question(const DampingArguments& arguments) {
   require(motion.drag_velocity.size() < 2, "--drag-velocity", motion.drag_velocity.size(),
           "values are given; a damper takes one");
   arguments.law.at.require_one("a damper takes one");
-  DamperQuestion question{.normal_amplitude = motion.normal_amplitude,
+  DamperProblem problem{.normal_amplitude = motion.normal_amplitude,
                           .angular_frequency = motion.frequency.angular(),
                           .hold = *parse_enum<Hold>(arguments.hold),
                           .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
@@ -313,27 +313,27 @@ DamperQuestion damper_question(const DampingArguments& arguments) {
                           .facts = arguments.premises.facts(arguments.material)};
   if (!motion.drag_velocity.empty()) {
     require_positive(motion.drag_velocity.front(), "--drag-velocity");
-    question.drag_velocity = motion.drag_velocity.front();
+    problem.drag_velocity = motion.drag_velocity.front();
   }
   require_that(arguments.body.mass || !arguments.body.spring_stiffness, "--spring-stiffness",
                "given, but there is no --mass to oscillate");
   if (arguments.body.mass)
-    question.oscillator = {*arguments.body.mass, arguments.body.spring_stiffness.value_or(0)};
-  question.largest_amplitude = arguments.body.largest_amplitude.value_or(
+    problem.oscillator = {*arguments.body.mass, arguments.body.spring_stiffness.value_or(0)};
+  problem.largest_amplitude = arguments.body.largest_amplitude.value_or(
       motion.normal_amplitude.empty() ? 1e-6 : std::ranges::max(motion.normal_amplitude));
-  return question;
+  return problem;
 }
 
 void damp(const DampingArguments& arguments, Session& session) {
   require_that(!arguments.maps.given(), "--stress-map", "and --friction-map are of one motion");
   if (!arguments.motion.frequency.given()) require_options({"--frequency"}, "a damper");
-  DamperQuestion question = damper_question(arguments);
-  const std::vector<double> amplitudes = question.normal_amplitude,
-                            omega = question.angular_frequency;
+  DamperProblem problem = damper_question(arguments);
+  const std::vector<double> amplitudes = problem.normal_amplitude,
+                            omega = problem.angular_frequency;
   require(!amplitudes.empty() || !session.has_output(), "--output", session.output().string(),
           "is for a map over --normal-amplitude and --frequency");
-  question.contact = contact_of(arguments, session);
-  const DamperAnswer answer = ask(std::move(question), session.context());
+  problem.contact = contact_of(arguments, session);
+  const DamperSolution answer = solve(std::move(problem), session.context());
   session.warn(answer.contact.doubts);
   session.warn(answer.doubts);
   Json object = Json::object();

@@ -18,7 +18,7 @@
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "questions/part.hpp"
+#include "analysis/part.hpp"
 #include "results/answer_json.hpp"
 
 namespace salebra::cli {
@@ -74,11 +74,11 @@ bool complete_forces(const ForceCurve& curve) {
 }
 
 std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, const std::string& file,
-                                          DeckQuestion& question, Session& session) {
+                                          DeckProblem& problem, Session& session) {
   require_finished(file);
   StudyFacts facts = facts_of(file);
   if (arguments.material.given()) facts.modulus_ratio = arguments.material.modulus_ratio();
-  question.remark = facts.remark;
+  problem.remark = facts.remark;
   const std::vector<Standings> at = arguments.law.at.given();
   require(at.size() < 2, "--normal-force", "several positions", "are given; give one");
   std::vector<DeckContact> contacts;
@@ -104,7 +104,7 @@ void run(const ExportArguments& arguments, Session& session) {
   require_that(arguments.result.empty() || law.curve.empty(), "--curve",
                "given together with RESULT; give one of them");
   const std::string file = arguments.result.empty() ? law.curve : arguments.result;
-  DeckQuestion question{.contacts = {},
+  DeckProblem problem{.contacts = {},
                         .format = *parse_enum<DeckFormat>(arguments.format),
                         .units = parse_unit_system(arguments.units, "--units"),
                         .rows = arguments.rows,
@@ -113,34 +113,34 @@ void run(const ExportArguments& arguments, Session& session) {
                         .name = arguments.name,
                         .provenance = session.provenance()};
   if (arguments.friction_coefficient)
-    question.friction_coefficient = *arguments.friction_coefficient;
-  if (arguments.nominal_area) question.nominal_area = *arguments.nominal_area;
-  if (arguments.smallest_force) question.smallest_force = *arguments.smallest_force;
+    problem.friction_coefficient = *arguments.friction_coefficient;
+  if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
+  if (arguments.smallest_force) problem.smallest_force = *arguments.smallest_force;
   if (!arguments.window.empty()) {
     require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
             "values must be two, LOWER,UPPER");
-    question.pressure_window = {arguments.window[0], arguments.window[1]};
+    problem.pressure_window = {arguments.window[0], arguments.window[1]};
   }
   if (!file.empty()) {
     require_that(law.indenter.law.empty() && !law.surface.given(), "--law",
                  "or --surface given together with a file; give one of them");
-    question.contacts = contacts_of_file(arguments, file, question, session);
-    question.source = file;
+    problem.contacts = contacts_of_file(arguments, file, problem, session);
+    problem.source = file;
   } else {
     require_that(!law.indenter.law.empty() || law.surface.given(), "RESULT",
                  "not given; name a file of contact or study, or give --law or --surface");
-    question.contacts = {
-        deck_contact(law.question(arguments.material, session, {}), session.context())};
-    question.source =
+    problem.contacts = {
+        deck_contact(law.problem(arguments.material, session, {}), session.context())};
+    problem.source =
         law.surface.given() ? law.surface.file : fmt::format("law {}", law.indenter.law);
   }
-  const DeckAnswer answer = ask(question);
+  const DeckSolution answer = solve(problem);
   constexpr double most_error = 0.01;
   if (std::abs(answer.loss_error) > most_error)
     session.warn(fmt::format(
         "the loss at {:g} of the force at which all slips is off by {:.3g} %; give more --sliders "
         "or a larger --smallest-force",
-        question.smallest_force, 100 * answer.loss_error));
+        problem.smallest_force, 100 * answer.loss_error));
   const Json object = answer_json(answer);
   if (!session.has_output()) {
     Json whole = object;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 
 #include "damping/joint_loop.hpp"
 #include "figures.hpp"
@@ -34,7 +34,7 @@ double half_range_of(const std::vector<double>& values) {
 
 // The loop of the largest motion by the springs of the law. A surface has a loss of its own, hence
 // the loop is scaled to its force and displacement.
-detail::JointLoop loop_of(const JointArguments& arguments, const JointAnswer& found,
+detail::JointLoop loop_of(const JointArguments& arguments, const JointSolution& found,
                           Session& session) {
   const JointLoss& largest =
       *std::ranges::max_element(found.losses, {}, &JointLoss::tangential_amplitude);
@@ -98,20 +98,20 @@ void run(const JointArguments& arguments, Session& session) {
   require_tables(session, direct ? std::vector<std::string>{"motions", "direct"}
                                  : std::vector<std::string>{"motions"});
   check(arguments);
-  JointQuestion question{
-      .contact = arguments.law.question(arguments.material, session, arguments.premises.hardness),
+  JointProblem problem{
+      .contact = arguments.law.problem(arguments.material, session, arguments.premises.hardness),
       .normal_amplitude = arguments.normal_amplitude.value_or(0),
       .phase = arguments.phase.value_or(0),
       .angular_frequency = 2 * std::numbers::pi * arguments.frequency.value_or(0),
       .facts = arguments.premises.facts(arguments.material),
       .steps = arguments.steps,
       .direct_steps = arguments.direct_steps};
-  if (arguments.nominal_area) question.nominal_area = *arguments.nominal_area;
+  if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
   for (const double force : arguments.tangential_forces)
-    question.motions.emplace_back(TangentialForce{force});
+    problem.motions.emplace_back(TangentialForce{force});
   for (const double amplitude : arguments.tangential_amplitudes)
-    question.motions.emplace_back(TangentialAmplitude{amplitude});
-  const JointAnswer found = ask(std::move(question), session.context());
+    problem.motions.emplace_back(TangentialAmplitude{amplitude});
+  const JointSolution found = solve(std::move(problem), session.context());
   session.warn(found.contact.doubts);
   for (const std::string& remark : found.remarks) session.note(remark);
 

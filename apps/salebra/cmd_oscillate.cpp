@@ -9,7 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/questions/oscillation.hpp>
+#include <salebra/analysis/oscillation.hpp>
 
 #include "base/memory.hpp"
 #include "base/stop_check.hpp"

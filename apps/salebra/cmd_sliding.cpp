@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/sliding.hpp>
+#include <salebra/analysis/sliding.hpp>
 
 #include "law_options.hpp"
 #include "options.hpp"
@@ -24,7 +24,7 @@ namespace {
 struct SlidingArguments {
   LawOptions law;
   MaterialOptions material;
-  SlidingQuestion sliding;
+  SlidingProblem sliding;
   FrequencyOptions frequency;
   std::string hold = "indentation", start = "rest";
   BodyOptions body;
@@ -50,7 +50,7 @@ constexpr std::string_view of_amplitude[]{"mean_force",
                                           "relaxation_damping_error"};
 
 void check(const SlidingArguments& arguments) {
-  const SlidingQuestion& sliding = arguments.sliding;
+  const SlidingProblem& sliding = arguments.sliding;
   const bool slider = arguments.of_slider();
   std::vector<std::string> missing;
   if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
@@ -82,11 +82,11 @@ void check(const SlidingArguments& arguments) {
           "are a second axis in addition to the velocities; give one --normal-amplitude");
 }
 
-ContactAnswer contact_of(const SlidingArguments& arguments, Session& session) {
+ContactSolution contact_of(const SlidingArguments& arguments, Session& session) {
   double largest = 0;
   for (const double amplitude : arguments.sliding.normal_amplitude)
     largest = std::max(largest, std::abs(amplitude));
-  ContactAnswer contact =
+  ContactSolution contact =
       arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
   if (contact.surface && arguments.of_slider())
     session.note(
@@ -109,14 +109,14 @@ std::vector<RegimePoint> rows_of(const RegimeMap& map) {
   return rows;
 }
 
-PremiseReport premises_of(const SlidingAnswer& found, const SlidingQuestion& question,
-                          const ContactAnswer& contact, const ContactFacts& known) {
-  const std::size_t count = question.normal_amplitude.size(),
+PremiseReport premises_of(const SlidingSolution& found, const SlidingProblem& problem,
+                          const ContactSolution& contact, const ContactFacts& known) {
+  const std::size_t count = problem.normal_amplitude.size(),
                     velocities = found.points.size() / count;
   PremiseReport premises{.list = count > 1};
   for (std::size_t k = 0; k < count; ++k) {
     const SlidingPoint& last = found.points[(k + 1) * velocities - 1];
-    const Drag motion{last.normal_amplitude, last.velocity, question.angular_frequency};
+    const Drag motion{last.normal_amplitude, last.velocity, problem.angular_frequency};
     premises.cases.push_back(contact.premises_beside_slip(last.state.indentation, motion, known));
   }
   return premises;
@@ -124,18 +124,18 @@ PremiseReport premises_of(const SlidingAnswer& found, const SlidingQuestion& que
 
 void slide(const SlidingArguments& arguments, Session& session) {
   require_tables(session, {"sliding", "regime_map"});
-  SlidingQuestion question = arguments.sliding;
-  const bool single = question.normal_amplitude.size() == 1, maps = !question.excursions.empty();
-  const std::size_t velocities = question.velocities.size() + question.velocity_ratios.size();
-  require(!session.has_plot() || !maps || (velocities > 1 && question.excursions.size() > 1),
-          "--plot", fmt::format("{} by {} values", velocities, question.excursions.size()),
+  SlidingProblem problem = arguments.sliding;
+  const bool single = problem.normal_amplitude.size() == 1, maps = !problem.excursions.empty();
+  const std::size_t velocities = problem.velocities.size() + problem.velocity_ratios.size();
+  require(!session.has_plot() || !maps || (velocities > 1 && problem.excursions.size() > 1),
+          "--plot", fmt::format("{} by {} values", velocities, problem.excursions.size()),
           "are no map; give several velocities and several --excursions");
-  question.friction_coefficient = *arguments.premises.friction_coefficient;
-  question.angular_frequency = arguments.frequency.angular().front();
-  question.hold = *parse_enum<Hold>(arguments.hold);
-  const ContactAnswer contact = contact_of(arguments, session);
-  const SlidingAnswer found =
-      ask(question, contact,
+  problem.friction_coefficient = *arguments.premises.friction_coefficient;
+  problem.angular_frequency = arguments.frequency.angular().front();
+  problem.hold = *parse_enum<Hold>(arguments.hold);
+  const ContactSolution contact = contact_of(arguments, session);
+  const SlidingSolution found =
+      solve(problem, contact,
           contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
           session.context());
   session.warn(found.doubts);
@@ -164,16 +164,16 @@ void slide(const SlidingArguments& arguments, Session& session) {
       for (const Regime regime : row) regimes.push_back(std::string(name_of(regime)));
   }
   if (session.has_plot())
-    session.plot(maps      ? regime_figure(*found.regimes, question.angular_frequency)
-                 : !single ? amplitude_figure(found.points, question)
-                           : sliding_figure(found.points, question.friction_coefficient));
-  premises_of(found, question, contact, arguments.premises.facts(arguments.material))
+    session.plot(maps      ? regime_figure(*found.regimes, problem.angular_frequency)
+                 : !single ? amplitude_figure(found.points, problem)
+                           : sliding_figure(found.points, problem.friction_coefficient));
+  premises_of(found, problem, contact, arguments.premises.facts(arguments.material))
       .answer(session, answer, text);
 }
 
-SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
-  const SlidingQuestion& sliding = arguments.sliding;
-  SliderQuestion question{
+SliderProblem slider_of(const SlidingArguments& arguments, Session& session) {
+  const SlidingProblem& sliding = arguments.sliding;
+  SliderProblem problem{
       .slider = {.mass = *arguments.body.mass,
                  .spring_stiffness = *arguments.body.spring_stiffness,
                  .velocity = sliding.velocities.front(),
@@ -183,27 +183,27 @@ SliderQuestion slider_of(const SlidingArguments& arguments, Session& session) {
                  arguments.frequency.given() ? arguments.frequency.angular().front() : 0},
       .friction_coefficient = *arguments.premises.friction_coefficient,
       .largest_amplitude = arguments.body.largest_amplitude};
-  SliderOptions& options = question.options;
+  SliderOptions& options = problem.options;
   options.hold = *parse_enum<Hold>(arguments.hold);
   options.start = *parse_enum<SliderStart>(arguments.start);
   options.steps = arguments.steps.value_or(options.steps);
   options.tolerance = arguments.tolerance.value_or(options.tolerance);
   options.most_cycles = arguments.most_cycles.value_or(options.most_cycles);
   options.on_progress = session.progress();
-  return question;
+  return problem;
 }
 
 void drag_slider(const SlidingArguments& arguments, Session& session) {
   require_tables(session, {"motion", "averaged_motion"});
-  const SliderQuestion question = slider_of(arguments, session);
-  const ContactAnswer contact = contact_of(arguments, session);
-  const SliderAnswer found = ask(question, *contact.law, contact.positions.front());
+  const SliderProblem problem = slider_of(arguments, session);
+  const ContactSolution contact = contact_of(arguments, session);
+  const SliderSolution found = solve(problem, *contact.law, contact.positions.front());
 
   Json answer = json_of(found.motion);
   answer["averaged"] = json_of(found.averaged);
   answer["mean_force"] = found.sliding.mean_force;
   const Json stability = json_of(found.stability);
-  if (question.normal.normal_amplitude > 0) {
+  if (problem.normal.normal_amplitude > 0) {
     answer["critical_velocity"] = found.sliding.critical_velocity;
     answer.add(stability);
   } else {
@@ -215,7 +215,7 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
                {table_of("motion", lists_of(found.motion)),
                 table_of("averaged_motion", lists_of(found.averaged))});
   if (session.has_plot())
-    session.plot(slider_figure(found.motion, found.averaged, question.slider.spring_stiffness));
+    session.plot(slider_figure(found.motion, found.averaged, problem.slider.spring_stiffness));
   const ContactFacts known = arguments.premises.facts(arguments.material);
   PremiseReport{{contact.premises_beside_slip(found.sliding.indentation, found.judged, known)}}
       .answer(session, answer);
@@ -267,7 +267,7 @@ void add_sliding_command(Program& program) {
   arguments->law.add_to(command);
   arguments->material.add_to(command);
   command.under("Motion");
-  SlidingQuestion& sliding = arguments->sliding;
+  SlidingProblem& sliding = arguments->sliding;
   add_values(command, "--velocities", sliding.velocities, Dimension::velocity,
              "of sliding, > 0: one, a list or a range; of the drive of a slider");
   add_values(command, "--velocity-ratios", sliding.velocity_ratios, Dimension::dimensionless,

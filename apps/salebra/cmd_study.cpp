@@ -24,7 +24,7 @@ Json lengths_json(const StudyResult& result, ContactModel model) {
           {"decay_length_over_rms_height", to_json(result.decay_length_over_rms_height(model))}};
 }
 
-Json damping_of_study(const StudyResult& result, const StudyAnswer& answer) {
+Json damping_of_study(const StudyResult& result, const StudySolution& answer) {
   std::vector<double> forces;
   for (const double pressure : result.pressures) forces.push_back(pressure * result.grid.area());
   Json damping;
@@ -37,7 +37,7 @@ Json damping_of_study(const StudyResult& result, const StudyAnswer& answer) {
   return damping;
 }
 
-Json study_json(const StudyResult& result, const StudyAnswer& answer) {
+Json study_json(const StudyResult& result, const StudySolution& answer) {
   Json object = lengths_json(result, ContactModel::bem);
   if (result.configuration.adhesion) {
     object["curve"]["pressure"] = result.pressures;
@@ -113,7 +113,7 @@ std::string motion_text(const StudyConfiguration& configuration) {
 
 /// The table of loads: γ of the motion as described, beside it what the theorem says without slip
 /// and the closed form.
-std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
+std::string answer_table(const StudyResult& result, const StudySolution& answer) {
   const bool sample = result.realisations.size() > 1, slip = answer.slip_followed;
   const bool drag = std::holds_alternative<Drag>(result.configuration.motion);
   const std::string law = drag ? "Eq. (16)" : "Eq. (12)";
@@ -154,7 +154,7 @@ std::string answer_table(const StudyResult& result, const StudyAnswer& answer) {
 }
 
 /// What a reader has to know before the numbers are of use, and after.
-std::string notes(const StudyResult& result, const StudyAnswer& answer) {
+std::string notes(const StudyResult& result, const StudySolution& answer) {
   std::string text;
   if (!answer.unknown.empty()) text += wrapped(in_options("γ is n/a: " + answer.unknown + "."), 78) + "\n";
   const auto& constants =
@@ -201,7 +201,7 @@ std::string accuracy(const StudyResult& result) {
 }
 
 /// Conductances and flow of each load with their intervals, as far as the study asks for them.
-std::string transport_table(const StudyResult& result, const StudyAnswer& answer) {
+std::string transport_table(const StudyResult& result, const StudySolution& answer) {
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> columns{
       {"h, W/(m² K)", answer.thermal_conductance}, {"C, S/m²", answer.electrical_conductance}};
   if (result.configuration.flow_factors)
@@ -266,7 +266,7 @@ std::string adhesion_table(const StudyResult& result) {
                      100 * result.adhesion_cycle(reversible_share).mean);
 }
 
-std::string study_text(const StudyResult& result, const StudyAnswer& answer) {
+std::string study_text(const StudyResult& result, const StudySolution& answer) {
   const auto count = result.realisations.size();
   const double friction = result.configuration.known.friction_coefficient;
   const bool flowed = std::ranges::any_of(
@@ -314,7 +314,7 @@ void run(const StudyArguments& arguments, Session& session) {
   StudyConfiguration configuration;
   collectively(session.ranks(), [&] { configuration = arguments.study(); });
   run_study("study", configuration, arguments, session, [&](const StudyResult& result) {
-    const StudyAnswer answer = answer_of(result);
+    const StudySolution answer = solution_of(result);
     return PointAnswer{study_json(result, answer),
                        study_text(result, answer) + (arguments.verbose ? details(result) : "")};
   });

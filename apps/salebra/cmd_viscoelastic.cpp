@@ -7,7 +7,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>  // the loss of rubber has one face
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 
 #include "damping/phase_quadrature.hpp"
 #include "figures.hpp"

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 
 namespace salebra::cli {
 namespace {
@@ -31,7 +31,7 @@ PlotCurve band(const std::string& name, const std::vector<double>& x,
 /// γ as the table of the study prints it: of the motion as described, with the 95 % interval of the
 /// surfaces or, where one surface has none, the numerical error.
 void add_answer(const StudyResult& result, PlotPanel& damping) {
-  const StudyAnswer answer = answer_of(result);
+  const StudySolution answer = solution_of(result);
   const bool sample = result.realisations.size() > 1;
   bool any_bar = false;
   PlotCurve points{.x = result.pressures, .style = PlotStyle::points, .color = 0};

@@ -9,7 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 
 #include "answers.hpp"
 #include "io/plot.hpp"

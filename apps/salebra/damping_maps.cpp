@@ -13,13 +13,13 @@
 namespace salebra::cli {
 namespace {
 
-const IndenterLaw& indenter_of(const DampingAnswer& answer, const std::string& file) {
+const IndenterLaw& indenter_of(const DampingSolution& answer, const std::string& file) {
   const auto* law = dynamic_cast<const IndenterLaw*>(answer.contact.law.get());
   require(law != nullptr, "--stress-map", file, "is of an indenter; give --law with a shape");
   return *law;
 }
 
-void write_stress_map(const MapOptions& options, const DampingAnswer& answer, Session& session) {
+void write_stress_map(const MapOptions& options, const DampingSolution& answer, Session& session) {
   const IndenterLaw& law = indenter_of(answer, options.stress_map);
   const StressMap map = stress_map_of(answer, options.phases, options.radii, session.context());
   ResultFile file(options.stress_map, session.provenance(), session.write_options());
@@ -36,7 +36,7 @@ void write_stress_map(const MapOptions& options, const DampingAnswer& answer, Se
   file.commit();
 }
 
-void write_friction_map(const MapOptions& options, const DampingAnswer& answer, int steps,
+void write_friction_map(const MapOptions& options, const DampingSolution& answer, int steps,
                         Session& session) {
   const FrictionMap map =
       friction_map_of(answer, options.friction_numbers, steps, session.context());
@@ -91,7 +91,7 @@ void MapOptions::check(const std::vector<Motion>& motions, const Session& sessio
           friction_map, "is over the phase; use --mode equal-frequency");
 }
 
-void MapOptions::write(const DampingAnswer& answer, int steps, Session& session) const {
+void MapOptions::write(const DampingSolution& answer, int steps, Session& session) const {
   if (!stress_map.empty()) write_stress_map(*this, answer, session);
   if (!friction_map.empty()) write_friction_map(*this, answer, steps, session);
 }

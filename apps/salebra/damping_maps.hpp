@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 #include <string>
 #include <vector>
 
@@ -21,7 +21,7 @@ struct MapOptions {
   /// have no such map.
   void check(const std::vector<Motion>& motions, const Session& session) const;
   /// Writes the maps of the one case, and draws the last.
-  void write(const DampingAnswer& answer, int steps, Session& session) const;
+  void write(const DampingSolution& answer, int steps, Session& session) const;
 };
 
 }  // namespace salebra::cli

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <salebra/base/units.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 
 #include "result_tables.hpp"
 
@@ -463,7 +463,7 @@ PlotPanel border_panel(const std::vector<double>& omega, const std::vector<doubl
 
 }  // namespace
 
-Figure damper_figure(const DamperAnswer& answer, std::optional<double> falling_slope,
+Figure damper_figure(const DamperSolution& answer, std::optional<double> falling_slope,
                      const std::vector<double>& angular_frequency) {
   Figure figure;
   if (answer.map.damping_constant.size() > 1)

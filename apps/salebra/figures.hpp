@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,7 +9,7 @@
 #include "io/plot.hpp"
 
 namespace salebra {
-struct DamperAnswer;
+struct DamperSolution;
 struct FrictionMap;
 struct StressMap;
 struct TrajectoryDamping;
@@ -47,7 +47,7 @@ Figure friction_figure(const FrictionMap& map);
 /// γ over u_z and ω, with the border of stability where a falling slope is given, or a line where
 /// only one of them varies; free decay of the oscillator; the least amplitude that stabilises over
 /// the frequencies. No panel where there is but one number.
-Figure damper_figure(const DamperAnswer& answer, std::optional<double> falling_slope,
+Figure damper_figure(const DamperSolution& answer, std::optional<double> falling_slope,
                      const std::vector<double>& angular_frequency);
 
 }  // namespace salebra::cli

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/questions/oscillation.hpp>
+#include <salebra/analysis/oscillation.hpp>
 #include <string>
 #include <vector>
 

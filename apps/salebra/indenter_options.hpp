@@ -3,7 +3,7 @@
 
 #include <memory>
 #include <optional>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <vector>
 

@@ -58,7 +58,7 @@ void LawOptions::add_to(Command& command) {
   at.add_to(command, "Position (may be a range)");
 }
 
-ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_positions) const {
+ContactProblem LawOptions::read(const MaterialOptions& material, bool with_positions) const {
   using enum Standing;
   const auto standing = [&](const std::vector<Standing>& allowed) {
     return with_positions ? position_of(*this, allowed) : Standings{};
@@ -82,7 +82,7 @@ ContactQuestion LawOptions::read(const MaterialOptions& material, bool with_posi
                          .at = standing({normal_force, Standing::indentation})};
 }
 
-ContactQuestion LawOptions::question(const MaterialOptions& material, Session& session,
+ContactProblem LawOptions::problem(const MaterialOptions& material, Session& session,
                                      const std::optional<double>& hardness) const {
   if (!surface.given()) return read(material, true);
   require(indenter.law.empty() && curve.empty(), "--surface", surface.file,
@@ -95,17 +95,17 @@ ContactQuestion LawOptions::question(const MaterialOptions& material, Session& s
                         .hardness = hardness};
 }
 
-ContactAnswer LawOptions::contact(const MaterialOptions& material, Session& session,
+ContactSolution LawOptions::contact(const MaterialOptions& material, Session& session,
                                   const std::optional<double>& hardness,
                                   double normal_amplitude) const {
-  ContactQuestion asked = question(material, session, hardness);
+  ContactProblem asked = problem(material, session, hardness);
   if (auto* body = std::get_if<SurfaceContact>(&asked)) body->normal_amplitude = normal_amplitude;
-  ContactAnswer contact = ask(std::move(asked), session.context());
+  ContactSolution contact = solve(std::move(asked), session.context());
   session.warn(contact.doubts);
   return contact;
 }
 
-ContactQuestion LawOptions::question_of_law(const MaterialOptions& material) const {
+ContactProblem LawOptions::question_of_law(const MaterialOptions& material) const {
   require(!surface.given(), "--surface", surface.file,
           "has no law for a path of indentations; press it and give its --curve");
   return read(material, false);

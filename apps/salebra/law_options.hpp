@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,14 +22,14 @@ struct LawOptions {
 
   void add_to(Command& command);
   /// Throws InvalidInput naming the option that is missing or one too many. A surface is read.
-  ContactQuestion question(const MaterialOptions& material, Session& session,
+  ContactProblem problem(const MaterialOptions& material, Session& session,
                            const std::optional<double>& hardness) const;
   /// The answer, whose doubts are told.
-  ContactAnswer contact(const MaterialOptions& material, Session& session,
+  ContactSolution contact(const MaterialOptions& material, Session& session,
                         const std::optional<double>& hardness, double normal_amplitude) const;
   /// Without positions, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
-  ContactQuestion question_of_law(const MaterialOptions& material) const;
+  ContactProblem question_of_law(const MaterialOptions& material) const;
   bool of_indenter() const {
     return !indenter.law.empty() && indenter.law != "exponential" && curve.empty() &&
            !surface.given();
@@ -38,8 +38,8 @@ struct LawOptions {
  private:
   /// Throws InvalidInput for a parameter of another law than the one that was chosen.
   void require_own_parameters() const;
-  /// The question; without positions, where they are not needed, of what was given as one.
-  ContactQuestion read(const MaterialOptions& material, bool positions) const;
+  /// The problem; without positions, where they are not needed, of what was given as one.
+  ContactProblem read(const MaterialOptions& material, bool positions) const;
 };
 
 }  // namespace salebra::cli

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salebra/io/result_file.hpp>
-#include <salebra/questions/oscillation.hpp>
+#include <salebra/analysis/oscillation.hpp>
 #include <string>
 
 #include "io/plot.hpp"

@@ -10,7 +10,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/results/quantity.hpp>
 
 #include "answers.hpp"
@@ -26,8 +26,8 @@ Quantity quantity_of(const std::string& name, const std::string& object) {
   for (const std::string& one : {object, name}) {
     if (is_quantity(one)) return find_quantity(one);
     if (const Column* own = find_column<ContactPressures, SurfacePoints, BearingTable, Lay,
-                                        FitChoices, MotionOptions, DampingQuestion, PathQuestion,
-                                        DampingAnswer, DamperAnswer, Cost>(one))
+                                        FitChoices, MotionOptions, DampingProblem, PathProblem,
+                                        DampingSolution, DamperSolution, Cost>(one))
       return {own->name, own->dimension, own->long_name};
   }
   return find_quantity(name);

@@ -13,7 +13,7 @@
 #include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/printable.hpp"

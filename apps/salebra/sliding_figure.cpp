@@ -41,10 +41,10 @@ Figure sliding_figure(const std::vector<SlidingPoint>& points, double friction) 
   return figure;
 }
 
-Figure amplitude_figure(const std::vector<SlidingPoint>& points, const SlidingQuestion& question) {
-  const bool relative = !question.velocity_ratios.empty();
-  const std::vector<double>& along = relative ? question.velocity_ratios : question.velocities;
-  const std::vector<double>& amplitudes = question.normal_amplitude;
+Figure amplitude_figure(const std::vector<SlidingPoint>& points, const SlidingProblem& problem) {
+  const bool relative = !problem.velocity_ratios.empty();
+  const std::vector<double>& along = relative ? problem.velocity_ratios : problem.velocities;
+  const std::vector<double>& amplitudes = problem.normal_amplitude;
   Figure figure;
   figure.columns = 2;
   const auto panel = [&](const char* title, PlotAxis scale, double SteadySliding::*member) {

@@ -760,7 +760,7 @@ std::string ensemble_remarks(const StudyResult& result) {
   return text;
 }
 
-PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result) {
+PremiseReport premises_of(const StudySolution& answer, const StudyResult& result) {
   return {.cases = answer.premises,
           .list = true,
           .pressures = result.pressures,
@@ -771,7 +771,7 @@ namespace {
 
 constexpr const char* transport_names[] = {"thermal_conductance", "electrical_conductance"};
 
-void add_transport(Json& answer, const StudyResult& result, const StudyAnswer& found) {
+void add_transport(Json& answer, const StudyResult& result, const StudySolution& found) {
   const Json all = answer_json(found);
   if (result.configuration.conduction.given()) answer["conductance"]["pressure"] = result.pressures;
   for (const char* name : transport_names)
@@ -804,7 +804,7 @@ double reversible_share(const AdhesiveCycleNumbers& cycle) {
   return reversible ? double(*reversible) : ForceSample::unknown;
 }
 
-Json damping_json(const StudyAnswer& answer) {
+Json damping_json(const StudySolution& answer) {
   Json object = answer_json(answer);
   object["relaxation_share"] = answer.relaxation_share;
   object["slip_share"] = answer.slip_share;
@@ -812,7 +812,7 @@ Json damping_json(const StudyAnswer& answer) {
   return object;
 }
 
-void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found) {
+void add_ensemble(Json& answer, const StudyResult& result, const StudySolution& found) {
   add_transport(answer, result, found);
   add_adhesion(answer, result);
   answer["realisations"] = result.realisations.size();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <string>
 #include <vector>
 
@@ -87,11 +87,11 @@ std::string law_verdict(const StudyResult& result);
 /// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.
 std::string ensemble_remarks(const StudyResult& result);
 /// The premises of an answer with a list of pressures.
-PremiseReport premises_of(const StudyAnswer& answer, const StudyResult& result);
+PremiseReport premises_of(const StudySolution& answer, const StudyResult& result);
 /// γ and work of the motion as described, with the shares of slip.
-Json damping_json(const StudyAnswer& answer);
+Json damping_json(const StudySolution& answer);
 /// Adds conductances and flow factors where the study asks for them, how many surfaces there are,
 /// what is wrong with them, their first loading where a hardness is known, and the premises.
-void add_ensemble(Json& answer, const StudyResult& result, const StudyAnswer& found);
+void add_ensemble(Json& answer, const StudyResult& result, const StudySolution& found);
 
 }  // namespace salebra::cli

@@ -15,7 +15,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 
 #include "damping/slip_by_contacts.hpp"
 
@@ -52,7 +52,7 @@ int main(int count, char** arguments) {
       configuration.known.friction_coefficient = friction;
       configuration.known.excursion = excursion;
       const StudyResult result = run_study(configuration);
-      const StudyAnswer answer = answer_of(result);
+      const StudySolution answer = solution_of(result);
       const std::size_t k = answer.damping_constant.size() / 2;
       const StatedMean& stated = answer.damping_constant[k];
       std::printf("| %g nm | %.1f | %.3g | %.1f %% | %.1f %% | ", excursion / 1e-9, friction,

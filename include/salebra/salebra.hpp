@@ -5,7 +5,7 @@
 // read), curves (swept or read) and studies. For programs that link salebra::study; each
 // library below it has its own headers.
 //
-//     DampingAnswer answer = ask(DampingQuestion{.contact = ExponentialContact{30e-9, 0.8, {1}},
+//     DampingSolution answer = solve(DampingProblem{.contact = ExponentialContact{30e-9, 0.8, {1}},
 //                                                .motions = {Drag{1e-9, 1e-6, 1e5}}});
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
@@ -14,10 +14,10 @@
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/questions/contact.hpp>
-#include <salebra/questions/damping.hpp>
-#include <salebra/questions/oscillation.hpp>
-#include <salebra/questions/sliding.hpp>
+#include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/damping.hpp>
+#include <salebra/analysis/oscillation.hpp>
+#include <salebra/analysis/sliding.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>

@@ -250,8 +250,8 @@ def _(result: _core.StudyResult, ax: Axes | None = None, **keywords: Any) -> Axe
     return drawn
 
 
-@plot.register(_core.StudyAnswer)
-def _(result: _core.StudyAnswer, ax: Axes | None = None, **keywords: Any) -> Axes:
+@plot.register(_core.StudySolution)
+def _(result: _core.StudySolution, ax: Axes | None = None, **keywords: Any) -> Axes:
     """Damping constant over pressure with its 95 % intervals, of one surface its numerical errors, and that without slip."""
     drawn = _axes(ax)
     means = [[one.mean for one in row] for row in (result.damping_constant, result.damping_constant_without_slip)]

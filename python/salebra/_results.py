@@ -86,7 +86,7 @@ def to_xarray(result: Any) -> xarray.Dataset:
     """The result as a dataset."""
     if isinstance(result, _core.StudyResult):
         return _study_dataset(result)
-    if isinstance(result, _core.StudyAnswer):
+    if isinstance(result, _core.StudySolution):
         return _answer_dataset(result)
     if isinstance(result, _core.DampingCurve):
         return _damping_dataset(result)
@@ -135,7 +135,7 @@ def _study_dataset(result: _core.StudyResult) -> xarray.Dataset:
     return data
 
 
-def _answer_dataset(answer: _core.StudyAnswer) -> xarray.Dataset:
+def _answer_dataset(answer: _core.StudySolution) -> xarray.Dataset:
     """Means with the ends of their 95 % intervals, and shares, over the pressure."""
     columns: dict[str, Any] = {}
     texts: dict[str, str] = {}

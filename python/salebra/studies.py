@@ -12,7 +12,7 @@ from ._core import (
     SpotStatistics as SpotStatistics,
     StudyConfiguration as StudyConfiguration,
     StatedMean as StatedMean,
-    StudyAnswer as StudyAnswer,
+    StudySolution as StudySolution,
     StudyFlag as StudyFlag,
     StudyResult as StudyResult,
     SurfacePicture as SurfacePicture,

@@ -12,7 +12,7 @@
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
-#include <salebra/questions/slip.hpp>
+#include <salebra/analysis/slip.hpp>
 
 #include "bindings.hpp"
 #include "damping/largest_motion.hpp"

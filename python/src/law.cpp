@@ -67,7 +67,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
              const std::string& source) {
             // The law outlives the call.
             const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
-            const DeckQuestion question{.contacts = {deck_contact(alias, indentation)},
+            const DeckProblem problem{.contacts = {deck_contact(alias, indentation)},
                                         .format = format.value("format"),
                                         .units = parse_unit_system(units),
                                         .friction_coefficient = friction_coefficient,
@@ -78,7 +78,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
                                         .smallest_force = smallest_force,
                                         .name = name,
                                         .source = source};
-            return unlocked([&] { return ask(question).text; });
+            return unlocked([&] { return solve(problem).text; });
           },
           nb::arg("format"), nb::kw_only(), nb::arg("indentation") = nb::none(),
           nb::arg("nominal_area") = DeckContact::unknown,

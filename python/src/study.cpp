@@ -13,7 +13,7 @@
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <salebra/study/study_file.hpp>
 #include <salebra/study/verification.hpp>
 
@@ -157,13 +157,13 @@ void bind_result(nb::module_& m) {
                                 "A mean with its 95 % interval; NaN limits where there is none.");
   described_class<StatedMean>(m, "StatedMean",
                               "A mean with its 95 % interval and its numerical error.");
-  auto answer = described_class<StudyAnswer>(
-      m, "StudyAnswer",
+  auto answer = described_class<StudySolution>(
+      m, "StudySolution",
       "What a study says of the motion that was described, at each pressure, and whether it may be "
       "used.");
   result_methods(answer, true);
-  answer.def("__repr__", [](const StudyAnswer& self) {
-    return fmt::format("StudyAnswer(validity='{}', {} pressures)", name_of(self.validity),
+  answer.def("__repr__", [](const StudySolution& self) {
+    return fmt::format("StudySolution(validity='{}', {} pressures)", name_of(self.validity),
                        self.damping_constant.size());
   });
   described_class<StudyFlag>(m, "StudyFlag",
@@ -228,7 +228,7 @@ void bind_result(nb::module_& m) {
           "Least and greatest deviation of Eq. (16) from the theorem on the curve.")
       .def(
           "answer",
-          [](const StudyResult& self) { return unlocked([&] { return answer_of(self); }); },
+          [](const StudyResult& self) { return unlocked([&] { return solution_of(self); }); },
           "The damping constant of the contact as described, with slip where the coefficient of "
           "friction is known, its shares, its conditions and their verdict.")
       .def(

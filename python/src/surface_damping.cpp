@@ -8,7 +8,7 @@
 #include <cmath>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 #include <utility>
 
 #include "bindings.hpp"
@@ -24,7 +24,7 @@ namespace salebra::python {
 namespace {
 
 /// The losses of a solution, whose premises are known.
-BoundDampingCurve curve_of(const DampingAnswer& answer, const std::vector<double>& pressures) {
+BoundDampingCurve curve_of(const DampingSolution& answer, const std::vector<double>& pressures) {
   BoundDampingCurve curve{"pressure", pressures, {}};
   for (std::size_t i = 0; i < answer.results.size(); ++i)
     curve.results.push_back({answer.results[i], answer.premises[i], {}});
@@ -91,7 +91,7 @@ void bind_surface_damping(nb::module_& m) {
         BoundDampingCurve found = interruptible(progress, [&](Progress told) {
           SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
           if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
-          const DampingAnswer answer = ask(DampingQuestion{.contact = std::move(contact),
+          const DampingSolution answer = solve(DampingProblem{.contact = std::move(contact),
                                                            .motions = {described},
                                                            .hold = options.hold,
                                                            .amplitude = options.amplitude,

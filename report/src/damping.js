@@ -4,12 +4,12 @@
 
 const isDrag = (point) => point.damping?.mode === "drag";
 
-const slipFollowed = (point) => point.slip_followed === "yes" && point.answer?.damping_constant?.mean.some(known);
+const slipFollowed = (point) => point.slip_followed === "yes" && point.solution?.damping_constant?.mean.some(known);
 
 /** The loss of the motion described, and the three routes to that without slip, as DampingPoint has them. */
 function routes(point) {
   return {
-    ...(slipFollowed(point) ? {answer: {label: "computed, with slip", style: {color: "purple", symbol: "triangle-up", dash: "solid"}}} : {}),
+    ...(slipFollowed(point) ? {solution: {label: "computed, with slip", style: {color: "purple", symbol: "triangle-up", dash: "solid"}}} : {}),
     law: {label: isDrag(point) ? "Eq. (16), fitted ‹l›" : "Eq. (12), fitted ‹l›", style: {color: "vermilion", symbol: "square", dash: "dash"}},
     small: {label: isDrag(point) ? "Eq. (15), ‹F›″ of the curve" : "Eq. (12), ‹F›″ of the curve", style: {color: "ochre", symbol: "diamond", dash: "dot"}},
     curve: {label: slipFollowed(point) ? "computed, without slip" : "computed", style: {color: "blue", symbol: "circle", dash: "solid"}},
@@ -41,10 +41,10 @@ function dampingFigure(parent, point) {
     return ratios[0];
   };
   const direct = () => (damping.direct ?? []).map((d) => ({...d, value: d.work_per_cycle * (measure === "work_per_cycle" ? 1 : constantPerWork())}));
-  const estimate = (route) => (route !== "answer" ? damping[route]?.[measure]?.[model.name] : model.name !== "bem" ? undefined : ratioOf(point.answer.damping_constant, measure === "work_per_cycle" ? constantPerWork() : 1));
+  const estimate = (route) => (route !== "solution" ? damping[route]?.[measure]?.[model.name] : model.name !== "bem" ? undefined : ratioOf(point.solution.damping_constant, measure === "work_per_cycle" ? constantPerWork() : 1));
   // A second derivative of a curve may be far off everything else; such points stand in the table.
   const shown = (key) => {
-    const values = estimate(key), others = ["answer", "curve", "law"].filter((route) => route in routes(point)).flatMap((route) => estimate(route)?.mean ?? []).filter((v) => v > 0);
+    const values = estimate(key), others = ["solution", "curve", "law"].filter((route) => route in routes(point)).flatMap((route) => estimate(route)?.mean ?? []).filter((v) => v > 0);
     if (key !== "small" || !values || !others.length) return values;
     const near = values.mean.map((v) => v > Math.min(...others) / 5 && v < 5 * Math.max(...others));
     return Object.fromEntries(Object.entries(values).map(([member, list]) => [member, list.map((v, i) => (near[i] ? v : null))]));
@@ -69,7 +69,7 @@ function dampingFigure(parent, point) {
       const drawn = band(route.label, force, values, route.style, {text: force.map((value, i) => `${plotText(route.label)}: ${quantity(values.mean[i], MEASURES[measure].unit)}`
         + (known(values.low?.[i]) ? `<br>95 %: ${interval({low: values.low[i], high: values.high[i]}, MEASURES[measure].unit)}` : "")
         + (known(values.error?.[i]) && known(values.mean[i]) ? `<br>numerical error ${errorPercent(values.error[i] / Math.abs(values.mean[i]))}` : "")
-        + (!["curve", "answer"].includes(key) && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
+        + (!["curve", "solution"].includes(key) && known(reference?.mean[i]) ? `<br>${percent(values.mean[i] / reference.mean[i] - 1)} of the computed` : "") + `<br><i>F</i> = ${quantity(value, "N")}, <i>p</i> = ${quantity(point.pressure[i], "Pa", 3)}`)});
       if (values.error?.some(known)) drawn.at(-1).error_y = {type: "data", array: values.error.map((e, i) => (known(e) && known(values.mean[i]) ? e : 0)), color: color(route.style.color), thickness: 1.5};
       return drawn;
     })].sort((a, b) => Number(b.mode === "none") - Number(a.mode === "none"))}),

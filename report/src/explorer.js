@@ -218,7 +218,7 @@ function conditionsOf(point, k, law, middle, motion, loss) {
  * A surface of which single spots decide may have a curve that is far off.
  */
 function curveCondition(point, k, law) {
-  const contacts = point.answer?.damping_constant;
+  const contacts = point.solution?.damping_constant;
   if (!contacts?.error?.some(known)) return null;
   const studied = studiedMotion(point), middle = meanIndentation(point, law, k, studied.normal_amplitude), motion = motionOf(law, middle, studied), slips = point.slip_followed === "yes";
   const loss = middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;

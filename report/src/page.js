@@ -21,7 +21,7 @@ const finding = (title, value, details, doubt) => h("div", {class: doubt ? "find
 function cards(point) {
   const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
   if (point.validity) found.push(finding("Validity", point.validity, ["the conditions stand below, worst first"], doubt));
-  if (point.answer?.regime) found.push(finding("Regime", point.answer.regime[shownLoad(point)], ["at the load chosen"], point.answer.regime[shownLoad(point)] === "sliding"));
+  if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the load chosen"], point.solution.regime[shownLoad(point)] === "sliding"));
   if (known(fit?.decay_length?.mean)) {
     const ratio = fit.decay_length_over_rms_height, limits = [interval(fit.decay_length, "m"), interval(ratio, "1")];
     found.push(finding(fit.fair === 0 ? "Force law ‹F› ∝ exp(−‹ū›/‹l›), a poor description" : "Force law ‹F› ∝ exp(−‹ū›/‹l›)", `‹l› = ${quantity(fit.decay_length.mean, "m", 3)}`,
@@ -33,11 +33,11 @@ function cards(point) {
   if (pull) found.push(finding("Pull-off", quantity(pull.mean, "Pa", 3), [interval(pull, "Pa") && `95 %: ${interval(pull, "Pa")}`, known(work?.mean) && `a cycle loses ${quantity(work.mean, "J", 3)}, ± ${quantity(adhesion.adhesion_work_error?.mean, "J", 2)} by its steps`]));
   if (!damping) return found;
   const i = shownLoad(point), curve = damping.curve?.damping_constant?.bem, law = damping.law?.damping_constant?.bem, slip = point.slip_followed === "yes";
-  const shown = slip ? point.answer.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
+  const shown = slip ? point.solution.damping_constant : curve ?? law, value = shown?.mean[i], error = shown?.error?.[i] / Math.abs(value);
   const limits = interval({low: shown?.low?.[i], high: shown?.high?.[i]}, "N s/m");
   const lawName = isDrag(point) ? "Eq. (16)" : "Eq. (12)";
   found.push(finding(slip ? "Damping constant" : "Damping constant without slip", known(value) ? quantity(value, "N s/m", error > 0.1 ? 2 : 3) : "n/a",
-    [slip && known(point.answer.slip_share[i]) ? `${number(100 * point.answer.slip_share[i], 2)}${NARROW}% of the loss by slip` : "", limits && `95 %: ${limits}`, known(error) ? `numerical error ${errorPercent(error)}` : "",
+    [slip && known(point.solution.slip_share[i]) ? `${number(100 * point.solution.slip_share[i], 2)}${NARROW}% of the loss by slip` : "", limits && `95 %: ${limits}`, known(error) ? `numerical error ${errorPercent(error)}` : "",
       `at ‹F› = ${quantity(damping.force[i], "N", 3)}, ‹p› = ${quantity(point.pressure[i], "Pa", 3)}`,
       known(curve?.mean[i]) && known(law?.mean[i]) ? `${lawName} gives ${quantity(law.mean[i], "N s/m", 3)}, ${percent(law.mean[i] / curve.mean[i] - 1)}${slip ? ` against ${quantity(curve.mean[i], "N s/m", 3)} without slip` : ""}` : ""], doubt));
   return found;

@@ -131,7 +131,7 @@ struct LevelValues {
   double ratio = ForceSample::unknown;  // K_t/((G*/E*)K)
 };
 
-// The question, and the contacts that are solved for it.
+// The problem, and the contacts that are solved for it.
 class LevelSolver {
  public:
   LevelSolver(const ContactLevels& levels, const Grid2D& grid, const Material& material,

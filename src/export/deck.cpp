@@ -14,7 +14,7 @@
 
 #include "damping/largest_motion.hpp"
 #include "formats.hpp"
-#include "questions/part.hpp"
+#include "analysis/part.hpp"
 
 namespace salebra {
 namespace {
@@ -75,41 +75,41 @@ std::vector<std::size_t> by_force(const std::vector<DeckContact>& contacts, doub
   return order;
 }
 
-/// The question about the part.
-DeckQuestion of_part(DeckQuestion question) {
-  const double area = question.nominal_area;
-  if (std::isnan(area)) return question;
+/// The problem about the part.
+DeckProblem of_part(DeckProblem problem) {
+  const double area = problem.nominal_area;
+  if (std::isnan(area)) return problem;
   require_positive(area, "nominal_area");
-  for (DeckContact& contact : question.contacts) {
+  for (DeckContact& contact : problem.contacts) {
     const double sample = std::exchange(contact.nominal_area, area);
     if (std::isnan(sample) || sample == area) continue;
     contact.law = law_of_part(std::move(contact.law), area / sample);
     contact.sample_area = sample;
   }
-  return question;
+  return problem;
 }
 
-Range common_range(const DeckQuestion& question) {
+Range common_range(const DeckProblem& problem) {
   Range range;
-  for (const DeckContact& contact : question.contacts) {
+  for (const DeckContact& contact : problem.contacts) {
     double lowest = contact.lowest, highest = contact.highest;
     require_that(!std::isnan(lowest), "indentation",
                  "not given, but a law without a table is taken from forces about that there");
-    if (question.pressure_window) {
+    if (problem.pressure_window) {
       const double area = contact.nominal_area;
-      lowest = contact.law->indentation_of(question.pressure_window->first * area);
-      highest = contact.law->indentation_of(question.pressure_window->second * area);
+      lowest = contact.law->indentation_of(problem.pressure_window->first * area);
+      highest = contact.law->indentation_of(problem.pressure_window->second * area);
       const double rest = std::isnan(contact.indentation) ? lowest : contact.indentation;
       const double most = detail::possible_indentation(*contact.law, rest, highest);
       require(
-          !(highest > most), "pressure_window", question.pressure_window->second,
+          !(highest > most), "pressure_window", problem.pressure_window->second,
           fmt::format("Pa is a pressure that this contact cannot reach; at most {}",
                       format_quantity(contact.law->force(most) / area, Dimension::pressure, 3)));
     }
     range.far = std::min(range.far, contact.clearance_origin - lowest);
     range.close = std::max(range.close, contact.clearance_origin - highest);
   }
-  require(range.close < range.far, "pressure_window", question.contacts.size(),
+  require(range.close < range.far, "pressure_window", problem.contacts.size(),
           "surfaces have no clearances in common; widen the window");
   return range;
 }
@@ -146,19 +146,19 @@ std::vector<double> convex(const std::vector<double>& pressure, const std::strin
 }
 
 /// The mean of some contacts on the clearances of a deck, per area.
-DeckLaw law_of_contacts(const DeckQuestion& question, const std::vector<double>& clearance,
+DeckLaw law_of_contacts(const DeckProblem& problem, const std::vector<double>& clearance,
                         const std::vector<std::size_t>& which) {
   DeckLaw law;
   const double share = 1 / double(which.size());
   bool tangential = true;
   for (const std::size_t i : which)
-    tangential = tangential && question.contacts[i].knows_tangential_stiffness;
+    tangential = tangential && problem.contacts[i].knows_tangential_stiffness;
   law.pressure.assign(clearance.size(), 0);
   law.normal_stiffness = law.pressure;
   if (tangential) law.tangential_stiffness = law.pressure;
   for (std::size_t row = 0; row < clearance.size(); ++row)
     for (const std::size_t i : which) {
-      const DeckContact& contact = question.contacts[i];
+      const DeckContact& contact = problem.contacts[i];
       const double weight = share / contact.nominal_area;
       // The ends of the range may miss the table by rounding.
       const double indentation =
@@ -168,28 +168,28 @@ DeckLaw law_of_contacts(const DeckQuestion& question, const std::vector<double>&
       if (tangential)
         law.tangential_stiffness[row] += weight * contact.law->tangential_stiffness(indentation);
     }
-  if (!std::isnan(question.friction_coefficient)) {
+  if (!std::isnan(problem.friction_coefficient)) {
     double slope = 0, pressure = 0;
     for (const std::size_t i : which) {
-      const DeckContact& contact = question.contacts[i];
+      const DeckContact& contact = problem.contacts[i];
       const double weight = share / contact.nominal_area;
       slope += weight * contact.law->tangential_stiffness(contact.indentation);
       pressure += weight * contact.law->force(contact.indentation);
     }
     law.stick_slope = slope;
-    law.elastic_slip = question.friction_coefficient * pressure / slope;
+    law.elastic_slip = problem.friction_coefficient * pressure / slope;
   }
   return law;
 }
 
-double interpolation_error(const DeckQuestion& question, const Deck& deck) {
+double interpolation_error(const DeckProblem& problem, const Deck& deck) {
   const DeckLaw& mean = deck.laws.front();
   std::vector<double> middle;
   for (std::size_t i = 1; i < deck.clearance.size(); ++i)
     middle.push_back((deck.clearance[i - 1] + deck.clearance[i]) / 2);
-  std::vector<std::size_t> all(question.contacts.size());
+  std::vector<std::size_t> all(problem.contacts.size());
   std::iota(all.begin(), all.end(), 0);
-  const DeckLaw between = law_of_contacts(question, middle, all);
+  const DeckLaw between = law_of_contacts(problem, middle, all);
   double worst = 0;
   for (std::size_t i = 0; i < middle.size(); ++i) {
     const double line = (mean.pressure[i] + mean.pressure[i + 1]) / 2;
@@ -199,9 +199,9 @@ double interpolation_error(const DeckQuestion& question, const Deck& deck) {
 }
 
 /// The mean, and of several low and high.
-std::vector<std::pair<DeckCase, std::vector<std::size_t>>> cases_of(const DeckQuestion& question,
+std::vector<std::pair<DeckCase, std::vector<std::size_t>>> cases_of(const DeckProblem& problem,
                                                                     double clearance) {
-  const std::vector<std::size_t> order = by_force(question.contacts, clearance);
+  const std::vector<std::size_t> order = by_force(problem.contacts, clearance);
   std::vector<std::pair<DeckCase, std::vector<std::size_t>>> cases{{DeckCase::mean, order}};
   if (order.size() > 1) {
     const auto rank = std::size_t(0.025 * double(order.size()));
@@ -219,27 +219,27 @@ std::string what_of(DeckCase which, const std::vector<std::size_t>& surfaces, st
                      rank, which == DeckCase::low ? "lowest" : "highest");
 }
 
-void check(const DeckQuestion& question, detail::DeckContent content) {
+void check(const DeckProblem& problem, detail::DeckContent content) {
   const bool table = content == detail::DeckContent::table;
   const bool levels = content == detail::DeckContent::levels;
-  require(!question.contacts.empty(), "contacts", 0, "are given; give one at least");
-  require(question.rows >= 4 && question.rows <= 100000, "rows", question.rows,
+  require(!problem.contacts.empty(), "contacts", 0, "are given; give one at least");
+  require(problem.rows >= 4 && problem.rows <= 100000, "rows", problem.rows,
           "must be from 4 to 100000");
-  require(question.sliders >= 2 && question.sliders <= 100000, "sliders", question.sliders,
+  require(problem.sliders >= 2 && problem.sliders <= 100000, "sliders", problem.sliders,
           "must be from 2 to 100000");
-  require(question.smallest_force > 0 && question.smallest_force < 1, "smallest_force",
-          question.smallest_force, "must be > 0 and < 1, a part of the force at which all slips");
-  if (question.pressure_window)
-    require(question.pressure_window->first > 0 &&
-                question.pressure_window->second > question.pressure_window->first,
-            "pressure_window", question.pressure_window->first, "must be > 0 and rise");
-  const bool friction = !std::isnan(question.friction_coefficient);
-  if (friction) require_positive(question.friction_coefficient, "friction_coefficient");
+  require(problem.smallest_force > 0 && problem.smallest_force < 1, "smallest_force",
+          problem.smallest_force, "must be > 0 and < 1, a part of the force at which all slips");
+  if (problem.pressure_window)
+    require(problem.pressure_window->first > 0 &&
+                problem.pressure_window->second > problem.pressure_window->first,
+            "pressure_window", problem.pressure_window->first, "must be > 0 and rise");
+  const bool friction = !std::isnan(problem.friction_coefficient);
+  if (friction) require_positive(problem.friction_coefficient, "friction_coefficient");
   require_that(content != detail::DeckContent::sliders || friction, "friction_coefficient",
                "not given, but sliders need it");
-  for (const DeckContact& contact : question.contacts) {
+  for (const DeckContact& contact : problem.contacts) {
     const double area = contact.nominal_area;
-    if (table || question.pressure_window || (levels && question.contacts.size() > 1))
+    if (table || problem.pressure_window || (levels && problem.contacts.size() > 1))
       require_that(area > 0 && std::isfinite(area), "nominal_area",
                    "not given, but a pressure is a force per nominal area");
     if (!friction && !levels) continue;
@@ -255,7 +255,7 @@ void check(const DeckQuestion& question, detail::DeckContent content) {
 
 /// All numbers of the deck, from SI.
 void convert(Deck& deck) {
-  const UnitSystem& units = deck.question.units;
+  const UnitSystem& units = deck.problem.units;
   const auto scale = [&](auto& values, Dimension dimension) {
     const double factor = 1 / units.in_si(dimension);
     if constexpr (std::is_same_v<std::remove_cvref_t<decltype(values)>, double>)
@@ -279,24 +279,24 @@ void convert(Deck& deck) {
   scale(deck.exponential_length, Dimension::length);
 }
 
-std::vector<std::string> opening(const DeckQuestion& question) {
-  const UnitSystem& units = question.units;
+std::vector<std::string> opening(const DeckProblem& problem) {
+  const UnitSystem& units = problem.units;
   std::vector<std::string> lines{
       fmt::format("Contact law by salebra {}{}", version(),
-                  question.provenance.revision.empty()
+                  problem.provenance.revision.empty()
                       ? ""
-                      : " (revision " + question.provenance.revision + ")"),
+                      : " (revision " + problem.provenance.revision + ")"),
       "License of this file: MIT-0, https://opensource.org/license/mit-0",
       fmt::format("Units: {}. The unit of force is {:g} N, of pressure {:g} Pa.", units.text(),
                   units.in_si(Dimension::force), units.in_si(Dimension::pressure))};
-  if (!question.source.empty()) lines.push_back("Source: " + question.source);
-  if (!question.provenance.command_line.empty())
-    lines.push_back("Made by: " + question.provenance.command_line);
+  if (!problem.source.empty()) lines.push_back("Source: " + problem.source);
+  if (!problem.provenance.command_line.empty())
+    lines.push_back("Made by: " + problem.provenance.command_line);
   lines.emplace_back(
       "Premises: quasi-static, nested contact sets, the same law on loading and unloading; no "
       "adhesion, no wear.");
-  if (!question.remark.empty()) lines.push_back(question.remark);
-  const DeckContact& first = question.contacts.front();
+  if (!problem.remark.empty()) lines.push_back(problem.remark);
+  const DeckContact& first = problem.contacts.front();
   const double square = 1 / (units.in_si(Dimension::length) * units.in_si(Dimension::length));
   if (!std::isnan(first.sample_area))
     lines.push_back(fmt::format(
@@ -309,73 +309,73 @@ std::vector<std::string> opening(const DeckQuestion& question) {
   return lines;
 }
 
-void add_table(Deck& deck, int most_rows, DeckAnswer& answer) {
-  const DeckQuestion& question = deck.question;
-  const Range range = common_range(question);
-  const int rows = std::min(question.rows, most_rows);
+void add_table(Deck& deck, int most_rows, DeckSolution& answer) {
+  const DeckProblem& problem = deck.problem;
+  const Range range = common_range(problem);
+  const int rows = std::min(problem.rows, most_rows);
   for (int i = 0; i < rows; ++i)
     deck.clearance.push_back(std::lerp(range.far, range.close, double(i) / (rows - 1)));
   const double middle = (range.far + range.close) / 2;
-  for (const auto& [which, surfaces] : cases_of(question, middle)) {
-    DeckLaw law = law_of_contacts(question, deck.clearance, surfaces);
+  for (const auto& [which, surfaces] : cases_of(problem, middle)) {
+    DeckLaw law = law_of_contacts(problem, deck.clearance, surfaces);
     law.name = name_of(which);
-    law.what = what_of(which, surfaces, question.contacts.size());
+    law.what = what_of(which, surfaces, problem.contacts.size());
     law.pressure = convex(law.pressure, law.what);
     deck.laws.push_back(std::move(law));
   }
-  answer.interpolation_error = interpolation_error(question, deck);
-  const DeckContact& first = question.contacts.front();
-  if (question.contacts.size() == 1 && !std::isnan(first.decay_length)) {
+  answer.interpolation_error = interpolation_error(problem, deck);
+  const DeckContact& first = problem.contacts.front();
+  if (problem.contacts.size() == 1 && !std::isnan(first.decay_length)) {
     deck.exponential_length = first.decay_length;
     deck.exponential_pressure = force_at(first, 0) / first.nominal_area;
   }
-  const double metre = 1 / question.units.in_si(Dimension::length),
-               pascal = 1 / question.units.in_si(Dimension::pressure);
+  const double metre = 1 / problem.units.in_si(Dimension::length),
+               pascal = 1 / problem.units.in_si(Dimension::pressure);
   deck.header.push_back(fmt::format("Clearance: counted from {}.", first.clearance_from));
   deck.header.push_back(fmt::format(
       "Window: clearance {:.6g} to {:.6g}, mean pressure {:.6g} to {:.6g}; straight lines between "
       "the {} rows are off by {:.2g} % at most.",
       range.far * metre, range.close * metre, deck.laws.front().pressure.front() * pascal,
       deck.laws.front().pressure.back() * pascal, rows, 100 * answer.interpolation_error));
-  if (question.contacts.size() > 1)
+  if (problem.contacts.size() > 1)
     deck.header.push_back(
         fmt::format("Low and high are whole surfaces, ranked by their force at clearance {:.6g}.",
                     middle * metre));
   if (deck.has_friction())
     deck.header.push_back(fmt::format(
         "Friction: coefficient {:.6g}; tangential stiffness at the mean pressure {:.6g}.",
-        question.friction_coefficient,
+        problem.friction_coefficient,
         deck.laws.front().elastic_slip * deck.laws.front().stick_slope /
-            question.friction_coefficient * pascal));
+            problem.friction_coefficient * pascal));
 }
 
 /// The contacts of one case, and what they are called.
-std::pair<std::vector<std::size_t>, std::string> case_of(const DeckQuestion& question) {
-  if (question.contacts.size() == 1) return {{0}, what_of(question.of, {0}, 1)};
-  const Range range = common_range(question);
-  for (const auto& [which, surfaces] : cases_of(question, (range.far + range.close) / 2))
-    if (which == question.of) return {surfaces, what_of(which, surfaces, question.contacts.size())};
+std::pair<std::vector<std::size_t>, std::string> case_of(const DeckProblem& problem) {
+  if (problem.contacts.size() == 1) return {{0}, what_of(problem.of, {0}, 1)};
+  const Range range = common_range(problem);
+  for (const auto& [which, surfaces] : cases_of(problem, (range.far + range.close) / 2))
+    if (which == problem.of) return {surfaces, what_of(which, surfaces, problem.contacts.size())};
   return {};
 }
 
-void add_sliders(Deck& deck, DeckAnswer& answer) {
-  const DeckQuestion& question = deck.question;
-  const auto [which, what] = case_of(question);
+void add_sliders(Deck& deck, DeckSolution& answer) {
+  const DeckProblem& problem = deck.problem;
+  const auto [which, what] = case_of(problem);
   std::vector<DeckContact> contacts;
-  for (const std::size_t i : which) contacts.push_back(question.contacts[i]);
-  detail::SliderSet set = detail::jenkins_sliders(contacts, question.friction_coefficient,
-                                                  question.sliders, question.smallest_force);
+  for (const std::size_t i : which) contacts.push_back(problem.contacts[i]);
+  detail::SliderSet set = detail::jenkins_sliders(contacts, problem.friction_coefficient,
+                                                  problem.sliders, problem.smallest_force);
   answer.tangential_stiffness = set.stiffness;
   answer.slip_force = set.force;
   answer.loss_error = set.loss_error;
   double force = 0;
   for (const DeckContact& contact : contacts)
     force += contact.law->force(contact.indentation) / double(contacts.size());
-  const double newton = 1 / question.units.in_si(Dimension::force),
-               stiffness = 1 / question.units.in_si(Dimension::stiffness);
+  const double newton = 1 / problem.units.in_si(Dimension::force),
+               stiffness = 1 / problem.units.in_si(Dimension::stiffness);
   deck.header.push_back(
       fmt::format("Of: {}, at the normal force {:.10g} with the coefficient of friction {:.6g}.",
-                  what, force * newton, question.friction_coefficient));
+                  what, force * newton, problem.friction_coefficient));
   deck.header.push_back(fmt::format(
       "Sliders in parallel: each a spring in series with a slider. Together: stiffness {:.10g}, "
       "force {:.10g}.",
@@ -383,19 +383,19 @@ void add_sliders(Deck& deck, DeckAnswer& answer) {
   deck.header.push_back(fmt::format(
       "Loss of a cycle at {:g} of the force of all: off by {:.3g} %. Beyond {:.4g} of it all that "
       "sticks is one slider.",
-      question.smallest_force, 100 * set.loss_error, set.resolved));
+      problem.smallest_force, 100 * set.loss_error, set.resolved));
   deck.sliders = std::move(set.sliders);
 }
 
 /// The law of a case: of one contact its own, of several their mean at each clearance as a table.
-std::shared_ptr<const ContactLaw> law_of_case(const DeckQuestion& question, const Range& range,
+std::shared_ptr<const ContactLaw> law_of_case(const DeckProblem& problem, const Range& range,
                                               const std::vector<std::size_t>& which) {
-  const DeckContact& first = question.contacts[which.front()];
+  const DeckContact& first = problem.contacts[which.front()];
   if (which.size() == 1) return first.law;
   std::vector<double> clearance;
-  for (int i = 0; i < question.rows; ++i)
-    clearance.push_back(std::lerp(range.far, range.close, double(i) / (question.rows - 1)));
-  const DeckLaw mean = law_of_contacts(question, clearance, which);
+  for (int i = 0; i < problem.rows; ++i)
+    clearance.push_back(std::lerp(range.far, range.close, double(i) / (problem.rows - 1)));
+  const DeckLaw mean = law_of_contacts(problem, clearance, which);
   const double area = first.nominal_area;
   ForceCurve curve{.model = "mean", .nominal_area = area, .samples = {}};
   for (std::size_t i = 0; i < clearance.size(); ++i)
@@ -407,22 +407,22 @@ std::shared_ptr<const ContactLaw> law_of_case(const DeckQuestion& question, cons
 }
 
 void add_levels(Deck& deck) {
-  const DeckQuestion& question = deck.question;
-  const Range range = common_range(question);
-  const auto [which, what] = case_of(question);
-  const DeckContact& first = question.contacts[which.front()];
-  const std::shared_ptr<const ContactLaw> law = law_of_case(question, range, which);
+  const DeckProblem& problem = deck.problem;
+  const Range range = common_range(problem);
+  const auto [which, what] = case_of(problem);
+  const DeckContact& first = problem.contacts[which.front()];
+  const std::shared_ptr<const ContactLaw> law = law_of_case(problem, range, which);
   // The ends of the range may miss a table by rounding.
   const double lowest = std::max(first.clearance_origin - range.far, law->lowest_indentation());
   const double highest = std::min(first.clearance_origin - range.close, law->highest_indentation());
-  const bool friction = !std::isnan(question.friction_coefficient);
+  const bool friction = !std::isnan(problem.friction_coefficient);
   deck.levels = std::make_shared<const LawLevels>(
       *law, lowest, highest,
-      LawLevelsOptions{.friction_coefficient = friction ? question.friction_coefficient
+      LawLevelsOptions{.friction_coefficient = friction ? problem.friction_coefficient
                                                         : std::numeric_limits<double>::infinity(),
-                       .levels = question.sliders});
-  const double metre = 1 / question.units.in_si(Dimension::length),
-               newton = 1 / question.units.in_si(Dimension::force);
+                       .levels = problem.sliders});
+  const double metre = 1 / problem.units.in_si(Dimension::length),
+               newton = 1 / problem.units.in_si(Dimension::force);
   deck.header.push_back(
       fmt::format("Of: {}. Indentation: {:.6g} less the clearance, which is counted from {}.", what,
                   first.clearance_origin * metre, first.clearance_from));
@@ -447,20 +447,20 @@ DeckContact deck_contact(std::shared_ptr<const ContactLaw> law, std::optional<do
   return contact;
 }
 
-DeckContact deck_contact(ContactQuestion question, const Context& context) {
+DeckContact deck_contact(ContactProblem problem, const Context& context) {
   bool knows_tangential_stiffness = true;
   double decay_length = DeckContact::unknown;
   std::string clearance_from = "first touch, and is the negative of the indentation";
-  if (auto* curve = std::get_if<CurveContact>(&question)) {
+  if (auto* curve = std::get_if<CurveContact>(&problem)) {
     // K_t of every sample takes the place of G*/E*, which then may be any number.
     knows_tangential_stiffness = complete(curve->curve, &ForceSample::tangential_stiffness) ||
                                  !std::isnan(curve->modulus_ratio);
     if (std::isnan(curve->modulus_ratio)) curve->modulus_ratio = 1;
-  } else if (const auto* law = std::get_if<ExponentialContact>(&question)) {
+  } else if (const auto* law = std::get_if<ExponentialContact>(&problem)) {
     decay_length = law->decay_length;
     clearance_from = "where the normal force is that of the position";
   }
-  ContactAnswer answer = ask(std::move(question), context);
+  ContactSolution answer = solve(std::move(problem), context);
   require(answer.positions.size() < 2, "contacts",
           fmt::format("{} positions", answer.positions.size()), "are given; a deck takes one");
   std::optional<double> indentation;
@@ -475,13 +475,13 @@ DeckContact deck_contact(ContactQuestion question, const Context& context) {
   return contact;
 }
 
-DeckAnswer ask(const DeckQuestion& asked) {
-  const DeckQuestion question = of_part(asked);
-  const detail::DeckWriter& writer = detail::writer_of(question.format);
-  check(question, writer.content);
-  DeckAnswer answer;
-  answer.surfaces = int(question.contacts.size());
-  Deck deck{.question = question, .header = opening(question)};
+DeckSolution solve(const DeckProblem& asked) {
+  const DeckProblem problem = of_part(asked);
+  const detail::DeckWriter& writer = detail::writer_of(problem.format);
+  check(problem, writer.content);
+  DeckSolution answer;
+  answer.surfaces = int(problem.contacts.size());
+  Deck deck{.problem = problem, .header = opening(problem)};
   switch (writer.content) {
     case detail::DeckContent::table:
       add_table(deck, writer.most_rows, answer);

@@ -36,7 +36,7 @@ void require_rising(const Deck& deck, const std::vector<double>& column, const c
             fmt::format("are too many: two have the {} {} in all digits that are read; give fewer, "
                         "or {}",
                         what, column[i],
-                        deck.question.pressure_window
+                        deck.problem.pressure_window
                             ? "widen `pressure_window`"
                             : "count the indentation from nearer to the contact"));
 }
@@ -80,7 +80,7 @@ std::string csv(const Deck& deck) {
 /// Its members are described in docs/howto/decks.md.
 std::string json(const Deck& deck) {
   require_rising(deck);
-  const DeckQuestion& question = deck.question;
+  const DeckProblem& problem = deck.problem;
   Json laws = Json::object();
   for (const DeckLaw& law : deck.laws) {
     Json one{{"surfaces", law.what},
@@ -96,15 +96,15 @@ std::string json(const Deck& deck) {
   Json object{{"format", "salebra contact law 1"},
               {"license", "MIT-0"},
               {"version", version()},
-              {"revision", question.provenance.revision},
+              {"revision", problem.provenance.revision},
               {"header", deck.header},
-              {"units", Json{{"length", question.units.length},
-                             {"mass", question.units.mass},
-                             {"time", question.units.time}}},
-              {"clearance_from", question.contacts.front().clearance_from},
+              {"units", Json{{"length", problem.units.length},
+                             {"mass", problem.units.mass},
+                             {"time", problem.units.time}}},
+              {"clearance_from", problem.contacts.front().clearance_from},
               {"clearance", deck.clearance},
               {"laws", laws}};
-  if (deck.has_friction()) object["friction_coefficient"] = question.friction_coefficient;
+  if (deck.has_friction()) object["friction_coefficient"] = problem.friction_coefficient;
   return object.dump(1) + "\n";
 }
 
@@ -173,7 +173,7 @@ std::string calculix(const Deck& deck) {
           number(zero), number(zero), name, overclosures(rows_of(deck, law, zero, steps)));
     }
     if (deck.has_friction())
-      text += fmt::format("*FRICTION\n{}, {}\n", number(deck.question.friction_coefficient),
+      text += fmt::format("*FRICTION\n{}, {}\n", number(deck.problem.friction_coefficient),
                           number(law.stick_slope));
   }
   return text;
@@ -192,7 +192,7 @@ std::string abaqus(const Deck& deck) {
         law.name, law.what, upper_case(law.name), overclosures(rows_of(deck, law, 0)));
     if (deck.has_friction())
       text += fmt::format("*FRICTION, ELASTIC SLIP={}\n{},\n", number(law.elastic_slip),
-                          number(deck.question.friction_coefficient));
+                          number(deck.problem.friction_coefficient));
   }
   return text;
 }
@@ -256,8 +256,8 @@ std::string jenkins(const Deck& deck) {
 }
 
 std::string header_of_c(const Deck& deck) {
-  const UnitSystem& units = deck.question.units;
-  return c_header(*deck.levels, {.name = deck.question.name,
+  const UnitSystem& units = deck.problem.units;
+  return c_header(*deck.levels, {.name = deck.problem.name,
                                  .comment = deck.header,
                                  .length_unit = units.in_si(Dimension::length),
                                  .force_unit = units.in_si(Dimension::force)});
@@ -265,7 +265,7 @@ std::string header_of_c(const Deck& deck) {
 
 }  // namespace
 
-bool Deck::has_friction() const { return !std::isnan(question.friction_coefficient); }
+bool Deck::has_friction() const { return !std::isnan(problem.friction_coefficient); }
 
 std::string comment(std::string_view sentence, const CommentStyle& style) {
   constexpr std::size_t most = 76;

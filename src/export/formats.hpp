@@ -27,7 +27,7 @@ struct Slider {
 };
 
 struct Deck {
-  const DeckQuestion& question;
+  const DeckProblem& problem;
   std::vector<std::string> header = {};  ///< lines, without the marks of comments
   std::vector<double> clearance = {};    ///< from the farthest to the closest
   std::vector<DeckLaw> laws = {};        ///< the mean, and of several surfaces low and high

@@ -35,7 +35,7 @@ Json to_json(const T& value) {
   return to_json(std::vector<T>{value}, false);
 }
 
-/// The answer to a question as an object, in the order of its description: numbers of one case,
+/// The answer to a problem as an object, in the order of its description: numbers of one case,
 /// lists of several. What is not there, and lists without cases, are left out.
 ///     Quantity  a value, an estimate as its members, or a list; words are a list always
 ///     Table     a list of described structs, whose columns are columns of the answer

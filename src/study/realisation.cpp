@@ -10,7 +10,7 @@
 #include <salebra/base/share.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/questions/slip.hpp>
+#include <salebra/analysis/slip.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <type_traits>

@@ -12,7 +12,7 @@
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <salebra/study/study_file.hpp>
 #include <set>
 
@@ -249,9 +249,9 @@ void write_damping(Table table, const StudyResult& result) {
     group.attribute("friction_coefficient", friction);
 }
 
-void write_answer(Table table, const StudyResult& result, const StudyAnswer& answer) {
+void write_solution(Table table, const StudyResult& result, const StudySolution& answer) {
   table.pressures(result);
-  for_each_column<StudyAnswer>([&](const auto& access, const Quantity& quantity) {
+  for_each_column<StudySolution>([&](const auto& access, const Quantity& quantity) {
     const auto& means = access(answer);
     if (!means.empty())
       table.put(std::string(quantity.name), quantity, Means(means.begin(), means.end()),
@@ -273,7 +273,7 @@ void write_answer(Table table, const StudyResult& result, const StudyAnswer& ans
   group.attribute("slip_followed", answer.slip_followed ? "yes" : "no");
 }
 
-void write_premises(ResultGroup group, const StudyResult& result, const StudyAnswer& answer) {
+void write_premises(ResultGroup group, const StudyResult& result, const StudySolution& answer) {
   group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
   for (const PremiseName& name : premise_names())
     for_each_column<Premise>([&](const auto& column, const Quantity& quantity) {
@@ -423,9 +423,9 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
   write_local_decay_lengths(table("local"), result);
   write_fits(table("fit"), result);
   if (!result.configuration.adhesion) {
-    const StudyAnswer answer = answer_of(result);
+    const StudySolution answer = solution_of(result);
     write_damping(table("damping"), result);
-    write_answer(table("answer"), result, answer);
+    write_solution(table("solution"), result, answer);
     write_premises(output.group(where + "premises"), result, answer);
   } else if (!result.configuration.adhesion->cycle.empty()) {
     write_adhesion(table("adhesion"), result);

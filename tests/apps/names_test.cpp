@@ -11,10 +11,10 @@
 #include <salebra/export/deck.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <sstream>
 
 #include "../../apps/salebra/answers.hpp"
@@ -51,7 +51,7 @@ const std::map<std::string, Meanings> groups{
     {"local", meanings_of<LocalDecayLength>()},
     {"fit", meanings_of<ModelResult, LawDescription>()},
     {"damping", meanings_of<DampingPoint, DeviationRange>()},
-    {"answer", meanings_of<DampingPoint, StudyAnswer>()},
+    {"answer", meanings_of<DampingPoint, StudySolution>()},
     {"spots", meanings_of<SpotStatistics>()},
     {"flow", meanings_of<FlowFactors>()},
     {"adhesion", meanings_of<AdhesionSample, AdhesiveCycleNumbers, ForceSample>()},
@@ -100,8 +100,8 @@ const std::set<std::string> counts{"realisations", "seed"};
 /// Columns of questions and of the program, which the library's glossary does not have.
 const Meanings& columns_of_program() {
   static const Meanings all =
-      meanings_of<Cost, PointCost, DampingQuestion, PathQuestion, DampingAnswer, DamperAnswer,
-                  DeckAnswer, cli::MotionOptions, cli::ContactPressures, MeanSummit,
+      meanings_of<Cost, PointCost, DampingProblem, PathProblem, DampingSolution, DamperSolution,
+                  DeckSolution, cli::MotionOptions, cli::ContactPressures, MeanSummit,
                   cli::SurfacePoints, cli::BearingTable, cli::Lay, cli::FitChoices>();
   return all;
 }
@@ -110,7 +110,7 @@ const Meanings& other_columns() {
   static const Meanings all = [] {
     Meanings found = columns_of_program();
     found.merge(meanings_of<Realisation, ModelResult, DampingPoint, SpotStatistics, SurfacePicture,
-                            AdhesionSample, DeviationRange, StudyTheories, StudyAnswer>());
+                            AdhesionSample, DeviationRange, StudyTheories, StudySolution>());
     return found;
   }();
   return all;

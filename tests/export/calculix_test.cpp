@@ -54,21 +54,21 @@ std::vector<double> press(const std::string& deck, double gap, const std::vector
 
 TEST_CASE("CalculiX presses a cube with the force of the law", "[export][calculix]") {
   if (skipped(!has_calculix(), "ccx is not installed")) return;
-  DeckQuestion question;
-  question.format = DeckFormat::calculix;
+  DeckProblem problem;
+  problem.format = DeckFormat::calculix;
   SECTION("exponential") {
-    question.contacts = {exponential()};
+    problem.contacts = {exponential()};
     // Clearances from 3 l down to −l.
     const double gap = 4 * decay_length;
     const std::vector<double> ways{1e-7, 2e-7, 3e-7, 4e-7, 5e-7};
-    const auto forces = press(ask(question).text, gap, ways);
+    const auto forces = press(solve(problem).text, gap, ways);
     REQUIRE(forces.size() == ways.size());
     for (std::size_t i = 0; i < ways.size(); ++i)
       CHECK(forces[i] == Approx(force0 * std::exp((ways[i] - gap) / decay_length)).epsilon(1e-3));
   }
   SECTION("table") {
-    question.contacts = {cubic()};
-    const std::string deck = ask(question).text;
+    problem.contacts = {cubic()};
+    const std::string deck = solve(problem).text;
     const double zero = rows_after(deck, "** mean")[0][0];
     const std::vector<double> ways{1.5e-7, 3e-7, 5e-7, 7e-7};
     const auto forces = press(deck, 0, ways);

@@ -60,9 +60,9 @@ double pressure(double clearance) {
   return force0 / area0 * rest * rest * rest;
 }
 
-std::string refusal(const DeckQuestion& question) {
+std::string refusal(const DeckProblem& problem) {
   try {
-    ask(question);
+    solve(problem);
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -83,12 +83,12 @@ TEST_CASE("Every deck of a table is read back as the law at its clearances, in e
   const auto [name, length, mass, time] = GENERATE(
       System{"m,kg,s", 1, 1, 1}, System{"mm,t,s", 1e-3, 1e3, 1}, System{"mm,kg,ms", 1e-3, 1, 1e-3});
   INFO(name_of(format) << " " << name);
-  DeckQuestion question;
-  question.contacts = {cubic()};
-  question.format = format;
-  question.units = parse_unit_system(name);
-  question.rows = 1000;
-  const DeckAnswer answer = ask(question);
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.format = format;
+  problem.units = parse_unit_system(name);
+  problem.rows = 1000;
+  const DeckSolution answer = solve(problem);
   auto table = table_of(format, answer.text);
   // Those of springs begin without a pressure.
   const bool from_zero = format != DeckFormat::csv && format != DeckFormat::json;
@@ -126,46 +126,46 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
   const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
                                DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster);
   INFO(name_of(format));
-  DeckQuestion question;
-  question.format = format;
-  question.contacts = {cubic()};
-  question.units = parse_unit_system("mm,t,s");
-  question.pressure_window = {2e6, 2e6 * (1 + 1e-7)};
+  DeckProblem problem;
+  problem.format = format;
+  problem.contacts = {cubic()};
+  problem.units = parse_unit_system("mm,t,s");
+  problem.pressure_window = {2e6, 2e6 * (1 + 1e-7)};
   const auto require_rows = [&] {
-    const auto table = table_of(format, ask(question).text);
+    const auto table = table_of(format, solve(problem).text);
     for (std::size_t i = 1; i < table.size(); ++i) {
       REQUIRE(table[i].first < table[i - 1].first);
       REQUIRE(table[i].second > table[i - 1].second);
     }
   };
   SECTION("rows that ten digits do not tell apart") {
-    question.rows = 1000;
+    problem.rows = 1000;
     require_rows();
   }
   SECTION("more rows than there are numbers between the ends") {
-    question.pressure_window = {2e6, 2e6 * (1 + 1e-14)};
-    question.rows = 100000;
-    CHECK_FALSE(refusal(question).empty());
+    problem.pressure_window = {2e6, 2e6 * (1 + 1e-14)};
+    problem.rows = 100000;
+    CHECK_FALSE(refusal(problem).empty());
     // Twenty characters tell fewer numbers apart than a double does.
     const bool few = format == DeckFormat::calculix || format == DeckFormat::abaqus;
-    question.pressure_window->second = 2e6 * (1 + 4e-14);
-    question.rows = 40;
+    problem.pressure_window->second = 2e6 * (1 + 4e-14);
+    problem.rows = 40;
     if (few)
-      CHECK_THAT(refusal(question), Contains("rows: 40 are too many: two have the ") &&
+      CHECK_THAT(refusal(problem), Contains("rows: 40 are too many: two have the ") &&
                                         Contains("in all digits that are read; give fewer, or "
                                                  "widen `pressure_window`"));
     // The remedy helps.
-    question.rows = 4;
-    question.pressure_window->second = 2e6 * (1 + 1e-10);
+    problem.rows = 4;
+    problem.pressure_window->second = 2e6 * (1 + 1e-10);
     require_rows();
   }
   SECTION("a clearance that is counted from far away") {
-    question.pressure_window.reset();
-    question.contacts.front().clearance_origin += 1e-2;
+    problem.pressure_window.reset();
+    problem.contacts.front().clearance_origin += 1e-2;
     require_rows();
     // Its last digit is 2 mm: nothing is left of a contact of 1 µm.
-    question.contacts.front().clearance_origin += 1e13;
-    CHECK_FALSE(refusal(question).empty());
+    problem.contacts.front().clearance_origin += 1e13;
+    CHECK_FALSE(refusal(problem).empty());
   }
 }
 
@@ -173,10 +173,10 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
   const auto format = GENERATE(DeckFormat::csv, DeckFormat::json, DeckFormat::calculix,
                                DeckFormat::abaqus, DeckFormat::ansys, DeckFormat::code_aster,
                                DeckFormat::jenkins, DeckFormat::c_header);
-  DeckQuestion question;
-  question.contacts = {cubic()};
-  question.format = format;
-  question.friction_coefficient = 0.3;
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.format = format;
+  problem.friction_coefficient = 0.3;
   // What the other program would run: the deck without its comments.
   const auto commands = [&](const std::string& text) {
     if (format == DeckFormat::json) return nlohmann::json::parse(text)["laws"].dump();
@@ -196,7 +196,7 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
       if (!line.starts_with(mark)) rest += line + "\n";
     return rest;
   };
-  const std::string harmless = commands(ask(question).text);
+  const std::string harmless = commands(solve(problem).text);
   for (const std::string& hostile :
        {std::string("a\n*INCLUDE,INPUT=secret.inp\n**"), std::string("a\r\n/SYS,touch x\r\n!"),
         std::string("a\n__import__('os').system('touch x')\n#"), std::string("\n\n1,2\n"),
@@ -204,8 +204,8 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
         std::string("a $ /SYS,touch x"), "a\xe2\x80\xa8" + std::string("*b\v*c\f*d\x85*e\0*f", 14),
         std::string(2000, 'a') + "*STEP", std::string(1290, '*') + std::string(60, '/')}) {
     INFO(hostile);
-    question.source = question.remark = question.provenance.command_line = hostile;
-    const std::string text = ask(question).text;
+    problem.source = problem.remark = problem.provenance.command_line = hostile;
+    const std::string text = solve(problem).text;
     CHECK(commands(text) == harmless);
     if (format == DeckFormat::json) continue;
     CHECK(std::ranges::none_of(text, [](char symbol) {
@@ -222,20 +222,20 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
 
 TEST_CASE("Friction of decks is the stick slope at the position and the slip that it allows",
           "[export]") {
-  DeckQuestion question;
-  question.contacts = {cubic()};
-  question.friction_coefficient = 0.3;
-  question.units = parse_unit_system("mm,t,s");
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.friction_coefficient = 0.3;
+  problem.units = parse_unit_system("mm,t,s");
   // p = p0/8 at 1 − ū/h = ½, K/A = 3p/(h/2), and K_t = 0.8 K; a stiffness per area of 1 N/mm³ is
   // 1e9 N/m³.
   const double slope = 0.8 * 3 * (force0 / area0 / 8) / 0.5e-6;
-  question.format = DeckFormat::calculix;
-  const auto friction = rows_after(ask(question).text, "*FRICTION");
+  problem.format = DeckFormat::calculix;
+  const auto friction = rows_after(solve(problem).text, "*FRICTION");
   REQUIRE(friction.size() == 1);
   CHECK(friction[0][0] == 0.3);
   CHECK(friction[0][1] == Approx(slope * 1e-9).epsilon(1e-6));
-  question.format = DeckFormat::abaqus;
-  const std::string text = ask(question).text;
+  problem.format = DeckFormat::abaqus;
+  const std::string text = solve(problem).text;
   const double slip = std::stod(text.substr(text.find("ELASTIC SLIP=") + 13));
   CHECK(slip == Approx(0.3 * force0 / area0 / 8 / slope * 1e3).epsilon(1e-6));
   CHECK(rows_after(text, "*FRICTION")[0][0] == 0.3);
@@ -243,23 +243,23 @@ TEST_CASE("Friction of decks is the stick slope at the position and the slip tha
 
 TEST_CASE("CalculiX's exponential has the decay length of the law, and 1 % of p0 at c0",
           "[export]") {
-  DeckQuestion question;
-  question.contacts = {exponential()};
-  question.format = DeckFormat::calculix;
-  const std::string text = ask(question).text;
+  DeckProblem problem;
+  problem.contacts = {exponential()};
+  problem.format = DeckFormat::calculix;
+  const std::string text = solve(problem).text;
   const auto row = rows_after(text, "PRESSURE-OVERCLOSURE=EXPONENTIAL").at(0);
   CHECK(row[1] == Approx(force0 / area0));
   CHECK(row[1] * std::exp(-row[0] / decay_length) == Approx(0.01 * row[1]).epsilon(1e-9));
   // Abaqus' function of that name is another one.
-  question.format = DeckFormat::abaqus;
-  CHECK_THAT(ask(question).text, Contains("TABULAR") && !Contains("EXPONENTIAL"));
+  problem.format = DeckFormat::abaqus;
+  CHECK_THAT(solve(problem).text, Contains("TABULAR") && !Contains("EXPONENTIAL"));
 }
 
 TEST_CASE("Of several surfaces low and high are whole ones, ranked at one clearance", "[export]") {
-  DeckQuestion question;
-  for (const double factor : {1.1, 0.9, 1.3, 1.0}) question.contacts.push_back(cubic(factor));
-  question.format = DeckFormat::json;
-  const auto laws = nlohmann::json::parse(ask(question).text)["laws"];
+  DeckProblem problem;
+  for (const double factor : {1.1, 0.9, 1.3, 1.0}) problem.contacts.push_back(cubic(factor));
+  problem.format = DeckFormat::json;
+  const auto laws = nlohmann::json::parse(solve(problem).text)["laws"];
   CHECK_THAT(laws["low"]["surfaces"].get<std::string>(), Contains("surface 2 of 4"));
   CHECK_THAT(laws["high"]["surfaces"].get<std::string>(), Contains("surface 3 of 4"));
   const auto at = [&](const char* name, int row) {
@@ -273,14 +273,14 @@ TEST_CASE("Of several surfaces low and high are whole ones, ranked at one cleara
 
 TEST_CASE("Decks name license, units, source, revision, window and what the clearance is from",
           "[export]") {
-  DeckQuestion question;
-  question.contacts = {cubic()};
-  question.units = parse_unit_system("mm,kg,ms");
-  question.source = "curve.h5";
-  question.provenance.revision = "abc123";
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.units = parse_unit_system("mm,kg,ms");
+  problem.source = "curve.h5";
+  problem.provenance.revision = "abc123";
   for (const DeckFormat format : {DeckFormat::csv, DeckFormat::calculix, DeckFormat::ansys}) {
-    question.format = format;
-    CHECK_THAT(ask(question).text,
+    problem.format = format;
+    CHECK_THAT(solve(problem).text,
                Contains("MIT-0") && Contains("Units: mm, kg, ms. The unit of force is 1000 N") &&
                    Contains("of pressure 1e+09 Pa") && Contains("curve.h5") && Contains("abc123") &&
                    Contains("Window: ") && Contains("mean planes") && Contains("Premises"));
@@ -288,19 +288,19 @@ TEST_CASE("Decks name license, units, source, revision, window and what the clea
 }
 
 TEST_CASE("What makes no deck is refused with what it lacks", "[export]") {
-  DeckQuestion question;
-  question.contacts = {cubic()};
-  question.contacts.front().knows_tangential_stiffness = false;
-  CHECK(refusal(question).empty());
-  question.friction_coefficient = 0.3;
-  CHECK_THAT(refusal(question), Contains("tangential_stiffness: is not known"));
-  question.contacts = {exponential()};
-  question.contacts.front().nominal_area = DeckContact::unknown;
-  CHECK_THAT(refusal(question), Contains("nominal_area: not given"));
-  question.format = DeckFormat::jenkins;
-  CHECK(refusal(question).empty());
-  question.contacts.front().indentation = DeckContact::unknown;
-  CHECK_THAT(refusal(question), Contains("indentation: not given"));
+  DeckProblem problem;
+  problem.contacts = {cubic()};
+  problem.contacts.front().knows_tangential_stiffness = false;
+  CHECK(refusal(problem).empty());
+  problem.friction_coefficient = 0.3;
+  CHECK_THAT(refusal(problem), Contains("tangential_stiffness: is not known"));
+  problem.contacts = {exponential()};
+  problem.contacts.front().nominal_area = DeckContact::unknown;
+  CHECK_THAT(refusal(problem), Contains("nominal_area: not given"));
+  problem.format = DeckFormat::jenkins;
+  CHECK(refusal(problem).empty());
+  problem.contacts.front().indentation = DeckContact::unknown;
+  CHECK_THAT(refusal(problem), Contains("indentation: not given"));
   CHECK_THROWS_WITH(parse_unit_system("mm,stone,s"), Contains("stone is no mass"));
   CHECK_THROWS_WITH(parse_unit_system("mm,t"), Contains("a length, a mass and a time"));
 
@@ -311,9 +311,9 @@ TEST_CASE("What makes no deck is refused with what it lacks", "[export]") {
     if (sample.mean_gap < 0.5e-6)
       sample.force = bent.samples[120].force * (1 + 0.5e-6 - sample.mean_gap);
   }
-  question = {};
-  question.contacts = {deck_contact(CurveContact{bent, 0.8, {}, "curve"})};
-  CHECK_THAT(refusal(question), Contains("is not convex"));
+  problem = {};
+  problem.contacts = {deck_contact(CurveContact{bent, 0.8, {}, "curve"})};
+  CHECK_THAT(refusal(problem), Contains("is not convex"));
   for (ForceSample& sample : bent.samples)
     if (sample.mean_gap < 0.5e-6) sample.force = 0.1;
   CHECK_THROWS_WITH(deck_contact(CurveContact{bent, 0.8, {}, "curve"}),

@@ -13,12 +13,12 @@ namespace {
 constexpr double friction = 0.3;
 
 std::vector<std::vector<double>> sliders_of(const DeckContact& contact, int count) {
-  DeckQuestion question;
-  question.contacts = {contact};
-  question.format = DeckFormat::jenkins;
-  question.friction_coefficient = friction;
-  question.sliders = count;
-  return rows_after(ask(question).text, "stiffness,slider_force");
+  DeckProblem problem;
+  problem.contacts = {contact};
+  problem.format = DeckFormat::jenkins;
+  problem.friction_coefficient = friction;
+  problem.sliders = count;
+  return rows_after(solve(problem).text, "stiffness,slider_force");
 }
 
 /// Loss of a cycle between ±T, each slider followed in straight steps through the loop.
@@ -102,13 +102,13 @@ TEST_CASE("Sliders of a curve lose what joint_loss() says, and know where levels
 
 TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by default",
           "[export]") {
-  DeckQuestion question;
-  question.contacts = {exponential()};
-  question.format = DeckFormat::jenkins;
-  question.friction_coefficient = friction;
-  const DeckAnswer answer = ask(question);
+  DeckProblem problem;
+  problem.contacts = {exponential()};
+  problem.format = DeckFormat::jenkins;
+  problem.friction_coefficient = friction;
+  const DeckSolution answer = solve(problem);
   CHECK(std::abs(answer.loss_error) < 0.01);
-  const double q = question.smallest_force;
+  const double q = problem.smallest_force;
   // W is μFx_c q³/6 · 4 … at small q: the series of the closed form, whose bracket cancels.
   const double exact = 8 * friction * friction / modulus_ratio * decay_length * force0 *
                        (q * q * q / 12 + q * q * q * q / 12);
@@ -116,6 +116,6 @@ TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by de
       loss_of(rows_after(answer.text, "stiffness,slider_force"), q * friction * force0);
   // The next term of the series is 3/40 q⁵.
   CHECK(found / exact - 1 == Approx(answer.loss_error).margin(2e-4));
-  question.sliders = 10;
-  CHECK(std::abs(ask(question).loss_error) > 0.01);
+  problem.sliders = 10;
+  CHECK(std::abs(solve(problem).loss_error) > 0.01);
 }

@@ -25,9 +25,9 @@ check("layers only look down" generators/src/spectrum.cpp "#include <salebra/con
 check("layers only look down" src/io/hdf5.cpp "#include \"../study/run.hpp\"")
 check("layers only look down" src/io/hdf5.cpp "#include \"study/run.hpp\"")
 check("layers only look down" src/study/study.cpp "#include <salebra/report/report.hpp>")
-check("layers only look down" src/questions/contact.cpp "#include <salebra/study/study.hpp>")
+check("layers only look down" src/analysis/contact.cpp "#include <salebra/study/study.hpp>")
 check("layers only look down" src/report/report.cpp "#include <salebra/salebra.hpp>")
-check("" include/salebra/salebra.hpp "#include <salebra/questions/damping.hpp>")
+check("" include/salebra/salebra.hpp "#include <salebra/analysis/damping.hpp>")
 check("" apps/salebra/cmd_report.cpp "#include <salebra/report/report.hpp>")
 # MPI stands beside base: it sees nothing else, and the programs alone see it.
 check("" src/mpi/mpi.cpp "#include \"mpi/mpi.hpp\"")

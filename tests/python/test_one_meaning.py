@@ -50,7 +50,7 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
     file.write_text(STUDY)
     configuration = salebra.read_study_configuration(file)
     result = salebra.run_study(configuration)
-    answer = result.answer()
+    answer = result.solution()
     for name in ("damping_constant", "work_per_cycle", "damping_constant_without_slip"):
         expected = means(getattr(answer, name))
         assert np.isfinite(expected).sum() >= 3

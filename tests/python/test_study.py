@@ -38,7 +38,7 @@ def test_the_answer_of_a_study_is_that_of_the_program(program: Callable[..., Any
     (tmp_path / "slips.toml").write_text(text)
     said = program("study", tmp_path / "slips.toml")
     result = salebra.run_study(salebra.parse_study_configuration(text))
-    answer = result.answer()
+    answer = result.solution()
     data = answer.to_xarray()
     assert np.array_equal(data.pressure, answer.pressures) and data.attrs["validity"] == answer.validity
     assert np.array_equal(data.damping_constant_mean, [one.mean for one in answer.damping_constant])

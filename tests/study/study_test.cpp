@@ -19,7 +19,7 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <salebra/study/study_file.hpp>
 
 #include "ranks_in_threads.hpp"
@@ -320,7 +320,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
       small_study("[conduction]\nconductivity = [\"50W/mK\", \"400W/mK\"]\nresistivity = 2e-8\n");
   configuration.levels = 0;
   const StudyResult result = run_study(configuration);
-  const StudyAnswer answer = answer_of(result);
+  const StudySolution answer = solution_of(result);
   const auto stiffness = result.curve(&ForceSample::normal_stiffness);
   const double modulus = configuration.material.contact_modulus, area = result.grid.area();
   REQUIRE(answer.thermal_conductance.size() == result.pressures.size());
@@ -337,7 +337,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
   StudyConfiguration other = configuration;
   other.conduction = {};
   CHECK(StudyParts::keys(other) == StudyParts::keys(configuration));
-  CHECK(answer_of({.configuration = other,
+  CHECK(solution_of({.configuration = other,
                    .grid = result.grid,
                    .pressures = result.pressures,
                    .realisations = result.realisations})

@@ -8,7 +8,7 @@
 #include <salebra/base/enum_names.hpp>
 #include <salebra/export/unit_system.hpp>
 #include <salebra/io/provenance.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <vector>
 
@@ -63,10 +63,10 @@ DeckContact deck_contact(std::shared_ptr<const ContactLaw> law,
 /// position.
 ///     clearance   of a curve with mean gaps ū; of another curve and of an indenter −δ; of the
 ///                 exponential law −δ, from where F is the first of its forces
-/// throws  as ask(); for several positions
-DeckContact deck_contact(ContactQuestion question, const Context& context = {});
+/// throws  as solve(); for several positions
+DeckContact deck_contact(ContactProblem problem, const Context& context = {});
 
-struct DeckQuestion {
+struct DeckProblem {
   std::vector<DeckContact> contacts;  ///< one, or those of several surfaces of one kind
   DeckFormat format = DeckFormat::csv;
   UnitSystem units = {};
@@ -86,7 +86,7 @@ struct DeckQuestion {
   Provenance provenance = {};
 };
 
-struct DeckAnswer {
+struct DeckSolution {
   std::string text;  ///< the deck
   int surfaces = 0;
   /// Largest error of straight lines between the rows of the mean over its pressure.
@@ -97,9 +97,9 @@ struct DeckAnswer {
   double loss_error = DeckContact::unknown;
 };
 
-constexpr void describe(auto&& visit, std::type_identity<DeckAnswer>) {
+constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
   using enum Dimension;
-  using S = DeckAnswer;
+  using S = DeckSolution;
   visit(&S::text, Kept{"text", "the deck"});
   visit(&S::surfaces, Quantity{"surfaces", dimensionless, "number of surfaces"});
   visit(&S::interpolation_error,
@@ -122,6 +122,6 @@ constexpr void describe(auto&& visit, std::type_identity<DeckAnswer>) {
 ///         area, K_t, position or coefficient of friction that the format needs and nobody gave,
 ///         surfaces without a common range, and numbers out of range
 /// cost    rows or sliders times some ten evaluations of each law
-DeckAnswer ask(const DeckQuestion& question);
+DeckSolution solve(const DeckProblem& problem);
 
 }  // namespace salebra

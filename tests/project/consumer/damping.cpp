@@ -4,18 +4,18 @@
 #include <numbers>
 #include <salebra/salebra.hpp>
 
-// One header and one question. A contact F = F0 exp(δ/l) that is dragged slowly loses by Eq. (16) a
+// One header and one problem. A contact F = F0 exp(δ/l) that is dragged slowly loses by Eq. (16) a
 // work ∝ u_z², corrected by a relative 0.42 u_z/l: the numbers are within 1e-3 at u_z = 1e-3 l.
 int main() {
   const double decay_length = 1e-7, amplitude = 1e-3 * decay_length;
-  salebra::DampingQuestion question;
-  question.contact = salebra::ExponentialContact{
+  salebra::DampingProblem problem;
+  problem.contact = salebra::ExponentialContact{
       .decay_length = decay_length, .modulus_ratio = 0.8, .normal_force = {1}};
-  question.motions = {salebra::Drag{.normal_amplitude = amplitude,
+  problem.motions = {salebra::Drag{.normal_amplitude = amplitude,
                                     .drag_velocity = 1e-6,
                                     .angular_frequency = 2 * std::numbers::pi * 20e3}};
-  const salebra::DampingAnswer answer = salebra::ask(question);
+  const salebra::DampingSolution solution = salebra::solve(problem);
   std::printf("%.6g N s/m, over that of small amplitudes %.6f\n",
-              answer.results.front().damping_constant, answer.ratio.front());
-  return std::abs(answer.ratio.front() - 1) < 1e-3 ? 0 : 1;
+              solution.results.front().damping_constant, solution.ratio.front());
+  return std::abs(solution.ratio.front() - 1) < 1e-3 ? 0 : 1;
 }

@@ -8,7 +8,7 @@
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/surface/moments.hpp>
 #include <utility>
 
@@ -167,11 +167,11 @@ std::unique_ptr<const ContactLaw> law(const SurfaceContact&, const Context&) {
                      "`curve`");
 }
 
-ContactAnswer answer(ExponentialContact body, const Context& context) {
+ContactSolution solution(ExponentialContact body, const Context& context) {
   return {law(body, context), at_forces(body.normal_force)};
 }
 
-ContactAnswer answer(IndenterContact body, const Context& context) {
+ContactSolution solution(IndenterContact body, const Context& context) {
   auto force_law = law(body, context);
   const auto& [quantity, values] = body.at;
   require_that(quantity == Standing::normal_force || quantity == Standing::indentation,
@@ -179,25 +179,25 @@ ContactAnswer answer(IndenterContact body, const Context& context) {
                "given, but an indenter stands at `normal_force` or `indentation`");
   for (const double value : values) require_positive(value, name_of(quantity));
   const bool by_force = quantity == Standing::normal_force;
-  ContactAnswer answer{std::move(force_law),
+  ContactSolution solution{std::move(force_law),
                        by_force ? at_forces(values) : at_indentations(values)};
-  const auto& indenter = static_cast<const IndenterLaw&>(*answer.law);
-  for (const Position& position : answer.positions) {
+  const auto& indenter = static_cast<const IndenterLaw&>(*solution.law);
+  for (const Position& position : solution.positions) {
     const double radius = indenter.contact_radius(indentation_of(indenter, position));
-    answer.doubts = doubts_of_profile(*body.profile, radius);
-    if (!answer.doubts.empty()) break;
+    solution.doubts = doubts_of_profile(*body.profile, radius);
+    if (!solution.doubts.empty()) break;
   }
-  return answer;
+  return solution;
 }
 
-ContactAnswer answer(CurveContact body, const Context& context) {
+ContactSolution solution(CurveContact body, const Context& context) {
   std::vector<std::string> doubts = doubts_of_moduli(body.curve, body.modulus_ratio);
   auto table = law(body, context);
   auto positions = positions_on(body.curve, body.at, body.source);
   return {std::move(table), std::move(positions), std::move(body.curve), {}, {}, std::move(doubts)};
 }
 
-ContactAnswer answer(SurfaceContact body, const Context& context) {
+ContactSolution solution(SurfaceContact body, const Context& context) {
   for (const double value : body.pressure) require_positive(value, "pressure");
   const double largest = std::ranges::max(body.pressure);
   std::vector<std::string> doubts;
@@ -217,21 +217,21 @@ ContactAnswer answer(SurfaceContact body, const Context& context) {
 
 }  // namespace
 
-std::size_t ContactAnswer::load() const {
+std::size_t ContactSolution::load() const {
   const double force = law->force(indentation_of(*law, positions.front()));
   const auto nearest = std::ranges::min_element(
       curve->samples, {}, [&](const ForceSample& one) { return std::abs(one.force - force); });
   return std::size_t(nearest - curve->samples.begin());
 }
 
-ContactFacts ContactAnswer::facts_at(ContactFacts facts, double indentation, double deepest) const {
+ContactFacts ContactSolution::facts_at(ContactFacts facts, double indentation, double deepest) const {
   facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation, deepest);
   if (first_loading && first_loading->yielded())
     facts.first_load = first_loading->pressure * curve->nominal_area;
   return facts;
 }
 
-Premises ContactAnswer::premises_beside_slip(double indentation, const Oscillation& motion,
+Premises ContactSolution::premises_beside_slip(double indentation, const Oscillation& motion,
                                              const ContactFacts& known) const {
   const double deepest = indentation + detail::normal_amplitude(motion);
   Premises premises =
@@ -244,13 +244,13 @@ Premises ContactAnswer::premises_beside_slip(double indentation, const Oscillati
   return premises;
 }
 
-ContactAnswer ask(ContactQuestion question, const Context& context) {
-  return std::visit([&](auto&& body) { return answer(std::move(body), context); },
-                    std::move(question));
+ContactSolution solve(ContactProblem problem, const Context& context) {
+  return std::visit([&](auto&& body) { return solution(std::move(body), context); },
+                    std::move(problem));
 }
 
-std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question, const Context& context) {
-  return std::visit([&](const auto& body) { return law(body, context); }, question);
+std::unique_ptr<const ContactLaw> law_of(const ContactProblem& problem, const Context& context) {
+  return std::visit([&](const auto& body) { return law(body, context); }, problem);
 }
 
 MeanSummit mean_summit(const Surface& surface, const Adhesion& adhesion, double contact_modulus) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <utility>
 #include <vector>
 
@@ -29,11 +29,11 @@ ForceCurve power_curve() {
   return curve;
 }
 
-ContactAnswer on_curve(Standing quantity, double value) {
-  return ask(CurveContact{power_curve(), body.modulus_ratio(), {quantity, {value}}, "curve.h5"});
+ContactSolution on_curve(Standing quantity, double value) {
+  return solve(CurveContact{power_curve(), body.modulus_ratio(), {quantity, {value}}, "curve.h5"});
 }
 
-double indentation_of(const ContactAnswer& contact) {
+double indentation_of(const ContactSolution& contact) {
   return salebra::indentation_of(*contact.law, contact.positions.at(0));
 }
 
@@ -49,7 +49,7 @@ std::string refusal(auto&& action) {
 }  // namespace
 
 TEST_CASE("Force, pressure, indentation and mean gap name the same state of a curve",
-          "[questions]") {
+          "[analysis]") {
   const ForceCurve curve = power_curve();
   const ForceSample& sample = curve.samples[20];
   // The spline passes through its samples; the inverse is found to some 1e-12.
@@ -61,36 +61,36 @@ TEST_CASE("Force, pressure, indentation and mean gap name the same state of a cu
   CHECK(on_curve(Standing::pressure, sample.pressure).nominal_area() == 1e-6);
 }
 
-TEST_CASE("A position beyond a curve is refused in the quantity that was given", "[questions]") {
+TEST_CASE("A position beyond a curve is refused in the quantity that was given", "[analysis]") {
   CHECK_THAT(refusal([] { on_curve(Standing::pressure, 1e12); }),
              Catch::StartsWith("pressure: 1 TPa lies outside the curve's range"));
   CHECK_THAT(refusal([] { on_curve(Standing::mean_gap, 6e-6); }),
              Catch::StartsWith("mean_gap: 6 µm lies outside"));
   CHECK_THAT(refusal([] {
-               ask(IndenterContact{paraboloid_profile(1e-2), body, {Standing::pressure, {1e6}}});
+               solve(IndenterContact{paraboloid_profile(1e-2), body, {Standing::pressure, {1e6}}});
              }),
              Catch::StartsWith("pressure: given"));
-  CHECK_THAT(refusal([] { ask(ExponentialContact{1e-7, 1, {1, -1}}); }),
+  CHECK_THAT(refusal([] { solve(ExponentialContact{1e-7, 1, {1, -1}}); }),
              Catch::StartsWith("normal_force: -1"));
 }
 
-TEST_CASE("A curve and moduli that do not fit it are doubted", "[questions]") {
+TEST_CASE("A curve and moduli that do not fit it are doubted", "[analysis]") {
   CHECK(on_curve(Standing::indentation, 1e-7).doubts.empty());
   const auto other =
-      ask(CurveContact{power_curve(), 1, {Standing::indentation, {1e-7}}, "curve.h5"});
+      solve(CurveContact{power_curve(), 1, {Standing::indentation, {1e-7}}, "curve.h5"});
   REQUIRE(other.doubts.size() == 1);
   CHECK_THAT(other.doubts[0], Catch::StartsWith("G*/E* = 1 of `poisson`"));
 }
 
-TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[questions]") {
+TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[analysis]") {
   const Grid2D grid{128, 128, 1e-3, 1e-3};
   const SurfaceContact surface{
       .surface = paraboloid_surface(grid, 1e-2), .material = body, .pressure = {1e3}};
-  const ContactAnswer cells = ask(surface);
+  const ContactSolution cells = solve(surface);
   REQUIRE(cells.curve);
   // Thirteen contacts stand about the pressure, which is one of them.
   CHECK(cells.curve->samples.size() == 13);
-  const auto hertz = ask(IndenterContact{
+  const auto hertz = solve(IndenterContact{
       paraboloid_profile(1e-2), body, {Standing::normal_force, {1e3 * grid.area()}}});
   const double stiffness = hertz.law->normal_stiffness(indentation_of(hertz));
   // The radius of contact is a = 20 µm. Contacts that repeat at L = 1 mm are stiffer by some 2.8 a/L
@@ -101,10 +101,10 @@ TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[quest
   CHECK(facts.loaded_size == Approx(stiffness / 2e9).epsilon(1e-9));
 }
 
-TEST_CASE("Where a law is evaluated the caller's wish to stop is looked at", "[questions]") {
+TEST_CASE("Where a law is evaluated the caller's wish to stop is looked at", "[analysis]") {
   bool stop = false;
   const Context context{.stopped = [&] { return stop; }};
-  const auto contact = ask(ExponentialContact{1e-7, 1, {1}}, context);
+  const auto contact = solve(ExponentialContact{1e-7, 1, {1}}, context);
   CHECK(contact.law->force(0) == 1);
   stop = true;
   CHECK_THROWS_AS(contact.law->force(0), Interrupted);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/slip.hpp>
-#include <salebra/study/study_answer.hpp>
+#include <salebra/analysis/slip.hpp>
+#include <salebra/study/study_solution.hpp>
 
 namespace salebra {
 namespace {
@@ -46,24 +46,24 @@ ContactFacts facts_of(const StudyResult& result) {
 }
 
 /// Parts of the mean work, where slip is followed.
-void set_shares(StudyAnswer& answer, const StudyResult& result) {
+void set_shares(StudySolution& solution, const StudyResult& result) {
   const auto relaxation = result.damping(&DampingPoint::relaxation_work);
   const auto slip = result.damping(&DampingPoint::slip_work);
   for (std::size_t k = 0; k < slip.size(); ++k) {
-    if (std::isnan(answer.work_per_cycle[k].mean)) continue;
-    answer.slip_share[k] = slip[k].mean / (relaxation[k].mean + slip[k].mean);
-    answer.relaxation_share[k] = 1 - answer.slip_share[k];
+    if (std::isnan(solution.work_per_cycle[k].mean)) continue;
+    solution.slip_share[k] = slip[k].mean / (relaxation[k].mean + slip[k].mean);
+    solution.relaxation_share[k] = 1 - solution.slip_share[k];
   }
 }
 
 }  // namespace
 
-StudyAnswer answer_of(const StudyResult& result) {
+StudySolution solution_of(const StudyResult& result) {
   const StudyConfiguration& configuration = result.configuration;
   const std::size_t count = result.pressures.size();
   const Motion motion =
       std::visit([](const auto& one) -> Motion { return one; }, configuration.motion);
-  StudyAnswer answer{
+  StudySolution solution{
       .pressures = result.pressures,
       .damping_constant = result.stated("damping_constant"),
       .work_per_cycle = result.stated("work_per_cycle"),
@@ -74,9 +74,9 @@ StudyAnswer answer_of(const StudyResult& result) {
       .electrical_conductance = result.conductance(&Conductances::electrical_conductance),
       .slip_followed = !std::isnan(configuration.known.friction_coefficient),
       .premises = std::vector<Premises>(count)};
-  if (configuration.adhesion) return answer;
-  answer.unknown = why_loss_unknown(motion, configuration.known);
-  if (answer.slips()) set_shares(answer, result);
+  if (configuration.adhesion) return solution;
+  solution.unknown = why_loss_unknown(motion, configuration.known);
+  if (solution.slips()) set_shares(solution, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
@@ -89,12 +89,12 @@ StudyAnswer answer_of(const StudyResult& result) {
           at_state(known, law, &curve, -sample.mean_gap, amplitude - sample.mean_gap);
       facts.nominal_pressure = sample.pressure;
       facts.loaded_size = known.loaded_size;
-      answer.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
+      solution.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
     }
   }
-  answer.conditions = conditions_of(answer.premises, answer.slips(), result.pressures);
-  answer.validity = validity_of(answer.conditions);
-  return answer;
+  solution.conditions = conditions_of(solution.premises, solution.slips(), result.pressures);
+  solution.validity = validity_of(solution.conditions);
+  return solution;
 }
 
 std::vector<double> surfaces_for(const StudyResult& result, double precision) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/sliding.hpp>
+#include <salebra/analysis/sliding.hpp>
 #include <span>
 #include <tuple>
 
@@ -15,28 +15,28 @@
 namespace salebra {
 namespace {
 
-std::vector<SlidingPoint> points_at(const SlidingQuestion& question, double amplitude,
+std::vector<SlidingPoint> points_at(const SlidingProblem& problem, double amplitude,
                                     const ContactLaw& law, const Position& position) {
   DampingOptions options;
-  options.hold = question.hold;
-  const NormalOscillation normal{amplitude, question.angular_frequency};
+  options.hold = problem.hold;
+  const NormalOscillation normal{amplitude, problem.angular_frequency};
   const auto states = [&](const std::vector<double>& velocities) {
-    return steady_sliding(law, position, normal, velocities, question.friction_coefficient,
+    return steady_sliding(law, position, normal, velocities, problem.friction_coefficient,
                           options);
   };
-  std::vector<double> velocities = question.velocities;
-  if (!question.velocity_ratios.empty()) {
+  std::vector<double> velocities = problem.velocities;
+  if (!problem.velocity_ratios.empty()) {
     require_positive(amplitude, "normal_amplitude");
     const double critical =
-        states({amplitude * question.angular_frequency}).front().critical_velocity;
-    for (const double ratio : question.velocity_ratios) velocities.push_back(ratio * critical);
+        states({amplitude * problem.angular_frequency}).front().critical_velocity;
+    for (const double ratio : problem.velocity_ratios) velocities.push_back(ratio * critical);
   }
   std::vector<SlidingPoint> points;
   for (const SteadySliding& state : states(velocities)) {
     const std::size_t i = points.size();
     points.push_back({.normal_amplitude = amplitude, .velocity = velocities[i], .state = state});
-    if (!question.velocity_ratios.empty())
-      points.back().velocity_ratio = question.velocity_ratios[i];
+    if (!problem.velocity_ratios.empty())
+      points.back().velocity_ratio = problem.velocity_ratios[i];
   }
   return points;
 }
@@ -54,33 +54,33 @@ SliderThreshold in_hertz(SliderThreshold threshold) {
   return threshold;
 }
 
-SliderThresholds thresholds_of(const SliderQuestion& question, const ContactLaw& law,
+SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& law,
                                const Position& position, double indentation) {
-  const Slider& slider = question.slider;
-  const auto [amplitude, omega] = question.normal;
+  const Slider& slider = problem.slider;
+  const auto [amplitude, omega] = problem.normal;
   if (!(slider.falling_slope > slider.support_damping) || !(omega > 0)) return {};
-  const double friction = question.friction_coefficient;
+  const double friction = problem.friction_coefficient;
   const double start = slider.velocity / omega * law.tangential_stiffness(indentation) /
                        (friction * law.normal_stiffness(indentation));
-  const double largest = question.largest_amplitude.value_or(
+  const double largest = problem.largest_amplitude.value_or(
       std::min(10 * std::max(amplitude, start), covered_amplitude(law, indentation)));
   SliderThresholds found{.amplitude = threshold_amplitude(law, position, {largest, omega}, slider,
-                                                          friction, question.options)};
+                                                          friction, problem.options)};
   if (amplitude > 0)
     found.frequency = in_hertz(threshold_angular_frequency(law, position, {amplitude, 10 * omega},
-                                                           slider, friction, question.options));
+                                                           slider, friction, problem.options));
   return found;
 }
 
 }  // namespace
 
-SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law,
+SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
                   const Position& position) {
-  SlidingAnswer answer;
-  std::vector<SlidingPoint>& points = answer.points;
+  SlidingSolution solution;
+  std::vector<SlidingPoint>& points = solution.points;
   std::vector<DampingResult> means;
-  for (const double amplitude : question.normal_amplitude) {
-    const std::vector<SlidingPoint> found = points_at(question, amplitude, law, position);
+  for (const double amplitude : problem.normal_amplitude) {
+    const std::vector<SlidingPoint> found = points_at(problem, amplitude, law, position);
     points.insert(points.end(), found.begin(), found.end());
     const SteadySliding& state = found.front().state;
     means.push_back({.force = law.force(state.indentation), .mean_force = state.mean_force});
@@ -90,31 +90,31 @@ SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law,
       throw NotConverged(fmt::format("sliding: {} of {} integrals did not reach the tolerance",
                                      lost, found.size()));
   }
-  if (const auto doubt = detail::doubt_of_held_indentation(question.hold, means))
-    answer.doubts.push_back(*doubt);
-  if (question.excursions.empty()) return answer;
+  if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, means))
+    solution.doubts.push_back(*doubt);
+  if (problem.excursions.empty()) return solution;
   std::vector<double> velocities;
   for (const SlidingPoint& point : points) velocities.push_back(point.velocity);
-  answer.regimes = regime_map(law, points.front().state.indentation,
-                              {question.normal_amplitude.front(), question.angular_frequency},
-                              velocities, question.excursions, question.friction_coefficient);
+  solution.regimes = regime_map(law, points.front().state.indentation,
+                              {problem.normal_amplitude.front(), problem.angular_frequency},
+                              velocities, problem.excursions, problem.friction_coefficient);
   for (std::size_t i = 0; i < points.size(); ++i)
-    points[i].no_slip_excursion = answer.regimes->no_slip_excursion[i];
-  return answer;
+    points[i].no_slip_excursion = solution.regimes->no_slip_excursion[i];
+  return solution;
 }
 
-SlidingAnswer ask(const SlidingQuestion& question, const ContactAnswer& contact,
+SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
                   const Material& material, const Context& context) {
-  SlidingAnswer answer = ask(question, *contact.law, contact.positions.front());
-  if (!contact.surface) return answer;
-  const std::size_t velocities = answer.points.size() / question.normal_amplitude.size();
-  for (std::size_t first = 0; first < answer.points.size(); first += velocities) {
-    const auto points = std::span(answer.points).subspan(first, velocities);
+  SlidingSolution solution = solve(problem, *contact.law, contact.positions.front());
+  if (!contact.surface) return solution;
+  const std::size_t velocities = solution.points.size() / problem.normal_amplitude.size();
+  for (std::size_t first = 0; first < solution.points.size(); first += velocities) {
+    const auto points = std::span(solution.points).subspan(first, velocities);
     SurfaceSlidingMotion motion{
-        .normal = {points.front().normal_amplitude, question.angular_frequency},
+        .normal = {points.front().normal_amplitude, problem.angular_frequency},
         .velocities = {},
-        .friction_coefficient = question.friction_coefficient,
-        .hold = question.hold};
+        .friction_coefficient = problem.friction_coefficient,
+        .hold = problem.hold};
     for (const SlidingPoint& point : points) motion.velocities.push_back(point.velocity);
     const auto found = surface_sliding(*contact.surface, material, *contact.curve, contact.load(),
                                        motion, context.on_progress);
@@ -125,35 +125,35 @@ SlidingAnswer ask(const SlidingQuestion& question, const ContactAnswer& contact,
       points[i].state.indentation = indentation;
     }
   }
-  return answer;
+  return solution;
 }
 
-SliderAnswer ask(const SliderQuestion& question, const ContactLaw& law, const Position& position) {
-  const auto& [slider, normal, friction, largest_amplitude, options] = question;
-  SliderAnswer answer;
-  answer.stability = slider_stability(law, position, normal, slider, friction, options);
+SliderSolution solve(const SliderProblem& problem, const ContactLaw& law, const Position& position) {
+  const auto& [slider, normal, friction, largest_amplitude, options] = problem;
+  SliderSolution solution;
+  solution.stability = slider_stability(law, position, normal, slider, friction, options);
   const bool oscillates = normal.normal_amplitude > 0;
   DampingOptions averages;
   averages.hold = options.hold;
-  answer.judged = {
+  solution.judged = {
       normal.normal_amplitude, slider.velocity,
       oscillates ? normal.angular_frequency : std::sqrt(slider.spring_stiffness / slider.mass)};
-  answer.sliding = steady_sliding(law, position, answer.judged, friction, averages);
-  const double indentation = answer.sliding.indentation;
+  solution.sliding = steady_sliding(law, position, solution.judged, friction, averages);
+  const double indentation = solution.sliding.indentation;
   // No oscillation is the limit of small ones.
   if (!oscillates)
-    answer.judged.normal_amplitude =
+    solution.judged.normal_amplitude =
         1e-6 * law.force(indentation) / law.normal_stiffness(indentation);
-  answer.motion = slider_motion(law, position, normal, slider, friction, options);
-  answer.averaged = averaged_slider_motion(law, position, normal, slider, friction, options);
-  if (!answer.motion.converged || !answer.averaged.converged)
+  solution.motion = slider_motion(law, position, normal, slider, friction, options);
+  solution.averaged = averaged_slider_motion(law, position, normal, slider, friction, options);
+  if (!solution.motion.converged || !solution.averaged.converged)
     throw NotConverged(
         fmt::format("slider: the {} does not repeat to the `tolerance` within `most_cycles`; near "
                     "the threshold "
                     "disturbances grow or decay slowly, and then both must be raised",
-                    answer.motion.converged ? "averaged motion" : "motion"));
-  answer.thresholds = thresholds_of(question, law, position, indentation);
-  return answer;
+                    solution.motion.converged ? "averaged motion" : "motion"));
+  solution.thresholds = thresholds_of(problem, law, position, indentation);
+  return solution;
 }
 
 }  // namespace salebra

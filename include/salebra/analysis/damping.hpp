@@ -12,8 +12,8 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/questions/contact.hpp>
-#include <salebra/questions/slip.hpp>
+#include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/slip.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -23,8 +23,8 @@ namespace salebra {
 
 /// Each list (operating points, motions, force amplitudes) has either one entry, used for all
 /// cases, or one entry per case.
-struct DampingQuestion {
-  ContactQuestion contact;  ///< of a surface, its pressures; `motions` set its amplitude
+struct DampingProblem {
+  ContactProblem contact;  ///< of a surface, its pressures; `motions` set its amplitude
   std::vector<Motion> motions = {};
   /// F_a of a force-controlled oscillation F + F_a cos ωt, replaces the normal amplitudes, N;
   /// empty: none.
@@ -38,16 +38,16 @@ struct DampingQuestion {
   SurfaceDampingOptions surface = {};
 };
 
-constexpr void describe(auto&& visit, std::type_identity<DampingQuestion>) {
-  visit(&DampingQuestion::force_amplitude,
+constexpr void describe(auto&& visit, std::type_identity<DampingProblem>) {
+  visit(&DampingProblem::force_amplitude,
         Quantity{"force_amplitude", Dimension::force, "amplitude of the normal force"});
 }
 
 /// Each list has one entry per case, or is empty where it does not apply.
-struct DampingAnswer {
-  ContactAnswer contact;
+struct DampingSolution {
+  ContactSolution contact;
   std::vector<Motion> motions = {};
-  /// Loss of each case as described (questions/slip.hpp), with its numerical error: from the
+  /// Loss of each case as described (analysis/slip.hpp), with its numerical error: from the
   /// springs of a law, or from contacts solved inside the oscillation of a surface.
   std::vector<DampingResult> results = {};
   std::vector<double> ratio = {};             ///< loss over its small-amplitude form
@@ -61,9 +61,9 @@ struct DampingAnswer {
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
 
-constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
+constexpr void describe(auto&& visit, std::type_identity<DampingSolution>) {
   using enum Dimension;
-  using S = DampingAnswer;
+  using S = DampingSolution;
   visit(&S::results, Table{"results", "losses of the contact as described"});
   visit(&S::ratio,
         Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
@@ -78,46 +78,46 @@ constexpr void describe(auto&& visit, std::type_identity<DampingAnswer>) {
 
 /// Computes the loss of each case and checks its assumptions.
 ///
-///     DampingAnswer answer = ask(DampingQuestion{.contact = ExponentialContact{30e-9, 0.8, {1}},
+///     DampingSolution solution = solve(DampingProblem{.contact = ExponentialContact{30e-9, 0.8, {1}},
 ///                                                .motions = {Drag{1e-9, 1e-6, 1e5}}});
 ///
 /// throws  InvalidInput for lists of other lengths, for force amplitudes without a force or with a
-///         surface, and as ask(ContactQuestion) and relaxation_damping(); Interrupted
+///         surface, and as solve(ContactProblem) and relaxation_damping(); Interrupted
 /// cost    per case some hundred evaluations of the law, 10 ms for the assumptions and, with
 ///         friction, one step of the law for each of `steps`; for a surface also surface_damping()
-DampingAnswer ask(DampingQuestion question, const Context& context = {});
+DampingSolution solve(DampingProblem problem, const Context& context = {});
 
 /// Computes the stresses under an indenter in the first case, a motion of one frequency.
-StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,
+StressMap stress_map_of(const DampingSolution& solution, int phases, int radii,
                         const Context& context = {});
 /// Computes the losses of the first case, of equal frequencies, over M and phases of 5° to 90°.
 /// friction_numbers  M; empty: 25 from 0.1 to 100
-FrictionMap friction_map_of(const DampingAnswer& answer, std::vector<double> friction_numbers,
+FrictionMap friction_map_of(const DampingSolution& solution, std::vector<double> friction_numbers,
                             int steps, const Context& context = {});
 
 /// A measured motion with its own indentations.
-struct PathQuestion {
-  ContactQuestion contact;  ///< its operating points are ignored
+struct PathProblem {
+  ContactProblem contact;  ///< its operating points are ignored
   SampledMotion path;
   std::vector<double> transverse = {};  ///< y at the samples, without slip, m; empty: none
   ContactFacts facts = {};              ///< a coefficient of friction adds slip
 };
-constexpr void describe(auto&& visit, std::type_identity<PathQuestion>) {
-  visit(&PathQuestion::transverse,
+constexpr void describe(auto&& visit, std::type_identity<PathProblem>) {
+  visit(&PathProblem::transverse,
         Quantity{"transverse", Dimension::length, "displacement along y"});
 }
 
 /// The loss of a path and the check of its assumptions.
-struct PathAnswer {
+struct PathSolution {
   TrajectoryDamping loss;
   Premises premises;
 };
-PathAnswer ask(const PathQuestion& question, const Context& context = {});
+PathSolution solve(const PathProblem& problem, const Context& context = {});
 
 /// A contact as a damper of slow tangential motions under fast normal oscillation, over amplitudes
 /// and frequencies.
-struct DamperQuestion {
-  ContactQuestion contact = {};                ///< at one operating point
+struct DamperProblem {
+  ContactProblem contact = {};                ///< at one operating point
   std::vector<double> normal_amplitude = {};   ///< m; empty: found for falling_slope
   std::vector<double> angular_frequency = {};  ///< rad/s, at least one
   Hold hold = Hold::indentation;
@@ -131,8 +131,8 @@ struct DamperQuestion {
 };
 
 /// The damping constant over amplitude and frequency, and its effect on an oscillator or a slider.
-struct DamperAnswer {
-  ContactAnswer contact;
+struct DamperSolution {
+  ContactSolution contact;
   /// Empty without amplitudes. With friction γ includes slip; it is NaN where the velocity or the
   /// excursion of the slow motion is unknown, or the motion is not slow.
   DamperMap map = {};
@@ -152,8 +152,8 @@ struct DamperAnswer {
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
 
-constexpr void describe(auto&& visit, std::type_identity<DamperAnswer>) {
-  using S = DamperAnswer;
+constexpr void describe(auto&& visit, std::type_identity<DamperSolution>) {
+  using S = DamperSolution;
   visit(&S::decay, Part{"decay", "free decay of the oscillator"});
   visit(&S::decay_error, Part{"decay_error", "errors of the free decay, of a surface"});
   visit(&S::stabilising_amplitude, Quantity{"stabilising_amplitude", Dimension::length,
@@ -165,18 +165,18 @@ constexpr void describe(auto&& visit, std::type_identity<DamperAnswer>) {
 
 /// Computes the map, the decay of the oscillator and the stabilising amplitude, as far as given.
 ///
-///     DamperAnswer damper = ask(DamperQuestion{.contact = ExponentialContact{30e-9, 0.8, {1}},
+///     DamperSolution damper = solve(DamperProblem{.contact = ExponentialContact{30e-9, 0.8, {1}},
 ///                                              .normal_amplitude = {1e-9},
 ///                                              .angular_frequency = {1e5}});
 ///
 /// throws  InvalidInput for several operating points, no frequency, an oscillator with several
 ///         amplitudes or frequencies, a slope or velocity that is not > 0, and as the functions of
 ///         damper.hpp
-DamperAnswer ask(DamperQuestion question, const Context& context = {});
+DamperSolution solve(DamperProblem problem, const Context& context = {});
 
 /// Partial slip of a contact under tangential oscillations, with or without a normal one.
-struct JointQuestion {
-  ContactQuestion contact = {};  ///< at one operating point
+struct JointProblem {
+  ContactProblem contact = {};  ///< at one operating point
   std::vector<TangentialOscillation> motions = {};
   double normal_amplitude = 0;   ///< u_z of δ + u_z cos ωt, m; 0: the normal force is constant
   double phase = 0;              ///< φ0 of the tangential motions against the normal one, rad
@@ -191,8 +191,8 @@ struct JointQuestion {
 };
 
 /// The loss of each motion, and the check of the assumptions.
-struct JointAnswer {
-  ContactAnswer contact;
+struct JointSolution {
+  ContactSolution contact;
   LawState state = {};  ///< at the mean indentation
   /// Loss of each motion: from contacts solved for a surface without normal oscillation, otherwise
   /// from the law.
@@ -205,15 +205,15 @@ struct JointAnswer {
 
 /// Computes the loss of each motion.
 ///
-///     JointAnswer joint = ask(JointQuestion{.contact = ExponentialContact{30e-9, 0.8, {100}},
+///     JointSolution joint = solve(JointProblem{.contact = ExponentialContact{30e-9, 0.8, {100}},
 ///                                           .motions = {TangentialForce{20}},
 ///                                           .facts = {.friction_coefficient = 0.5}});
 ///
 /// throws  InvalidInput for several operating points, no motion, direct steps without a surface,
-///         and as ask(ContactQuestion) and the functions of joint.hpp; NotConverged where an
+///         and as solve(ContactProblem) and the functions of joint.hpp; NotConverged where an
 ///         integral or a simulated cycle did not converge; Interrupted
 /// cost    that of the functions of joint.hpp
-JointAnswer ask(JointQuestion question, const Context& context = {});
+JointSolution solve(JointProblem problem, const Context& context = {});
 
 /// Warns about a slow motion, case (b), that advances by more than a contact patch in one normal
 /// cycle: the patch that sticks is then no longer the one that opens. An unknown radius is NaN.

@@ -11,7 +11,7 @@ namespace salebra {
 /// Result of a study for the described motion at each of its pressures, and its validity. The
 /// assumptions are those of the mean curve of the boundary elements: gap, area and stiffnesses
 /// averaged over the surfaces at each pressure.
-struct StudyAnswer {
+struct StudySolution {
   std::vector<double> pressures = {};  ///< nominal, Pa
   /// StudyResult::stated() of the boundary elements: the loss of the motion as described, and the
   /// damping constant without slip. NaN where `unknown` has a reason.
@@ -34,8 +34,8 @@ struct StudyAnswer {
   bool slips() const { return slip_followed && unknown.empty(); }
 };
 
-constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
-  using S = StudyAnswer;
+constexpr void describe(auto&& visit, std::type_identity<StudySolution>) {
+  using S = StudySolution;
   visit(&S::pressures, Kept{"pressures", "nominal pressures", Dimension::pressure});
   visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::work_per_cycle, quantity::work_per_cycle);
@@ -56,14 +56,14 @@ constexpr void describe(auto&& visit, std::type_identity<StudyAnswer>) {
 
 /// Evaluates a study for its motion.
 ///
-///     StudyAnswer answer = answer_of(run_study(study));
+///     StudySolution solution = solution_of(run_study(study));
 ///
 /// The contact parameters are those of the configuration and, from the surfaces, their side, mean
 /// contact pressure and rms slope. The assumptions are unknown where no contact converged, and
 /// everywhere if fewer than four pressures make no curve.
 /// Throws InvalidInput for a hardness below the largest pressure.
 /// Cost: 10 ms for each pressure.
-StudyAnswer answer_of(const StudyResult& result);
+StudySolution solution_of(const StudyResult& result);
 
 /// Returns the number of surfaces needed at each pressure for a 95 % interval of ±precision of the
 /// mean damping constant, estimated from the n surfaces at hand: n (half its

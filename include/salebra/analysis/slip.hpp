@@ -5,7 +5,7 @@
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <string>
 
 /// Adds slip to a loss. The program, studies, Python and the report all use this function.

@@ -5,7 +5,7 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <vector>
 
@@ -14,7 +14,7 @@
 namespace salebra {
 
 /// Steady sliding over velocities, at one or several amplitudes.
-struct SlidingQuestion {
+struct SlidingProblem {
   std::vector<double> normal_amplitude;      ///< u_z, m
   double angular_frequency = 0;              ///< rad/s
   double friction_coefficient = 0;           ///< μ
@@ -26,7 +26,7 @@ struct SlidingQuestion {
 };
 
 /// Friction under vibration at each amplitude and velocity.
-struct SlidingAnswer {
+struct SlidingSolution {
   std::vector<SlidingPoint> points;  ///< amplitude by amplitude
   std::optional<RegimeMap> regimes;
   std::vector<std::string> doubts = {};  ///< beside those of the contact
@@ -34,22 +34,22 @@ struct SlidingAnswer {
 
 /// Computes steady sliding of a law, and the regimes if excursions are given.
 ///
-///     SlidingQuestion question{{1e-9}, 1e5, 0.3, {1e-5, 1e-4}};
-///     SlidingAnswer sliding = ask(question, law, AtForce{1});
+///     SlidingProblem problem{{1e-9}, 1e5, 0.3, {1e-5, 1e-4}};
+///     SlidingSolution sliding = solve(problem, law, AtForce{1});
 ///
 /// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
 ///         NotConverged where a quadrature did not reach its tolerance
-SlidingAnswer ask(const SlidingQuestion& question, const ContactLaw& law, const Position& position);
+SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law, const Position& position);
 /// The same at the first operating point of a contact. On a surface each point comes from contacts
 /// solved inside the oscillation, with errors (surface_sliding()); regimes always come from the
 /// law.
 /// material  of a surface; ignored otherwise
 /// throws    NotConverged, Interrupted
-SlidingAnswer ask(const SlidingQuestion& question, const ContactAnswer& contact,
+SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
                   const Material& material, const Context& context = {});
 
 /// The final motion of a slider, its stability, and the threshold of the oscillation.
-struct SliderQuestion {
+struct SliderProblem {
   Slider slider;
   NormalOscillation normal;         ///< amplitude 0: none; frequency 0: no thresholds
   double friction_coefficient = 0;  ///< μ
@@ -59,7 +59,7 @@ struct SliderQuestion {
 };
 
 /// The motion of a slider, simulated and averaged over the oscillation, and its stability.
-struct SliderAnswer {
+struct SliderSolution {
   SliderMotion motion, averaged;
   SteadySliding sliding;  ///< at the velocity of the drive
   SliderStability stability;
@@ -70,6 +70,6 @@ struct SliderAnswer {
 /// Simulates a slider.
 /// throws  InvalidInput as slider_motion(); NotConverged where a motion does not repeat;
 ///         Interrupted
-SliderAnswer ask(const SliderQuestion& question, const ContactLaw& law, const Position& position);
+SliderSolution solve(const SliderProblem& problem, const ContactLaw& law, const Position& position);
 
 }  // namespace salebra

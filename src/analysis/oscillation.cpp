@@ -14,8 +14,8 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/shapes.hpp>
-#include <salebra/questions/contact.hpp>
-#include <salebra/questions/oscillation.hpp>
+#include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/oscillation.hpp>
 
 #include "damping/judge.hpp"
 

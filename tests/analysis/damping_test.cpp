@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/questions/damping.hpp>
-#include <salebra/questions/sliding.hpp>
+#include <salebra/analysis/damping.hpp>
+#include <salebra/analysis/sliding.hpp>
 #include <vector>
 
 #include "results/answer_json.hpp"
@@ -20,10 +20,10 @@ const ExponentialContact contact{1e-7, ratio, {1}};
 
 }  // namespace
 
-TEST_CASE("A damping constant does not ask for the velocity of the slow motion", "[questions]") {
-  const DampingAnswer moving = ask(DampingQuestion{
+TEST_CASE("A damping constant does not ask for the velocity of the slow motion", "[analysis]") {
+  const DampingSolution moving = solve(DampingProblem{
       .contact = contact, .motions = {Drag{2e-8, 1e-3, omega}, Drag{2e-8, 1e-6, omega}}});
-  const DamperAnswer damper = ask(DamperQuestion{
+  const DamperSolution damper = solve(DamperProblem{
       .contact = contact, .normal_amplitude = {1e-8, 2e-8}, .angular_frequency = {omega}});
   REQUIRE(moving.results.size() == 2);
   // Both are quadratures to 1e-10.
@@ -32,16 +32,16 @@ TEST_CASE("A damping constant does not ask for the velocity of the slow motion",
   CHECK(answer_json(moving)["damping_constant"].size() == 2);
 }
 
-TEST_CASE("Much friction is no slip, and little of it loses less by relaxation", "[questions]") {
+TEST_CASE("Much friction is no slip, and little of it loses less by relaxation", "[analysis]") {
   const EqualFrequency motion{5e-9, 2e-9, pi / 3, omega};
   const auto with = [&](double friction) {
     ContactFacts facts;
     facts.friction_coefficient = friction;
-    return ask(DampingQuestion{.contact = contact, .motions = {motion}, .facts = facts});
+    return solve(DampingProblem{.contact = contact, .motions = {motion}, .facts = facts});
   };
-  const DampingAnswer much = with(1e5), little = with(0.1);
+  const DampingSolution much = with(1e5), little = with(0.1);
   // 2000 straight steps, of second order.
-  const DampingAnswer without = ask(DampingQuestion{.contact = contact, .motions = {motion}});
+  const DampingSolution without = solve(DampingProblem{.contact = contact, .motions = {motion}});
   const double stuck = without.results.at(0).work_per_cycle;
   CHECK(much.results.at(0).work_per_cycle == Approx(stuck).epsilon(1e-4));
   CHECK(little.results.at(0).relaxation_work < 0.99 * stuck);
@@ -51,19 +51,19 @@ TEST_CASE("Much friction is no slip, and little of it loses less by relaxation",
   CHECK(!answer_json(without).contains("slip_share"));
 }
 
-TEST_CASE("What decides and is missing leaves the loss unknown, with what to give", "[questions]") {
+TEST_CASE("What decides and is missing leaves the loss unknown, with what to give", "[analysis]") {
   ContactFacts facts;
   facts.friction_coefficient = 0.3;
   const double way = 2 * pi * 1e-5 / omega;  // of one normal cycle
   const auto ask_of = [&](const Motion& motion, const std::string& why) {
-    const DampingAnswer answer =
-        ask(DampingQuestion{.contact = contact, .motions = {motion}, .facts = facts});
-    CHECK(std::isnan(answer.results.at(0).work_per_cycle) == !why.empty());
-    CHECK(std::isnan(answer.results.at(0).damping_constant) == !why.empty());
-    CHECK(std::isnan(answer.results.at(0).slip_share()) == !why.empty());
-    CHECK(answer.results.at(0).damping_constant_without_slip > 0);
-    if (!why.empty()) CHECK_THAT(answer.doubts.at(0), Catch::Contains(why));
-    return answer.results.at(0);
+    const DampingSolution solution =
+        solve(DampingProblem{.contact = contact, .motions = {motion}, .facts = facts});
+    CHECK(std::isnan(solution.results.at(0).work_per_cycle) == !why.empty());
+    CHECK(std::isnan(solution.results.at(0).damping_constant) == !why.empty());
+    CHECK(std::isnan(solution.results.at(0).slip_share()) == !why.empty());
+    CHECK(solution.results.at(0).damping_constant_without_slip > 0);
+    if (!why.empty()) CHECK_THAT(solution.doubts.at(0), Catch::Contains(why));
+    return solution.results.at(0);
   };
   const Drag slow{2e-8, 1e-5, omega};
   ask_of(slow, "`excursion`; give it");
@@ -76,42 +76,42 @@ TEST_CASE("What decides and is missing leaves the loss unknown, with what to giv
   CHECK(back.power == Approx(back.work_per_cycle * omega / (2 * pi)).epsilon(1e-12));
 }
 
-TEST_CASE("Cases that do not match in number are refused", "[questions]") {
-  const DampingQuestion question{.contact = ExponentialContact{1e-7, ratio, {1, 2, 3}},
+TEST_CASE("Cases that do not match in number are refused", "[analysis]") {
+  const DampingProblem problem{.contact = ExponentialContact{1e-7, ratio, {1, 2, 3}},
                                  .motions = {Drag{1e-8, 1e-3, omega}, Drag{2e-8, 1e-3, omega}}};
-  CHECK_THROWS_AS(ask(question), InvalidInput);
+  CHECK_THROWS_AS(solve(problem), InvalidInput);
 }
 
 TEST_CASE("A joint is that of its law, and what a surface alone has is refused of a law",
-          "[questions]") {
-  JointQuestion question{.contact = contact,
+          "[analysis]") {
+  JointProblem problem{.contact = contact,
                          .motions = {TangentialAmplitude{2e-9}, TangentialForce{0.05}}};
-  question.facts.friction_coefficient = 0.3;
-  const JointAnswer constant = ask(question);
+  problem.facts.friction_coefficient = 0.3;
+  const JointSolution constant = solve(problem);
   const ExponentialLaw law(1, 1e-7, ratio);
   for (std::size_t i = 0; i < 2; ++i)
     CHECK(constant.losses.at(i).work_per_cycle ==
-          joint_loss(law, AtForce{1}, question.motions[i], 0.3).work_per_cycle);
+          joint_loss(law, AtForce{1}, problem.motions[i], 0.3).work_per_cycle);
   CHECK(constant.state.normal_stiffness == Approx(1e7));  // F/l
   // The larger of the two motions is the one that is judged.
   CHECK(constant.largest.tangential_amplitude ==
         std::max(2e-9, constant.losses[1].tangential_amplitude));
-  question.normal_amplitude = 2e-8;
-  question.phase = pi / 2;
-  const JointAnswer shaken = ask(question);
+  problem.normal_amplitude = 2e-8;
+  problem.phase = pi / 2;
+  const JointSolution shaken = solve(problem);
   CHECK(shaken.losses.at(0).work_per_cycle ==
-        joint_loss(law, AtForce{1}, {question.motions[0], 2e-8, pi / 2}, 0.3).work_per_cycle);
+        joint_loss(law, AtForce{1}, {problem.motions[0], 2e-8, pi / 2}, 0.3).work_per_cycle);
   CHECK(shaken.simulated.empty());
 
-  question.direct_steps = 16;
-  CHECK_THROWS_WITH(ask(question), Catch::Contains("direct_steps"));
-  question.direct_steps = {};
-  question.contact = ExponentialContact{1e-7, ratio, {1, 2}};
-  CHECK_THROWS_WITH(ask(question), Catch::Contains("2 positions"));
+  problem.direct_steps = 16;
+  CHECK_THROWS_WITH(solve(problem), Catch::Contains("direct_steps"));
+  problem.direct_steps = {};
+  problem.contact = ExponentialContact{1e-7, ratio, {1, 2}};
+  CHECK_THROWS_WITH(solve(problem), Catch::Contains("2 positions"));
 }
 
-TEST_CASE("An answer has what is there: estimates as members, words as lists, structs as objects",
-          "[questions]") {
+TEST_CASE("An solution has what is there: estimates as members, words as lists, structs as objects",
+          "[analysis]") {
   const StudyCost cost{{.seconds = 3}, {{.pressures = {1, 2}, .surfaces = 4, .warnings = {"few"}}}};
   const Json plan = answer_json(cost);
   CHECK(plan["seconds"].number() == 3);

@@ -4,7 +4,7 @@
 #include <memory>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
-#include <salebra/questions/contact.hpp>
+#include <salebra/analysis/contact.hpp>
 
 namespace salebra {
 

@@ -2,7 +2,7 @@
 // Slip in the loss of a law, where the coefficient of friction is known.
 #include <cmath>
 #include <salebra/damping/closed_form.hpp>
-#include <salebra/questions/slip.hpp>
+#include <salebra/analysis/slip.hpp>
 #include <variant>
 
 namespace salebra {

@@ -8,7 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/questions/damping.hpp>
+#include <salebra/analysis/damping.hpp>
 #include <utility>
 
 #include "damping/largest_motion.hpp"
@@ -31,16 +31,16 @@ const T& at(const std::vector<T>& all, std::size_t i) {
 }
 
 std::vector<Case> cases_of(const std::vector<Position>& positions,
-                           const DampingQuestion& question) {
-  const auto& forces = question.force_amplitude;
-  const std::size_t count = std::max({positions.size(), question.motions.size(), forces.size()});
+                           const DampingProblem& problem) {
+  const auto& forces = problem.force_amplitude;
+  const std::size_t count = std::max({positions.size(), problem.motions.size(), forces.size()});
   for (const std::size_t size :
-       {positions.size(), question.motions.size(), std::max<std::size_t>(1, forces.size())})
-    require(size == 1 || size == count, "motions", question.motions.size(),
+       {positions.size(), problem.motions.size(), std::max<std::size_t>(1, forces.size())})
+    require(size == 1 || size == count, "motions", problem.motions.size(),
             fmt::format("must be one, or one for each of {} cases", count));
   std::vector<Case> cases;
   for (std::size_t i = 0; i < count; ++i) {
-    cases.push_back({at(positions, i), at(question.motions, i), {}});
+    cases.push_back({at(positions, i), at(problem.motions, i), {}});
     if (!forces.empty()) cases.back().force_amplitude = at(forces, i);
   }
   return cases;
@@ -99,7 +99,7 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
 
 /// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
 /// of it.
-Premises premises_of_case(const ContactAnswer& contact, const Case& one,
+Premises premises_of_case(const ContactSolution& contact, const Case& one,
                           const DampingResult& result, const ContactFacts& facts) {
   Motion motion = one.motion;
   if (one.force_amplitude)
@@ -146,29 +146,29 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
 
 /// A surface is not interpolated between loads: contacts inside the oscillation give W and its
 /// error.
-void resolve_on_surface(const DampingQuestion& question, const std::vector<double>& pressures,
-                        const Material& material, const Context& context, DampingAnswer& answer) {
-  const Oscillation one = *oscillation_of(question.motions.front());
-  const bool known = why_loss_unknown(question.motions.front(), question.facts).empty();
-  const ForceCurve loads = loads_with_neighbours(*answer.contact.curve, pressures);
-  SurfaceDampingOptions options = question.surface;
-  options.hold = question.hold;
-  options.amplitude = question.amplitude;
-  options.friction_coefficient = question.facts.friction_coefficient;
-  options.excursion = question.facts.excursion;
+void resolve_on_surface(const DampingProblem& problem, const std::vector<double>& pressures,
+                        const Material& material, const Context& context, DampingSolution& solution) {
+  const Oscillation one = *oscillation_of(problem.motions.front());
+  const bool known = why_loss_unknown(problem.motions.front(), problem.facts).empty();
+  const ForceCurve loads = loads_with_neighbours(*solution.contact.curve, pressures);
+  SurfaceDampingOptions options = problem.surface;
+  options.hold = problem.hold;
+  options.amplitude = problem.amplitude;
+  options.friction_coefficient = problem.facts.friction_coefficient;
+  options.excursion = problem.facts.excursion;
   options.on_progress = context.on_progress;
   const std::vector<SurfaceDamping> found =
-      surface_damping(*answer.contact.surface, material, one, loads, options);
-  for (std::size_t i = 0; i < answer.results.size(); ++i) {
+      surface_damping(*solution.contact.surface, material, one, loads, options);
+  for (std::size_t i = 0; i < solution.results.size(); ++i) {
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
-    DampingResult& result = answer.results[i];
+    DampingResult& result = solution.results[i];
     static_cast<Loss&>(result) = load;
     result.error_estimate = load.work_per_cycle_error();
     result.converged = load.converged;
     if (!known) {
       result.forget();
     } else if (!(load.work_per_cycle_error() < std::abs(load.work_per_cycle))) {
-      answer.doubts.push_back(
+      solution.doubts.push_back(
           fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
                       "a study of the surface with a `relative_error` halves the cells further",
                       format_quantity(pressures[i], Dimension::pressure)));
@@ -178,25 +178,25 @@ void resolve_on_surface(const DampingQuestion& question, const std::vector<doubl
   }
 }
 
-bool slips(const DamperQuestion& question) {
-  return !std::isnan(question.facts.friction_coefficient);
+bool slips(const DamperProblem& problem) {
+  return !std::isnan(problem.facts.friction_coefficient);
 }
 
 /// Why γ of a damper with friction is not known; empty: it is.
-std::string why_unknown(const DamperQuestion& question, double angular_frequency) {
-  if (slips(question) && std::isnan(question.drag_velocity))
+std::string why_unknown(const DamperProblem& problem, double angular_frequency) {
+  if (slips(problem) && std::isnan(problem.drag_velocity))
     return "with friction the damping constant depends on the `drag_velocity` and the `excursion` "
            "of the slow motion; give both";
-  return why_loss_unknown(Drag{0, question.drag_velocity, angular_frequency}, question.facts);
+  return why_loss_unknown(Drag{0, problem.drag_velocity, angular_frequency}, problem.facts);
 }
 
 /// Of a law, about its mean indentation, whose γ without slip is known.
-Loss loss_of(const DamperQuestion& question, const ContactLaw& law, double indentation,
+Loss loss_of(const DamperProblem& problem, const ContactLaw& law, double indentation,
              const Drag& drag, double without_slip) {
   Loss loss;
-  if (why_unknown(question, drag.angular_frequency).empty())
-    loss = loss_with_slip(law, indentation, drag, question.facts.friction_coefficient,
-                          question.facts.excursion);
+  if (why_unknown(problem, drag.angular_frequency).empty())
+    loss = loss_with_slip(law, indentation, drag, problem.facts.friction_coefficient,
+                          problem.facts.excursion);
   loss.damping_constant_without_slip = without_slip;
   return loss;
 }
@@ -205,23 +205,23 @@ Loss loss_of(const DamperQuestion& question, const ContactLaw& law, double inden
 /// what follows from it.
 class SurfaceDamper {
  public:
-  SurfaceDamper(const DamperQuestion& question, const Material& material, const Context& context,
-                DamperAnswer& answer)
-      : question_(question), material_(material), answer_(answer), about_(*answer.contact.curve) {
-    options_ = {.hold = question.hold,
-                .amplitude = question.amplitude,
-                .friction_coefficient = question.facts.friction_coefficient,
-                .excursion = question.facts.excursion,
+  SurfaceDamper(const DamperProblem& problem, const Material& material, const Context& context,
+                DamperSolution& solution)
+      : problem_(problem), material_(material), solution_(solution), about_(*solution.contact.curve) {
+    options_ = {.hold = problem.hold,
+                .amplitude = problem.amplitude,
+                .friction_coefficient = problem.facts.friction_coefficient,
+                .excursion = problem.facts.excursion,
                 .on_progress = context.on_progress};
-    const ForceSample load = about_.samples[answer.contact.load()];
+    const ForceSample load = about_.samples[solution.contact.load()];
     about_.samples = {load};
   }
 
   /// Without slip γω is a number of the amplitude alone, and is solved once.
   Loss at(double amplitude, double angular_frequency) {
-    const bool known = why_unknown(question_, angular_frequency).empty();
-    if (slips(question_) && known)
-      return stated(solved({amplitude, question_.drag_velocity, angular_frequency}, options_),
+    const bool known = why_unknown(problem_, angular_frequency).empty();
+    if (slips(problem_) && known)
+      return stated(solved({amplitude, problem_.drag_velocity, angular_frequency}, options_),
                     amplitude);
     if (!(solved_amplitude_ == amplitude)) solved_ = without_slip(amplitude);
     solved_amplitude_ = amplitude;
@@ -234,14 +234,14 @@ class SurfaceDamper {
   }
 
   void decay(double contact_stiffness) {
-    const double omega = question_.angular_frequency.front();
+    const double omega = problem_.angular_frequency.front();
     const auto by = [&](double constant) {
-      return oscillator_decay(constant, contact_stiffness, omega, *question_.oscillator);
+      return oscillator_decay(constant, contact_stiffness, omega, *problem_.oscillator);
     };
-    const double constant = answer_.map.damping_constant(0, 0),
-                 error = answer_.damping_constant_error(0, 0);
+    const double constant = solution_.map.damping_constant(0, 0),
+                 error = solution_.damping_constant_error(0, 0);
     const OscillatorDecay found = by(constant), more = by(constant + error);
-    OscillatorDecay& off = answer_.decay_error.emplace();
+    OscillatorDecay& off = solution_.decay_error.emplace();
     off.damping_constant = error;
     off.contact_stiffness = off.natural_frequency = off.frequency_ratio = not_known;
     for (double OscillatorDecay::*const number :
@@ -252,26 +252,26 @@ class SurfaceDamper {
 
   /// The amplitude of the law, corrected once by what γ is there, along the slope of the law.
   void stabilise(double angular_frequency) {
-    double& amplitude = answer_.stabilising_amplitude.back();
+    double& amplitude = solution_.stabilising_amplitude.back();
     const double by_law = amplitude;
     const auto lost = [&] {
       amplitude = not_known;
-      answer_.stabilising_amplitude_error.push_back(not_known);
+      solution_.stabilising_amplitude_error.push_back(not_known);
     };
     if (!std::isfinite(by_law)) return lost();
     const Loss there = at(by_law, 1);
     const double constant = there.damping_constant, error = there.damping_constant_error();
     const Field about =
-        damper_map(*answer_.contact.law, answer_.contact.positions.front(), {by_law, 1.05 * by_law},
-                   {angular_frequency}, {.hold = question_.hold, .amplitude = question_.amplitude})
+        damper_map(*solution_.contact.law, solution_.contact.positions.front(), {by_law, 1.05 * by_law},
+                   {angular_frequency}, {.hold = problem_.hold, .amplitude = problem_.amplitude})
             .damping_constant;
     const double exponent = std::log(about(1, 0) / about(0, 0)) / std::log(1.05);
-    amplitude *= std::pow(*question_.falling_slope * angular_frequency / constant, 1 / exponent);
+    amplitude *= std::pow(*problem_.falling_slope * angular_frequency / constant, 1 / exponent);
     const double off =
         std::hypot(amplitude * error / (constant * exponent), (amplitude - by_law) / 2);
-    if (!(exponent > 0) || !(off < amplitude) || amplitude > question_.largest_amplitude)
+    if (!(exponent > 0) || !(off < amplitude) || amplitude > problem_.largest_amplitude)
       return lost();
-    answer_.stabilising_amplitude_error.push_back(off);
+    solution_.stabilising_amplitude_error.push_back(off);
   }
 
  private:
@@ -283,13 +283,13 @@ class SurfaceDamper {
   }
 
   Loss solved(const Drag& drag, const SurfaceDampingOptions& options) const {
-    return surface_damping(*answer_.contact.surface, material_, drag, about_, options)[0];
+    return surface_damping(*solution_.contact.surface, material_, drag, about_, options)[0];
   }
 
   /// With its error where this is smaller.
   Loss stated(Loss loss, double amplitude) {
     if (loss.damping_constant_error() < std::abs(loss.damping_constant)) return loss;
-    answer_.doubts.push_back(fmt::format(
+    solution_.doubts.push_back(fmt::format(
         "the error of the damping constant under {} exceeds it, and neither is given; a finer "
         "surface helps",
         format_quantity(amplitude, Dimension::length)));
@@ -297,18 +297,18 @@ class SurfaceDamper {
     return loss;
   }
 
-  const DamperQuestion& question_;
+  const DamperProblem& problem_;
   const Material& material_;
-  DamperAnswer& answer_;
+  DamperSolution& solution_;
   ForceCurve about_;  // the load
   SurfaceDampingOptions options_;
   double solved_amplitude_ = not_known;
   Loss solved_;  // at ω = 1, without slip
 };
 
-void require_motion_of_surface(const DampingQuestion& question) {
-  require_that(question.motions.size() == 1 && question.force_amplitude.empty() &&
-                   !std::holds_alternative<TwoFrequencies>(question.motions.front()),
+void require_motion_of_surface(const DampingProblem& problem) {
+  require_that(problem.motions.size() == 1 && problem.force_amplitude.empty() &&
+                   !std::holds_alternative<TwoFrequencies>(problem.motions.front()),
                "surface",
                "takes one motion of equal frequencies or drag; give several `pressure`, or a "
                "`curve`");
@@ -316,90 +316,90 @@ void require_motion_of_surface(const DampingQuestion& question) {
 
 }  // namespace
 
-DampingAnswer ask(DampingQuestion question, const Context& context) {
-  require_that(!question.motions.empty(), "motions", "not given; give one");
-  auto* surface = std::get_if<SurfaceContact>(&question.contact);
+DampingSolution solve(DampingProblem problem, const Context& context) {
+  require_that(!problem.motions.empty(), "motions", "not given; give one");
+  auto* surface = std::get_if<SurfaceContact>(&problem.contact);
   std::vector<double> pressures;
   Material material;
   if (surface) {
-    require_motion_of_surface(question);
+    require_motion_of_surface(problem);
     surface->normal_amplitude =
-        std::visit([](const auto& m) { return m.normal_amplitude; }, question.motions.front());
+        std::visit([](const auto& m) { return m.normal_amplitude; }, problem.motions.front());
     pressures = surface->pressure;
     material = surface->material;
   }
-  DampingAnswer answer{ask(std::move(question.contact), context)};
-  const ContactLaw& law = *answer.contact.law;
-  const DampingOptions options{.hold = question.hold, .amplitude = question.amplitude};
-  const std::vector<Case> cases = cases_of(answer.contact.positions, question);
-  answer.results = results_of(law, cases, options, context);
-  if (const auto doubt = detail::doubt_of_held_indentation(question.hold, answer.results))
-    answer.doubts.push_back(*doubt);
+  DampingSolution solution{solve(std::move(problem.contact), context)};
+  const ContactLaw& law = *solution.contact.law;
+  const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
+  const std::vector<Case> cases = cases_of(solution.contact.positions, problem);
+  solution.results = results_of(law, cases, options, context);
+  if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, solution.results))
+    solution.doubts.push_back(*doubt);
   std::string unknown;  // why, one line for all cases
-  if (surface) resolve_on_surface(question, pressures, material, context, answer);
+  if (surface) resolve_on_surface(problem, pressures, material, context, solution);
   std::vector<std::string> doubts;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
-    DampingResult& result = answer.results[i];
-    answer.motions.push_back(one.motion);
-    const std::string why = why_unknown(one, question.facts);
+    DampingResult& result = solution.results[i];
+    solution.motions.push_back(one.motion);
+    const std::string why = why_unknown(one, problem.facts);
     if (unknown.empty()) unknown = why;
     if (!why.empty()) {
       result.forget();
       result.power = not_known;
     } else if (!surface) {
-      add_slip(result, law, one.motion, question.facts, question.steps, context);
+      add_slip(result, law, one.motion, problem.facts, problem.steps, context);
     }
-    answer.ratio.push_back(1 / small_over_exact(result, one.motion));
-    answer.premises.push_back(premises_of_case(answer.contact, one, result, question.facts));
+    solution.ratio.push_back(1 / small_over_exact(result, one.motion));
+    solution.premises.push_back(premises_of_case(solution.contact, one, result, problem.facts));
     if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {
-      answer.periods.push_back(common_period(*two));
-      answer.slow_limit_power.push_back(slow_limit_power(law, one, options));
+      solution.periods.push_back(common_period(*two));
+      solution.slow_limit_power.push_back(slow_limit_power(law, one, options));
     }
     const auto* drag = std::get_if<Drag>(&one.motion);
     if (drag == nullptr) continue;
-    if (const double way = drag->way_per_cycle(); question.facts.excursion >= way)
-      answer.work_there_and_back.push_back(result.work_per_cycle * 2 * question.facts.excursion /
+    if (const double way = drag->way_per_cycle(); problem.facts.excursion >= way)
+      solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.facts.excursion /
                                            way);
     if (!doubts.empty()) continue;
-    const ForceCurve* curve = answer.contact.curve ? &*answer.contact.curve : nullptr;
+    const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
     doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
-                            spot_radius(question.facts, law, curve, result.indentation));
+                            spot_radius(problem.facts, law, curve, result.indentation));
   }
   if (!unknown.empty()) doubts.insert(doubts.begin(), unknown);
-  answer.doubts.insert(answer.doubts.end(), doubts.begin(), doubts.end());
-  return answer;
+  solution.doubts.insert(solution.doubts.end(), doubts.begin(), doubts.end());
+  return solution;
 }
 
-StressMap stress_map_of(const DampingAnswer& answer, int phases, int radii,
+StressMap stress_map_of(const DampingSolution& solution, int phases, int radii,
                         const Context& context) {
-  return stress_map(dynamic_cast<const IndenterLaw&>(*answer.contact.law),
-                    answer.results.front().indentation, *oscillation_of(answer.motions.front()),
+  return stress_map(dynamic_cast<const IndenterLaw&>(*solution.contact.law),
+                    solution.results.front().indentation, *oscillation_of(solution.motions.front()),
                     phases, radii, context.on_progress);
 }
 
-FrictionMap friction_map_of(const DampingAnswer& answer, std::vector<double> friction_numbers,
+FrictionMap friction_map_of(const DampingSolution& solution, std::vector<double> friction_numbers,
                             int steps, const Context& context) {
   if (friction_numbers.empty())
     for (int i = 0; i <= 24; ++i) friction_numbers.push_back(std::pow(10.0, -1 + i / 8.0));
   std::vector<double> phases;
   for (int i = 1; i <= 18; ++i) phases.push_back(std::numbers::pi / 36 * i);
-  const auto& motion = std::get<EqualFrequency>(answer.motions.front());
-  return friction_map(*answer.contact.law, answer.results.front().indentation,
+  const auto& motion = std::get<EqualFrequency>(solution.motions.front());
+  return friction_map(*solution.contact.law, solution.results.front().indentation,
                       motion.normal_amplitude, motion.tangential_amplitude, friction_numbers,
                       phases, {.steps = steps, .on_progress = context.on_progress});
 }
 
-PathAnswer ask(const PathQuestion& question, const Context& context) {
-  const auto law = law_of(question.contact, context);
-  const double friction = question.facts.friction_coefficient;
-  const bool planar = !question.transverse.empty();
+PathSolution solve(const PathProblem& problem, const Context& context) {
+  const auto law = law_of(problem.contact, context);
+  const double friction = problem.facts.friction_coefficient;
+  const bool planar = !problem.transverse.empty();
   require(!planar || std::isnan(friction), "friction_coefficient", friction,
           "cannot be combined with a trajectory in two directions, whose slip is not followed; "
           "leave it out, or the fourth column");
-  const auto [low, high] = std::ranges::minmax(question.path.indentation);
+  const auto [low, high] = std::ranges::minmax(problem.path.indentation);
   // The exponential law counts indentations from its rest.
-  if (const auto* body = std::get_if<ExponentialContact>(&question.contact))
+  if (const auto* body = std::get_if<ExponentialContact>(&problem.contact))
     require(high <= detail::possible_amplitude(body->decay_length), "trajectory", high,
             fmt::format("m is an indentation at which the force is more than {:g} times that at "
                         "rest, up to which an exponential law holds; at most {}",
@@ -408,72 +408,72 @@ PathAnswer ask(const PathQuestion& question, const Context& context) {
                                         Dimension::length, 3)));
   TrajectoryDampingOptions options{.on_progress = context.on_progress};
   if (!std::isnan(friction)) options.friction_coefficient = friction;
-  PathAnswer answer;
-  answer.loss = planar ? trajectory_damping(*law, question.path, question.transverse)
-                       : trajectory_damping(*law, question.path, options);
-  answer.premises = premises_of(*law, question.path,
-                                at_state(question.facts, *law, nullptr, 0.5 * (low + high), high));
-  if (!planar) return answer;
+  PathSolution solution;
+  solution.loss = planar ? trajectory_damping(*law, problem.path, problem.transverse)
+                       : trajectory_damping(*law, problem.path, options);
+  solution.premises = premises_of(*law, problem.path,
+                                at_state(problem.facts, *law, nullptr, 0.5 * (low + high), high));
+  if (!planar) return solution;
   // Slip is judged along x alone, where it is one of the vector.
-  Premises& judged = answer.premises;
+  Premises& judged = solution.premises;
   judged.slip_of_opening_levels = judged.slip_of_closed_levels = {};
   judged.largest.clear();
   judged.regime = Regime::unknown;
-  return answer;
+  return solution;
 }
 
 namespace {
 
 /// Puts γ of the surface, with friction that with slip, in the place of the law's without.
-void fill_map(const DamperQuestion& question, const std::vector<double>& indentations,
-              std::optional<SurfaceDamper>& of_surface, DamperAnswer& answer) {
-  DamperMap& map = answer.map;
-  if (map.damping_constant.size() == 0 || !(of_surface || slips(question))) return;
-  if (of_surface) answer.damping_constant_error = map.damping_constant;
-  if (slips(question)) {
-    answer.damping_constant_without_slip = answer.slip_share = map.damping_constant;
-    const std::string unknown = why_unknown(question, std::ranges::min(map.angular_frequency));
-    if (!unknown.empty()) answer.doubts.push_back(unknown);
+void fill_map(const DamperProblem& problem, const std::vector<double>& indentations,
+              std::optional<SurfaceDamper>& of_surface, DamperSolution& solution) {
+  DamperMap& map = solution.map;
+  if (map.damping_constant.size() == 0 || !(of_surface || slips(problem))) return;
+  if (of_surface) solution.damping_constant_error = map.damping_constant;
+  if (slips(problem)) {
+    solution.damping_constant_without_slip = solution.slip_share = map.damping_constant;
+    const std::string unknown = why_unknown(problem, std::ranges::min(map.angular_frequency));
+    if (!unknown.empty()) solution.doubts.push_back(unknown);
   }
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
     for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
       const auto row = Index(i), column = Index(j);
-      const Drag drag{map.normal_amplitude[i], question.drag_velocity, map.angular_frequency[j]};
+      const Drag drag{map.normal_amplitude[i], problem.drag_velocity, map.angular_frequency[j]};
       double& constant = map.damping_constant(row, column);
       const Loss found = of_surface
                              ? of_surface->at(drag.normal_amplitude, drag.angular_frequency)
-                             : loss_of(question, *answer.contact.law, indentations[i], drag, constant);
+                             : loss_of(problem, *solution.contact.law, indentations[i], drag, constant);
       constant = found.damping_constant;
-      if (of_surface) answer.damping_constant_error(row, column) = found.damping_constant_error();
-      if (!slips(question)) continue;
-      answer.damping_constant_without_slip(row, column) = found.damping_constant_without_slip;
-      answer.slip_share(row, column) = found.slip_share();
+      if (of_surface) solution.damping_constant_error(row, column) = found.damping_constant_error();
+      if (!slips(problem)) continue;
+      solution.damping_constant_without_slip(row, column) = found.damping_constant_without_slip;
+      solution.slip_share(row, column) = found.slip_share();
     }
 }
 
 }  // namespace
 
-DamperAnswer ask(DamperQuestion question, const Context& context) {
-  const std::vector<double>&amplitudes = question.normal_amplitude,
-        &omega = question.angular_frequency;
+DamperSolution solve(DamperProblem problem, const Context& context) {
+  const std::vector<double>&amplitudes = problem.normal_amplitude,
+        &omega = problem.angular_frequency;
   require_that(!omega.empty(), "frequency", "not given, but a damper needs it; give it");
-  require(!question.falling_slope || !slips(question), "falling_slope",
-          question.falling_slope.value_or(0),
+  require(!problem.falling_slope || !slips(problem), "falling_slope",
+          problem.falling_slope.value_or(0),
           "N s/m is held against the damping without slip; leave out `friction_coefficient`, or "
           "ask for steady sliding, where stability follows the slip");
   Material material;
-  if (auto* surface = std::get_if<SurfaceContact>(&question.contact)) {
+  if (auto* surface = std::get_if<SurfaceContact>(&problem.contact)) {
     surface->normal_amplitude = amplitudes.empty() ? 0 : std::ranges::max(amplitudes);
     material = surface->material;
   }
-  DamperAnswer answer{ask(std::move(question.contact), context)};
-  const ContactLaw& law = *answer.contact.law;
-  require(answer.contact.positions.size() == 1, "normal_force",
-          fmt::format("{} positions", answer.contact.positions.size()),
+  DamperSolution solution{solve(std::move(problem.contact), context)};
+  const ContactLaw& law = *solution.contact.law;
+  require(solution.contact.positions.size() == 1, "normal_force",
+          fmt::format("{} positions", solution.contact.positions.size()),
           "are given; a damper takes one");
-  const Position& position = answer.contact.positions.front();
+  const Position& position = solution.contact.positions.front();
   const DampingOptions options{
-      .hold = question.hold, .amplitude = question.amplitude, .on_progress = context.on_progress};
+      .hold = problem.hold, .amplitude = problem.amplitude, .on_progress = context.on_progress};
   const bool one = amplitudes.size() == 1 && omega.size() == 1;
   std::vector<double> indentations;
   std::vector<DampingResult> rested;
@@ -481,39 +481,39 @@ DamperAnswer ask(DamperQuestion question, const Context& context) {
     Drag motion{amplitude, 0, std::ranges::max(omega)};
     rested.push_back(relaxation_damping(law, position, motion, options));
     indentations.push_back(rested.back().indentation);
-    motion.drag_velocity = question.drag_velocity;
-    answer.premises.push_back(
+    motion.drag_velocity = problem.drag_velocity;
+    solution.premises.push_back(
         premises_of(law, indentations.back(), motion,
-                    answer.contact.facts_at(question.facts, indentations.back(),
+                    solution.contact.facts_at(problem.facts, indentations.back(),
                                             indentations.back() + amplitude)));
   }
-  if (const auto doubt = detail::doubt_of_held_indentation(question.hold, rested))
-    answer.doubts.push_back(*doubt);
+  if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, rested))
+    solution.doubts.push_back(*doubt);
   std::optional<SurfaceDamper> of_surface;
-  if (answer.contact.surface) of_surface.emplace(question, material, context, answer);
+  if (solution.contact.surface) of_surface.emplace(problem, material, context, solution);
   if (!amplitudes.empty())
-    answer.map = damper_map(law, position, amplitudes, omega, options);
+    solution.map = damper_map(law, position, amplitudes, omega, options);
   else
-    require_that(question.falling_slope.has_value(), "normal_amplitude",
+    require_that(problem.falling_slope.has_value(), "normal_amplitude",
                  "missing; give it, or `falling_slope` to have it computed");
-  fill_map(question, indentations, of_surface, answer);
-  if (question.oscillator) {
-    require(one, "mass", question.oscillator->mass,
+  fill_map(problem, indentations, of_surface, solution);
+  if (problem.oscillator) {
+    require(one, "mass", problem.oscillator->mass,
             "kg needs one `normal_amplitude` and one `frequency`");
-    answer.decay =
-        oscillator_decay(answer.map.damping_constant(0, 0),
+    solution.decay =
+        oscillator_decay(solution.map.damping_constant(0, 0),
                          law.tangential_stiffness(indentations.front() - amplitudes.front()),
-                         omega.front(), *question.oscillator);
-    if (of_surface) of_surface->decay(answer.decay->contact_stiffness);
+                         omega.front(), *problem.oscillator);
+    if (of_surface) of_surface->decay(solution.decay->contact_stiffness);
   }
-  if (!question.falling_slope) return answer;
-  require_positive(*question.falling_slope, "falling_slope");
+  if (!problem.falling_slope) return solution;
+  require_positive(*problem.falling_slope, "falling_slope");
   for (const double frequency : omega) {
-    answer.stabilising_amplitude.push_back(stabilising_amplitude(
-        law, position, frequency, *question.falling_slope, question.largest_amplitude, options));
+    solution.stabilising_amplitude.push_back(stabilising_amplitude(
+        law, position, frequency, *problem.falling_slope, problem.largest_amplitude, options));
     if (of_surface) of_surface->stabilise(frequency);
   }
-  return answer;
+  return solution;
 }
 
 std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,

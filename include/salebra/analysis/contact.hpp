@@ -81,11 +81,11 @@ struct SurfaceContact {
   double normal_amplitude = 0;  ///< of that oscillation, m
 };
 
-using ContactQuestion =
+using ContactProblem =
     std::variant<ExponentialContact, IndenterContact, CurveContact, SurfaceContact>;
 
 /// The law of a contact, its operating points, and the data behind it.
-struct ContactAnswer {
+struct ContactSolution {
   std::unique_ptr<const ContactLaw> law;
   std::vector<Position> positions;                 ///< operating points on the law
   std::optional<ForceCurve> curve = {};            ///< curve behind the law
@@ -107,17 +107,17 @@ struct ContactAnswer {
 
 /// Computes the law and the operating points of a contact.
 ///
-///     ContactAnswer contact = ask(SurfaceContact{surface, material, {1e6, 5e6}});
+///     ContactSolution contact = solve(SurfaceContact{surface, material, {1e6, 5e6}});
 ///
 /// throws  InvalidInput for values that are not > 0, operating points beyond a curve, and as the
 ///         laws, after_first_loading() and sweep_pressures() do; NotConverged, Interrupted
 /// cost    for a surface some thirteen contacts in full stick for each pressure, and the first
 ///         loading
-ContactAnswer ask(ContactQuestion question, const Context& context = {});
+ContactSolution solve(ContactProblem problem, const Context& context = {});
 
 /// Returns the law alone, for a motion with its own indentations; operating points are ignored.
 /// Throws InvalidInput for a surface, which has none before a sweep.
-std::unique_ptr<const ContactLaw> law_of(const ContactQuestion& question,
+std::unique_ptr<const ContactLaw> law_of(const ContactProblem& problem,
                                          const Context& context = {});
 
 /// A contact at rest.
