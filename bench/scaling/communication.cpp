@@ -21,7 +21,7 @@ namespace {
 
 // The multilevel kernel's symbol is made by each process as a whole, for larger grids in half a minute and
 // more.
-constexpr Index largest_for_ladder = 16384;
+constexpr Index max_for_multilevel = 16384;
 
 void count(Index n, int ranks) {
   // A process in the middle has neighbours on both sides.
@@ -57,7 +57,7 @@ void count(Index n, int ranks) {
               long(rows.count()), of_pair.sent / 1e6, model / 1e6, of_pair.messages,
               2 * (ranks - 1), of_halo.sent / 1e6, 24 * static_cast<double>(n) / 1e6,
               of_sums.sent / 1e3);
-  if (n <= largest_for_ladder) {
+  if (n <= max_for_multilevel) {
     const Grid2D grid{n, n, static_cast<double>(n), static_cast<double>(n)};
     auto multilevel = detail::MultilevelKernel::make(
         grid, rows, detail::normal_symbol(grid, 1, Boundary::periodic, rows), 1,

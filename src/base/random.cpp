@@ -9,7 +9,7 @@
 namespace salebra {
 namespace {
 
-struct EnumNames {
+struct Words {
   std::uint32_t w0, w1, w2, w3;
 };
 

@@ -14,7 +14,7 @@ namespace salebra {
 
 namespace detail {
 
-/// Carries bytes between the processes of a communicator. Each call is collective: all processes
+/// Transfers bytes between the processes of a communicator. Each call is collective: all processes
 /// make it, in the same order.
 class Transport {
  public:
@@ -24,23 +24,23 @@ class Transport {
   virtual void broadcast(void* bytes, std::size_t count, int from) = 0;
   /// bytes[r] of process r, one after the other in `all`.
   virtual void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) = 0;
-  /// counts and places of a process, in units of `unit` bytes.
+  /// counts and offsets of a process, in units of `unit` bytes.
   struct Parts {
     std::span<const std::int64_t> counts, places;
   };
   virtual void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
                         const Parts& received) = 0;
-  /// The processes of one group, in the order that they have here.
+  /// Returns the processes of one group, in their order here.
   virtual std::shared_ptr<Transport> split(int group) = 0;
 };
 
 }  // namespace detail
 
-/// What each process of a communicator sends to each other one, in units of some bytes. Throws
-/// InvalidInput where a count or a place is beyond 2^31 − 1 units, the most that MPI 3 takes.
+/// Plan of an all-to-all exchange, in units of a given number of bytes. Throws InvalidInput if a
+/// count or an offset exceeds 2^31 − 1 units, the limit of MPI 3.
 class Exchange {
  public:
-  /// sent[r], received[r]: units to and from process r; their places follow one another, in the
+  /// sent[r], received[r]: units to and from process r; their offsets follow each other in the
   /// order of the processes.
   Exchange(std::size_t unit, std::vector<std::int64_t> sent, std::vector<std::int64_t> received);
 
@@ -58,10 +58,11 @@ class Exchange {
   std::vector<std::int64_t> sent_places_, received_places_;  // and behind the last
 };
 
-/// The processes that compute one surface together; a copy means the same processes. Each call but
-/// rank(), ranks() and is_root() is collective: all processes make it, in the same order and with
-/// the same sizes. A communicator of one process does nothing. The library has no other transport
-/// than that; salebra-mpi brings the one of MPI.
+/// Processes that compute one surface together; a copy refers to the same processes. Every call
+/// except rank(), ranks() and is_root() is collective: all processes make it, in the same order and
+/// with the same sizes. A communicator of one process does nothing and is the only one in this
+/// library; salebra-mpi provides that of MPI.
+///     const bool all_converged = ranks.all_agree(state.converged());
 class Communicator {
  public:
   Communicator() = default;  ///< this process alone
@@ -77,32 +78,31 @@ class Communicator {
   /// bytes[r] of process r, one after the other in `all`.
   void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) const;
   std::vector<std::string> gather_all(const std::string& mine) const;
-  /// Whether all of them say yes.
+  /// Returns true if all processes pass true.
   bool all_agree(bool yes) const;
-  /// The least of their numbers.
+  /// Returns the minimum over all processes.
   double least_of(double mine) const;
-  /// from: units of this process for each other one; to: those of each other one for this. They
+  /// from: units of this process for each other one; to: units of the others for this one. They
   /// must not overlap.
   void exchange(const Exchange& plan, const void* from, void* to) const;
-  /// The processes that name the same group, >= 0, in the order that they have here.
+  /// Returns the processes that pass the same group, >= 0, in their order here.
   Communicator split(int group) const;
 
  private:
   std::shared_ptr<detail::Transport> transport_;
 };
 
-/// The processes of a communicator in groups of consecutive ones, whose sizes differ by one at
-/// most.
+/// Groups of consecutive processes of a communicator, whose sizes differ by at most one.
 class Groups {
  public:
   Groups() = default;  ///< this process alone, one group
-  /// Collective. throws InvalidInput unless there are 1 … ranks groups
+  /// Collective. Throws InvalidInput unless there are 1 … ranks groups.
   Groups(const Communicator& all, int count);
 
   const Communicator& all() const { return all_; }
   const Communicator& own() const { return own_; }  ///< the group of this process
   int count() const { return count_; }
-  int place() const { return place_; }  ///< of that group, from 0 on
+  int place() const { return place_; }  ///< index of that group, from 0
 
  private:
   Communicator all_, own_;

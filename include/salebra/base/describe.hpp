@@ -8,25 +8,25 @@
 #include <string_view>
 #include <type_traits>
 
-/// Each struct of results is described once, below its declaration: every member with its name,
-/// unit and meaning. Files, JSON, tables, Python, pickle, ==, the glossary and the kept
-/// realisations of a study are all made from the description
+/// Each result struct is described once, below its declaration: every member with name, unit and
+/// meaning. Files, JSON, tables, Python, pickle, ==, the glossary and the stored realisations of a
+/// study all use the description:
 ///     constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
 ///       visit(&SpotStatistics::spot_count, Quantity{"spot_count", Dimension::dimensionless,
 ///       "number of contact spots"}); …
 ///     }
-/// which calls visit(member, line) in the order of the declarations. A line is
+/// It calls visit(member, line) in the order of the declarations. A line is
 ///     Quantity   a column: a number, a word, or a list of them, with its name, unit and meaning
-///     Extensive  a column that is proportional to the nominal area; NAME_per_area is a column too
-///     WhereKnown a column that answers leave out where no row knows its value
+///     Extensive  a column proportional to the nominal area; NAME_per_area is a column too
+///     WhereKnown a column that answers omit if no row has a value
 ///     Part       a described struct, whose columns are columns of this one too
 ///     Table      a list of described structs, whose columns are columns of this one too
-///     Kept       anything else that belongs to the result; without a name no property of Python
-/// A const member function without arguments may be a column too: it is computed, and nowhere
-/// stored. A struct with a base calls the description of the base first.
+///     Kept       any other part of the result; without a name it is no property in Python
+/// A const member function without arguments may be a column too: it is computed and not stored. A
+/// struct with a base calls the description of the base first.
 namespace salebra {
 
-/// What stands behind a name that salebra uses in options, JSON and files: one meaning and one unit
+/// Meaning of a name that salebra uses in options, JSON and files: one meaning and one unit
 /// everywhere.
 struct Quantity {
   std::string_view name;  ///< "decay_length"
@@ -51,7 +51,7 @@ struct Kept {
   Dimension dimension = Dimension::dimensionless;
 };
 
-/// Members that have no more to say than Kept{}.
+/// Describes members with an empty Kept{}.
 constexpr void keep(auto&& visit, auto... members) { (visit(members, Kept{}), ...); }
 
 template <class T>
@@ -59,8 +59,8 @@ concept Described = requires {
   describe([](auto&&...) {}, std::type_identity<T>{});
 };
 
-/// Whether the description lists all members, in the order of their declarations: what a struct
-/// that grows is reminded by.
+/// Returns true if the description lists all members in the order of their declarations. A
+/// static_assert on it fails when a struct gains a member that is not described.
 template <Described T>
 consteval bool describes_all() {
   std::size_t end = 0;
@@ -76,7 +76,7 @@ consteval bool describes_all() {
   return rounded(end, alignof(T)) == sizeof(T);
 }
 
-/// Calls visit(member) for everything that a T stores.
+/// Calls visit(member) for every stored member of T.
 template <Described T, class Visitor>
 void for_each_member(Visitor&& visit) {
   describe(
@@ -86,12 +86,12 @@ void for_each_member(Visitor&& visit) {
       std::type_identity<T>{});
 }
 
-/// Any number of a T: a member, a member function, or a function of it.
+/// A number derived from a T: a member, a member function, or a function of it.
 template <class T>
 using NumberOf = std::function<double(const T&)>;
 
-/// Calls visit(access, quantity) for every column of T, those of its parts included; access(const
-/// T&) is its value.
+/// Calls visit(access, quantity) for every column of T, including those of its parts; access(const
+/// T&) returns its value.
 template <Described T, class Visitor>
 void for_each_column(Visitor&& visit) {
   describe(

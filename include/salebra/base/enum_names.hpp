@@ -9,21 +9,23 @@
 #include <utility>
 #include <vector>
 
-/// Words of enumerations, each listed below its enumeration: in study files, files and Python as
-/// they are there, in options with "-" for "_".
+/// Names of enumeration values, as written in study files, result files and Python; options use "-"
+/// instead of "_". Each list follows its enumeration.
+///     const std::string_view name = name_of(Boundary::periodic);
+///     const std::optional<Boundary> boundary = parse_enum<Boundary>("free");
 namespace salebra {
 
 template <class Enum>
 struct EnumNames;  ///< values: pairs of a value and its word
 
-/// The word of a value.
+/// Returns the name of a value.
 template <class Enum>
 std::string_view name_of(Enum value) {
   return std::ranges::find(EnumNames<Enum>::values, value, &std::pair<Enum, std::string_view>::first)
       ->second;
 }
 
-/// The words of an enumeration, in its order.
+/// Returns the names of an enumeration, in its order.
 template <class Enum>
 std::vector<std::string> names_of() {
   std::vector<std::string> all;
@@ -31,7 +33,7 @@ std::vector<std::string> names_of() {
   return all;
 }
 
-/// The value of a word, of which '-' and '_' are the same; nothing where no value has it.
+/// Returns the value with a name, in which '-' equals '_'; empty if there is none.
 template <class Enum>
 std::optional<Enum> parse_enum(std::string word) {
   std::ranges::replace(word, '-', '_');

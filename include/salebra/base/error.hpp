@@ -9,29 +9,30 @@
 
 namespace salebra {
 
-/// Root of everything that salebra throws on purpose.
+/// Base class of all exceptions that salebra throws on purpose.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// The caller's value or file is unusable; nothing was computed or written. The CLI exits with 2.
-/// what() is one line, "field: value constraint; remedy", without the parts that are empty. The
-/// parts are there for a program that calls its fields by other names, such as options.
+/// what() is one line, "field: value constraint; remedy", without empty parts. A program that calls
+/// its fields by other names, such as options, can use the parts.
+///     throw InvalidInput("width", "-1", "must be > 0; leave it out for none");
 class InvalidInput : public Error {
  public:
-  /// demand: "constraint; remedy", which reads on from the value: "must be > 0; leave it out for
+  /// demand: "constraint; remedy", a continuation of the value: "must be > 0; leave it out for
   /// none".
   InvalidInput(std::string_view field, std::string_view value, std::string_view demand);
-  /// Where the value says nothing, or the field is a file and the demand what is wrong with it:
-  /// "holds no numbers".
+  /// Without a value, e.g. if the field is a file and the demand says what is wrong with it: "holds
+  /// no numbers".
   InvalidInput(std::string_view field, std::string_view demand) : InvalidInput(field, "", demand) {}
 
   const std::string& field() const noexcept { return parts_->field; }  ///< an argument or a file
   const std::string& value() const noexcept { return parts_->value; }
   const std::string& constraint() const noexcept { return parts_->constraint; }
   const std::string& remedy() const noexcept { return parts_->remedy; }
-  std::string statement() const;  ///< what() behind the field: "value constraint; remedy"
+  std::string statement() const;  ///< what() after the field: "value constraint; remedy"
 
  private:
   struct Parts {
@@ -47,14 +48,14 @@ class IoError : public Error {
   using Error::Error;
 };
 
-/// A computation ended without reaching the tolerance asked, where no result object could say so.
-/// The CLI exits with 1.
+/// A computation did not reach its tolerance, and no result object can report it. The CLI exits
+/// with 1.
 class NotConverged : public Error {
  public:
   using Error::Error;
 };
 
-/// A progress callback returned false where the work so far is of no use. The CLI exits with 130.
+/// A progress callback returned false and the work so far is of no use. The CLI exits with 130.
 class Interrupted : public Error {
  public:
   using Error::Error;
@@ -70,14 +71,14 @@ void require(bool ok, std::string_view field, const T& value, std::string_view d
   throw InvalidInput(field, text.str(), demand);
 }
 
-/// Throws InvalidInput(field, demand) unless ok: for what no value shows, "given together with
+/// Throws InvalidInput(field, demand) unless ok, for errors without a value: "given together with
 /// size_x; give one of them".
 void require_that(bool ok, std::string_view field, std::string_view demand);
 
-/// Throws InvalidInput unless exactly one of two things is given.
+/// Throws InvalidInput unless exactly one of two inputs is given.
 void require_one(bool given, std::string_view field, bool other_given, std::string_view other);
 
-/// require(value > 0 and finite).
+/// Throws InvalidInput unless value is > 0 and finite.
 void require_positive(double value, std::string_view field);
 
 }  // namespace salebra

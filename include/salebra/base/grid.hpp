@@ -14,9 +14,9 @@ using Index = Eigen::Index;
 /// cell (ix, iy).
 using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Regular grid of nx × ny cells on a rectangle of lx × ly metres.
-/// Point (ix, iy) lies at x = ix·dx, y = iy·dy; lx = nx·dx is the period where the surface is
-/// periodic.
+/// Regular grid of nx × ny cells on a rectangle of lx × ly metres:
+///     const Grid2D grid{512, 512, 1e-4, 1e-4};
+/// Point (ix, iy) is at x = ix·dx, y = iy·dy; lx = nx·dx is the period of a periodic surface.
 struct Grid2D {
   Index nx = 0;
   Index ny = 0;
@@ -44,27 +44,28 @@ constexpr void describe(auto&& visit, std::type_identity<Grid2D>) {
 
 class Share;
 
-/// Heights of the rough side. A hill is positive; hills touch first.
-/// A surface that is spread over several processes has its whole grid in each of them and in
-/// `heights` the rows of share(). What takes such surfaces says so; everything else refuses them.
+/// Heights of the rough side, e.g. `Surface{grid, heights}`. A hill is positive; hills touch first.
+/// If a surface is distributed over processes, each has the whole grid, and `heights` has the rows
+/// of share(). Functions that accept such surfaces say so; all others throw.
 struct Surface {
   Grid2D grid;
-  Field heights;  ///< (nx, ny) or (share().count(), ny), m; NaN where the instrument has no value
+  Field heights;  ///< (nx, ny) or (share().count(), ny), m; NaN if the instrument has no value
   bool periodic = false;    ///< generated surfaces are, measured ones are not
   std::string origin;       ///< file, or generator with its seed: for provenance only
-  Communicator ranks = {};  ///< the processes that hold its rows
+  Communicator ranks = {};  ///< processes that share its rows
 
-  /// The rows that each process holds.
+  /// Returns the distribution of rows over processes.
   Share share() const;
-  /// Number of NaN heights among those of this process. Cost: one pass.
+  /// Returns the number of NaN heights in this process. Cost: one pass.
   Index undefined_points() const;
-  /// Throws InvalidInput where several processes hold it. `purpose` completes "is spread over 4
+  /// Throws InvalidInput if the surface is distributed. `purpose` completes "is spread over 4
   /// processes, and <purpose> needs it whole".
   void require_whole(const std::string& purpose) const;
-  /// require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape and
-  /// every height is finite. `purpose` completes "undefined points cannot be used in <purpose>".
+  /// Calls require_whole(), and throws InvalidInput unless the grid is valid, heights has its shape
+  /// and every height is finite. `purpose` completes "undefined points cannot be used in
+  /// <purpose>".
   void require_complete(const std::string& purpose) const;
-  /// Looks at the rows that this process holds, for what takes surfaces that are spread.
+  /// Checks only the rows of this process, for functions that accept distributed surfaces.
   void require_complete_rows(const std::string& purpose) const;
 };
 

@@ -7,24 +7,26 @@
 
 namespace salebra {
 
-/// What a long computation tells its caller, from the thread that called it.
+/// Progress of a long computation, reported in the calling thread.
 struct ProgressReport {
   std::string_view stage;  ///< such as "contact", "sweep", "realisation"
-  double fraction = 0;     ///< of this stage, 0 … 1; a guess where the end is not known
+  double fraction = 0;     ///< fraction of this stage, 0 … 1; an estimate if the end is unknown
   int step = 0;            ///< iterations or items done
-  double residual = 0;     ///< of an iteration; 0 where there is none
+  double residual = 0;     ///< residual of an iteration; 0 without one
 };
 
-/// Returns false to stop the work as soon as it can. An empty Progress is silent and never stops.
+/// Progress callback; it returns false to stop the work as soon as possible. An empty one never
+/// stops.
+///     const Progress progress = [](const ProgressReport& report) { return report.step < 1000; };
 using Progress = std::function<bool(const ProgressReport&)>;
 
-/// How an iteration ended; of several the greatest.
+/// How an iteration ended; several iterations report the greatest value.
 enum class Termination {
-  converged,        ///< to its tolerance
-  stalled,          ///< further iterations come no closer to it
-  iteration_limit,  ///< after as many iterations as were allowed
-  out_of_range,     ///< with numbers that a double does not hold
-  interrupted       ///< the progress callback said stop
+  converged,        ///< reached its tolerance
+  stalled,          ///< further iterations do not reduce the error
+  iteration_limit,  ///< reached the maximum number of iterations
+  out_of_range,     ///< produced numbers that a double cannot represent
+  interrupted       ///< the progress callback stopped it
 };
 
 template <>
@@ -37,7 +39,7 @@ struct EnumNames<Termination> {
        {Termination::interrupted, "interrupted"}});
 };
 
-/// What to tell a user, with options in backticks: "did not reach the tolerance; raise
+/// Returns a message for the user, with options in backticks: "did not reach the tolerance; raise
 /// `max_iterations`".
 constexpr std::string_view message(Termination termination) {
   switch (termination) {

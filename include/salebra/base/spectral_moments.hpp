@@ -5,8 +5,9 @@
 
 namespace salebra {
 
-/// Profile moments along both axes and their means, which are those of any direction if the surface
-/// is isotropic. Of a surface (measured from heights) or of a spectrum (expected).
+/// Profile moments along both axes and their means, which hold for any direction if the surface is
+/// isotropic. They belong to a surface (measured from heights) or to a spectrum (expected):
+///     const double slope = surface_moments(surface).rms_slope();
 struct SpectralMoments {
   double moment0 = 0;    ///< m0 = ⟨h²⟩ of the heights less their mean, m²
   double moment2_x = 0;  ///< ⟨(∂h/∂x)²⟩

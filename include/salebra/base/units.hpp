@@ -5,11 +5,12 @@
 #include <string_view>
 #include <vector>
 
-/// Quantities as people write them, "10 µm", "20kHz", "1e-7", and back. Everything inside salebra
-/// is in SI units.
+/// Parses and formats quantities such as "10 µm", "20kHz", "1e-7":
+///     const double width = parse_quantity("10 µm", Dimension::length, "width");
+/// Internally salebra uses SI units only.
 namespace salebra {
 
-/// What a quantity is measured in.
+/// Dimension of a quantity.
 enum class Dimension {
   dimensionless,
   length,                  ///< m
@@ -42,30 +43,30 @@ enum class Dimension {
   thermal_conductance,     ///< W/(m² K), per area
 };
 
-/// The SI unit as written into files: "m", "rad/s", "1/m^2", …; "1" for numbers without a
-/// dimension.
+/// Returns the SI unit as written in files: "m", "rad/s", "1/m^2", …; "1" for dimensionless
+/// numbers.
 std::string_view si_unit(Dimension dimension);
 
-/// A number in SI units from "<number>[ ]<unit>", such as "10um", "115 GPa", "90deg", "0.1". A bare
+/// Converts "<number>[ ]<unit>", such as "10um", "115 GPa", "90deg", "0.1", to SI units. A bare
 /// number is SI. Units take the prefixes f p n u µ m c k M G T where they make sense; lengths also
 /// "Å", angles "deg" and "°", pressures "bar" and "N/mm^2", pure numbers "%". Powers are written
 /// mm2, mm^2 or mm².
-/// field   names the option or key in errors
+/// field   name of the option or key in errors
 /// throws  InvalidInput for anything but one number with a unit of the dimension, and as
 ///         require_squarable
 double parse_quantity(std::string_view text, Dimension dimension, std::string_view field);
 
-/// Throws InvalidInput unless the number is 0 or its size is from 1e-150 to 1e150, so that a double
-/// holds its square. text: what was given.
+/// Throws InvalidInput unless the number is 0 or its magnitude is from 1e-150 to 1e150, so that a
+/// double can represent its square. text: the input as given.
 void require_squarable(double value, std::string_view text, std::string_view field);
 
-/// One value, a list "a,b,c", or a range "from:to:count" of count >= 2 values in geometric
-/// progression that hit both ends exactly (from, to > 0, not equal). A unit after `to` holds for
-/// `from` too where that has none: "1:100MPa:5".
+/// Parses one value, a list "a,b,c", or a range "from:to:count" of count >= 2 values in geometric
+/// progression that includes both ends exactly (from, to > 0, not equal). A unit after `to` also
+/// applies to a `from` without one: "1:100MPa:5".
 std::vector<double> parse_values(std::string_view text, Dimension dimension,
                                  std::string_view field);
 
-/// The number with `digits` significant digits and an SI prefix where the dimension takes one:
+/// Formats a number with `digits` significant digits and an SI prefix if the dimension takes one:
 /// "1.234 µm", "115 GPa", "n/a" for NaN.
 std::string format_quantity(double value, Dimension dimension, int digits = 4);
 

@@ -6,12 +6,12 @@
 
 namespace salebra {
 
-/// The version of this library, "major.minor.patch": the one of CMake's project().
+/// Returns the version of this library, "major.minor.patch", from project() in CMake.
 std::string_view version();
 
-/// "GCC 12.2.0, Eigen 3.4.0, FFTW 3.3.10 for avx, vectors avx512": what the last digits of a result
-/// depend on in addition to the version of this library; docs/conventions.md says how many. What
-/// was begun by one arithmetic must not be continued by another.
+/// Returns what the last digits of a result depend on besides the version, e.g. "GCC 12.2.0, Eigen
+/// 3.4.0, FFTW 3.3.10 for avx, vectors avx512"; docs/conventions.md says how many digits. Do not
+/// continue a computation that another arithmetic began: compare `arithmetic()` first.
 std::string arithmetic();
 
 }  // namespace salebra

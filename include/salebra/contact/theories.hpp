@@ -6,18 +6,20 @@
 #include <salebra/contact/law/force_curve.hpp>
 #include <vector>
 
-/// Closed theories of nominally flat contact, to compare with. Lengths in m, pressures in Pa; every
-/// function throws InvalidInput for a pressure, modulus, slope or rms height that is not > 0.
+/// Closed-form theories of nominally flat contact, for comparison:
+///     const double area = persson_area_fraction(1e7, 1.1e11, 0.1);
+/// Lengths are in m, pressures in Pa. Every function throws InvalidInput for a pressure, modulus,
+/// slope or rms height that is not > 0.
 namespace salebra {
 
-/// Fraction of a Gaussian surface above a plane at mean_gap over its mean plane, ½ erfc(ū/(√2
-/// h_rms)): geometry alone.
+/// Returns the fraction of a Gaussian surface above a plane at mean_gap over its mean plane, ½
+/// erfc(ū/(√2 h_rms)), from geometry alone.
 double bearing_area_fraction(double mean_gap, double rms_height);
 
-/// Bush et al. (1975): A/A0 = √(2π) p/(E*h'), the limit of small pressures.
+/// Returns A/A0 = √(2π) p/(E*h') of Bush et al. (1975), the limit of small pressures.
 double bgt_area_fraction(double pressure, double contact_modulus, double rms_slope);
 
-/// Persson (2001): A/A0 = erf(√2 p/(E*h')), of slope √(8/π) at small pressures.
+/// Returns A/A0 = erf(√2 p/(E*h')) of Persson (2001), with slope √(8/π) at small pressures.
 double persson_area_fraction(double pressure, double contact_modulus, double rms_slope);
 
 /// A narrow ring of the spectrum: power = ∫C d²q over it, m², at the wave number q, rad/m.
@@ -32,26 +34,28 @@ constexpr void describe(auto&& visit, std::type_identity<RoughnessShell>) {
   visit(&S::power, Kept{"power", "integral of C d^2q over the ring", Dimension::length_squared});
 }
 
-/// `count` shells of equal ratio of an isotropic spectrum C(q), m⁴, between two wave numbers, by
-/// the midpoint rule in ln q.
+/// Divides an isotropic spectrum C(q), m⁴, between two wave numbers into `count` shells of equal
+/// ratio, by the midpoint rule in ln q.
 std::vector<RoughnessShell> roughness_shells(const std::function<double(double)>& density,
                                              double lowest, double highest, int count = 1000);
 
-/// Mean gap and stiffness by the theory of Persson (2007) in the form of Yang and
-/// Persson (2008). The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, P(q) =
-/// erf(w p/E*) the area at that magnification, w⁻² = π∫^q q³C dq; p dū = −dU then gives
+/// Mean gap and stiffness by the theory of Persson (2007) in the form of Yang and Persson (2008):
+///     const PerssonTheory theory(roughness_shells(density, 1e5, 1e9), 1.1e11);
+///     const double gap = theory.mean_gap(1e7);
+/// The energy of the mode q is γ P + (1−γ) P³ of its value in full contact, where P(q) = erf(w
+/// p/E*) is the area at that magnification and w⁻² = π∫^q q³C dq. Then p dū = −dU gives
 ///     ū(p) = √π ∫ q²C w ∫_p^∞ [γ + 3(1−γ)P²] exp(−(w p'/E*)²) dp'/p' dq
-/// and K/A0 = −dp/dū. With r = 1/w, the rms slope over √2 up to q, the outer integral is (2/√π)∫ …
-/// dr/q, which is done in closed form for each shell, one integral over erf² being left to
-/// quadrature. Valid for complete and partial contact of large surfaces. At ū >> h_rms a finite
-/// surface has nothing left to touch, while this p(ū) stays exponential.
+/// and K/A0 = −dp/dū. With r = 1/w, the rms slope over √2 up to q, the outer integral becomes
+/// (2/√π)∫ … dr/q, which is integrated in closed form for each shell except for one quadrature over
+/// erf². Valid for complete and partial contact of large surfaces. At ū >> h_rms a finite surface
+/// no longer touches, while this p(ū) stays exponential.
 class PerssonTheory {
  public:
-  /// γ in (0, 1]: 0.4 to 0.5 agrees with simulations; 1 neglects the correlation of the modes in
+  /// Usual γ in (0, 1]: 0.4 to 0.5 agrees with simulations; 1 neglects the correlation of modes in
   /// contact.
   static constexpr double usual_energy_factor = 0.45;
 
-  /// shells: any order, wave numbers > 0; those without power do not count.
+  /// shells: any order, wave numbers > 0; shells without power are ignored.
   PerssonTheory(std::vector<RoughnessShell> shells, double contact_modulus,
                 double energy_factor = usual_energy_factor);
 
@@ -85,7 +89,7 @@ constexpr void describe(auto&& visit, std::type_identity<PerssonTheory::Asymptot
   visit(&S::factor, Kept{"factor", "β"});
 }
 
-/// Samples at the given pressures (> 0, any order), lowest first; K_t = (G*/E*)K where G* is known.
+/// Computes a curve at the given pressures (> 0, any order), sorted; K_t = (G*/E*)K if G* is known.
 ForceCurve persson_curve(const PerssonTheory& theory, const Material& material, double nominal_area,
                          const std::vector<double>& pressures);
 

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-/// Contact laws as input of other programs (docs/howto/decks.md has formats and their manuals).
+/// Contact laws as input files ("decks") of other programs (docs/howto/decks.md lists formats and
+/// their manuals).
 namespace salebra {
 
 enum class DeckFormat { csv, json, calculix, abaqus, ansys, code_aster, jenkins, c_header };
@@ -29,8 +30,8 @@ struct EnumNames<DeckFormat> {
        {DeckFormat::c_header, "c_header"}});
 };
 
-/// Which of several surfaces a deck is of. Low and high are whole surfaces, ranked by their force at
-/// one clearance: 2.5 % of them are below the one, and above the other.
+/// Selects one of several surfaces for a deck. Low and high are whole surfaces, ranked by their
+/// force at one clearance: 2.5 % of the surfaces are below low, and 2.5 % above high.
 enum class DeckCase { mean, low, high };
 template <>
 struct EnumNames<DeckCase> {
@@ -38,62 +39,64 @@ struct EnumNames<DeckCase> {
       {{DeckCase::mean, "mean"}, {DeckCase::low, "low"}, {DeckCase::high, "high"}});
 };
 
-/// A law, with what a deck needs to know beside it.
+/// A law with the additional data that a deck needs.
 struct DeckContact {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::shared_ptr<const ContactLaw> law;
   double nominal_area = unknown;  ///< A, m²
-  double sample_area = unknown;   ///< of the sample that the law was scaled from, m²; NaN: of none
-  /// δ of the stick slope and of Jenkins' sliders, m; NaN: none was named.
+  double sample_area = unknown;   ///< area of the sample that the law was scaled from, m²; NaN: not
+                                  ///< scaled
+  /// δ for the stick slope and Jenkins sliders, m; NaN: not given.
   double indentation = unknown;
-  double lowest = unknown, highest = unknown;  ///< δ that decks hold, m; NaN: as far as is known
-  double clearance_origin = 0;                 ///< clearance = this − δ, m
-  std::string clearance_from = {};             ///< what it is measured from, in words
-  double decay_length = unknown;               ///< l of an exponential law, m; NaN: another law
+  double lowest = unknown, highest = unknown;  ///< range of δ in decks, m; NaN: all that is known
+  double clearance_origin = 0;                 ///< clearance = clearance_origin − δ, m
+  std::string clearance_from = {};             ///< reference of the clearance, as text
+  double decay_length = unknown;               ///< l of an exponential law, m; NaN for other laws
   bool knows_tangential_stiffness = true;
 };
 
-/// Decks of a law at an indentation, 0 of an exponential law where none is given. The clearance is
-/// −δ.
+/// Prepares a law for decks at an indentation, by default 0 for an exponential law. The clearance
+/// is −δ.
 DeckContact deck_contact(std::shared_ptr<const ContactLaw> law,
                          std::optional<double> indentation = {});
 
-/// The law of a contact as decks take it. G*/E* of a curve may be NaN where it has K_t, or where
-/// none is needed. A law without a table is taken from a thousandth to ten times the force of its
+/// Computes the law of a contact and prepares it for decks. G*/E* of a curve may be NaN if it has
+/// K_t, or if none is needed. A law without a table is used from 0.001 to 10 times the force of its
 /// position.
-///     clearance   of a curve with mean gaps ū; of another curve and of an indenter −δ; of the
-///                 exponential law −δ, from where F is the first of its forces
-/// throws  as solve(); for several positions
+///     clearance   from the mean gap ū of a curve; −δ of a curve without it and of an indenter; −δ
+///                 of an exponential law, from the point where F is the first of its forces
+/// Throws as solve() does, and for several positions.
 DeckContact deck_contact(ContactProblem problem, const Context& context = {});
 
 struct DeckProblem {
-  std::vector<DeckContact> contacts;  ///< one, or those of several surfaces of one kind
+  std::vector<DeckContact> contacts;  ///< one, or one per surface of the same kind
   DeckFormat format = DeckFormat::csv;
   UnitSystem units = {};
   double friction_coefficient = DeckContact::unknown;  ///< μ > 0; NaN: decks without friction
-  /// Of the part, m²: laws of contacts whose area is known are scaled to it, and laws of others are
+  /// Area of the part, m²: laws of contacts with a known area are scaled to it; other laws are
   /// those of the part. NaN: the contacts are the parts.
   double nominal_area = DeckContact::unknown;
-  /// Nominal pressures that decks hold, Pa; none: as far as the contacts go.
+  /// Nominal pressures in decks, Pa; empty: the full range of the contacts.
   std::optional<std::pair<double, double>> pressure_window = {};
-  int rows = 200;                ///< of a table, 4 to 100000; of CalculiX at most 198, of Ansys 19
-  DeckCase of = DeckCase::mean;  ///< of sliders and of a C header; the other formats hold all three
-  int sliders = 200;             ///< 2 to 100000; of a C header levels, 8 to 4096
-  double smallest_force = 0.01;  ///< T/(μF) from which the loss of Jenkins' sliders is right
-  std::string name = "contact";  ///< with which every name of a C header begins
-  std::string source = {};       ///< of the contacts, for the header
-  std::string remark = {};       ///< a sentence more in the header
+  int rows = 200;                ///< rows of a table, 4 to 100000; at most 198 for CalculiX, 19 for
+                                 ///< Ansys
+  DeckCase of = DeckCase::mean;  ///< for sliders and C header; other formats contain all three
+  int sliders = 200;             ///< 2 to 100000; for a C header springs, 8 to 4096
+  double smallest_force = 0.01;  ///< T/(μF) from which the loss of the Jenkins sliders is accurate
+  std::string name = "contact";  ///< prefix of every name in a C header
+  std::string source = {};       ///< source of the contacts, for the header
+  std::string remark = {};       ///< additional sentence for the header
   Provenance provenance = {};
 };
 
 struct DeckSolution {
   std::string text;  ///< the deck
   int surfaces = 0;
-  /// Largest error of straight lines between the rows of the mean over its pressure.
+  /// Maximum error of linear interpolation between the rows of the mean, relative to its pressure.
   double interpolation_error = DeckContact::unknown;
-  double tangential_stiffness = DeckContact::unknown;  ///< K_t of Jenkins' sliders together, N/m
-  double slip_force = DeckContact::unknown;            ///< μF of them, N
-  /// What the loss of the sliders at the smallest force is off by, over the loss.
+  double tangential_stiffness = DeckContact::unknown;  ///< total K_t of the Jenkins sliders, N/m
+  double slip_force = DeckContact::unknown;            ///< total μF, N
+  /// Relative error of the loss of the sliders at the smallest force.
   double loss_error = DeckContact::unknown;
 };
 
@@ -110,18 +113,20 @@ constexpr void describe(auto&& visit, std::type_identity<DeckSolution>) {
         Quantity{"loss_error", dimensionless, "error of the loss at the smallest force"});
 }
 
-/// The text of a deck. Tables are of pressure p = F/A over clearance, monotone and convex: of rows
-/// that lie above a straight line between others, by at most 1 %, the line is taken.
-/// Jenkins' sliders: with ρ = K_t/K at δ, springs of the contact of stiffness K_t' dζ slip from x =
-/// (μ/ρ)(δ − ζ) on, so that the backbone is T' = K_t(δ − ρx/μ) as in joint_loss(). A slider stands
-/// for those between two displacements, with their stiffness and their force: T and T' are met at
-/// each of these exactly, K_t and μF by all sliders together. Loss converges with order 2.
-/// A C header has the steps of ContactElement without dependencies, its levels over the clearances
-/// of the deck; without μ it is in full stick.
-/// throws  InvalidInput for a force that does not grow with approach, a curve that is not convex, an
-///         area, K_t, position or coefficient of friction that the format needs and nobody gave,
-///         surfaces without a common range, and numbers out of range
-/// cost    rows or sliders times some ten evaluations of each law
+/// Writes the text of a deck:
+///     const DeckSolution deck = solve(DeckProblem{.contacts = {deck_contact(law)},
+///                                              .format = DeckFormat::abaqus});
+/// Tables list the pressure p = F/A over clearance, monotone and convex: rows up to 1 % above a
+/// straight line between others are moved to the line. Jenkins sliders: with ρ = K_t/K at δ,
+/// springs of stiffness K_t' dζ slip from x = (μ/ρ)(δ − ζ) on, so the backbone is T' = K_t(δ −
+/// ρx/μ) as in joint_loss(). One slider represents the springs between two displacements, with
+/// their stiffness and force: T and T' are exact at each of these, K_t and μF in total. The loss
+/// converges with order 2. A C header implements the steps of ContactElement without dependencies,
+/// with its springs over the clearances of the deck; without μ it is in full stick.
+/// throws  InvalidInput for a force that does not grow with approach, a curve that is not convex, a
+///         missing area, K_t, position or coefficient of friction that the format needs, surfaces
+///         without a common range, and numbers out of range
+/// cost    rows or sliders times about ten evaluations of each law
 DeckSolution solve(const DeckProblem& problem);
 
 }  // namespace salebra

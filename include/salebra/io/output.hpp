@@ -5,19 +5,20 @@
 
 namespace salebra {
 
-/// How a file is put in its place. Every writer works on a temporary file in the same folder, which
-/// takes the name only when it is complete and on the disk; whatever fails before leaves the folder
-/// as it was.
+/// Options for writing a file. Every writer uses a temporary file in the same folder and renames it
+/// only when it is complete and on disk; a failure before that leaves the folder unchanged.
 struct WriteOptions {
   bool overwrite = false;  ///< replace an existing file
 };
 
-/// Numbers of a field in a file.
+/// Number type of a field in a file.
 enum class FieldType { float64, float32 };
 
-/// Callers that compute for long before they write ask here first. Throws InvalidInput if the
-/// folder does not exist, the name is too long or a link to nothing, the file exists (unless
-/// overwrite) or is not a regular file; IoError if the folder is not writable or has no room.
+/// Checks that a file can be written, before a long computation:
+///     require_output("result.h5", {.overwrite = true});
+/// Throws InvalidInput if the folder does not exist, the name is too long or a broken link, the
+/// file exists (unless overwrite) or is not a regular file; IoError if the folder is not writable
+/// or full.
 void require_output(const std::filesystem::path& file, const WriteOptions& options = {});
 
 }  // namespace salebra

@@ -16,15 +16,14 @@
 
 namespace salebra {
 
-/// 0, step, 2 step, …: where the rows or columns of a grid lie, m.
+/// Returns the positions of the rows or columns of a grid, m: 0, step, 2 step, …
 std::vector<double> positions(Index count, double step);
 
-/// One group of a ResultFile: coordinates, and datasets on them. Opened as it is by
-/// xarray.open_dataset(file, engine="h5netcdf", group=…).
-/// Every dataset has `units` (SI, "1" for pure numbers) and a `long_name`; the values of unknown
-/// quantities are NaN.
-/// throws   InvalidInput for a name used twice, a missing unit, or values that have not the shape
-///          of their coordinates; IoError when the disk is full
+/// One group of a ResultFile, with coordinates and datasets on them. xarray opens it with
+/// xarray.open_dataset(file, engine="h5netcdf", group=…). Every dataset has `units` (SI, "1" for
+/// pure numbers) and a `long_name`; unknown values are NaN.
+/// throws   InvalidInput for a name used twice, a missing unit, or values without the shape of
+///          their coordinates; IoError if the disk is full
 class ResultGroup {
  public:
   /// A one-dimensional coordinate, an HDF5 dimension scale.
@@ -43,19 +42,19 @@ class ResultGroup {
   void dataset(const std::string& name, std::span<const std::int64_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// Single precision and small integers are for pictures, which need no more.
+  /// Single precision and small integers suffice for images.
   void dataset(const std::string& name, std::span<const float> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
   void dataset(const std::string& name, std::span<const std::int16_t> values,
                const std::vector<std::string>& coordinates, const std::string& units,
                const std::string& long_name);
-  /// A field on the coordinates of its x and y. In a file of several processes it holds the rows
-  /// that Share gives to this one, and must stay until commit().
+  /// Writes a field on the coordinates x and y. In a file of several processes it has the rows of
+  /// this one according to Share, and must exist until commit().
   void dataset(const std::string& name, const Field& values, const std::string& x,
                const std::string& y, const std::string& units, const std::string& long_name,
                FieldType type = FieldType::float64);
-  /// Truth values, stored as 0 and 1, which xarray reads as bool.
+  /// Writes booleans, stored as 0 and 1, which xarray reads as bool.
   void flags(const std::string& name, const std::vector<bool>& values,
              const std::vector<std::string>& coordinates, const std::string& long_name);
   void scalar(const std::string& name, double value, const std::string& units,
@@ -76,25 +75,30 @@ class ResultGroup {
   std::shared_ptr<Place> place_;
 };
 
-/// An HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …),
-/// provenance at its root. It takes its name at commit(), complete; without commit nothing is left.
-/// Not for use by several threads at once.
+/// HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …), with
+/// provenance at its root.
+///     ResultFile file("result.h5", {});
+///     file.group("fit").scalar("decay_length", 1e-7, "m", "decay length");
+///     file.commit();
+/// The file appears complete at commit(); without commit nothing remains. Use by one thread at a
+/// time.
 class ResultFile {
  public:
-  /// Throws as require_output does; IoError when the disk is full.
-  /// ranks  the processes over which fields are spread. Each makes the same calls; the root writes
-  ///        everything but the rows of the others. What fails before commit() fails in one process
-  ///        alone: make it known by collectively()
+  /// Throws as require_output does; IoError if the disk is full.
+  /// ranks  processes that share fields. Each makes the same calls; the root writes everything
+  ///        except the rows of the others. A failure before commit() affects one process only: use
+  ///        collectively() to report it
   ResultFile(const std::filesystem::path& file, const Provenance& provenance,
              const WriteOptions& options = {}, const Communicator& ranks = {});
   ResultFile(ResultFile&&) noexcept;
   ResultFile& operator=(ResultFile&&) noexcept;
   ~ResultFile();
 
-  /// The group at that path, such as "damping" or "realisations/3", created when it is not there.
+  /// Returns the group at a path, such as "damping" or "realisations/3", and creates it if
+  /// necessary.
   ResultGroup group(const std::string& path);
-  /// Closes the file and puts it in its place. Collective; what fails in one process is thrown on
-  /// all, and nothing is left. The file and its groups cannot be used afterwards.
+  /// Closes the file and gives it its name. Collective; a failure in one process is thrown on all,
+  /// and nothing remains. The file and its groups cannot be used afterwards.
   void commit();
 
  private:
@@ -102,9 +106,9 @@ class ResultFile {
   std::unique_ptr<State> state_;
 };
 
-/// Reads what a ResultFile wrote, or any HDF5 file of real numbers. Paths are like
-/// "curve/pressure".
-/// throws   InvalidInput naming the file for what is not there, is of another kind, or damaged
+/// Reads files of ResultFile, or any HDF5 file of real numbers. Paths are like "curve/pressure":
+///     const double length = ResultReader("result.h5").number("fit/decay_length");
+/// throws   InvalidInput naming the file, for data that are missing, of another kind, or damaged
 class ResultReader {
  public:
   explicit ResultReader(const std::filesystem::path& file);
@@ -120,20 +124,20 @@ class ResultReader {
   std::vector<double> numbers(const std::string& dataset) const;
   double number(const std::string& dataset) const;
   Field field(const std::string& dataset) const;
-  /// The rows of a field that a process holds.
+  /// Reads the rows of a field that belong to this process.
   Field field(const std::string& dataset, const Share& share) const;
   std::vector<std::string> labels(const std::string& dataset) const;
-  /// Whether a dataset is a list of names, which labels() reads and numbers() refuses.
+  /// Returns true if a dataset is a list of names, which labels() reads and numbers() rejects.
   bool holds_labels(const std::string& dataset) const;
-  /// Names of the coordinates on which a dataset lies.
+  /// Returns the names of the coordinates of a dataset.
   std::vector<std::string> coordinates(const std::string& dataset) const;
 
-  /// Reads an attribute of a group or dataset; "/" is the root. Empty where there is none of that
-  /// name and kind.
+  /// Reads an attribute of a group or dataset; "/" is the root. Empty if there is none of that name
+  /// and kind.
   std::optional<double> number_attribute(const std::string& path, const std::string& name) const;
   std::optional<std::string> text_attribute(const std::string& path, const std::string& name) const;
-  /// Names of the attributes of a group or dataset in their order, without those that HDF5 keeps
-  /// its dimension scales in.
+  /// Returns the names of the attributes of a group or dataset in their order, without those that
+  /// HDF5 uses for dimension scales.
   std::vector<std::string> attributes(const std::string& path = "/") const;
 
  private:

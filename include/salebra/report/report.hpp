@@ -10,29 +10,30 @@ namespace salebra {
 
 struct ReportOptions {
   WriteOptions write = {};
-  std::string title = {};  ///< empty: from where the surface came
-  /// What `oscillate` wrote of the same surface and motion: direct results to be drawn beside the
+  std::string title = {};  ///< empty: origin of the surface
+  /// Result files of `oscillate` for the same surface and motion: direct results to show with the
   /// damping curves.
   std::vector<std::filesystem::path> direct = {};
 };
 
-/// Whether this build carries plotly.js, without which no report can be drawn.
+/// Returns true if this build includes plotly.js, which reports need.
 bool can_report();
 
-/// Throws what write_report would throw before it looks at the results, for callers that compute
-/// for long before: IoError where can_report() is false; InvalidInput as require_output.
+/// Checks that a report can be written, before a long computation: throws IoError if can_report()
+/// is false, and InvalidInput as require_output does.
 void require_report(const std::filesystem::path& html, const WriteOptions& options = {});
 
-/// Makes one HTML file of what `study` or `compare` wrote: conclusion and warnings first, then the
-/// surface, force over mean gap with the fit and its residuals, the models side by side, damping
-/// with bands, settings and provenance; every figure with its numbers as a table and as CSV. The
-/// file loads nothing: plotly.js, data and maps (at most 512 × 512 points in all) are in it, a few
-/// MB. What an older results file does not hold is named as absent. The file appears complete or
-/// not at all.
-/// throws  InvalidInput for a file that is not there, damaged or contains no study, for direct
-///         results of another normal amplitude or beside several points of a parameter grid, and as
+/// Writes one HTML file from the results of `study` or `compare`:
+///     write_report("study.h5", "study.html");
+/// It shows conclusion and warnings first, then the surface, force over mean gap with the fit and
+/// its residuals, all models, damping with bands, settings and provenance; every figure includes
+/// its numbers as a table and as CSV. The file loads nothing: it contains plotly.js, data and maps
+/// (at most 512 × 512 points in total), a few MB. Data that older results files lack are named as
+/// absent. The file appears complete or not at all.
+/// throws  InvalidInput for a file that is missing, damaged or contains no study, for direct
+///         results of another normal amplitude or with several points of a parameter grid, and as
 ///         require_report
-/// cost    reading what the report shows; some 0.1 s
+/// cost    reading the data of the report; about 0.1 s
 void write_report(const std::filesystem::path& results, const std::filesystem::path& html,
                   const ReportOptions& options = {});
 

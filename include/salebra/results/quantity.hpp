@@ -7,11 +7,11 @@
 /// The glossary: every quantity of the described structs by its name.
 namespace salebra {
 
-/// The entry of a name; a name that is not listed comes back dimensionless, with itself as its long
-/// name.
+/// Returns the glossary entry of a name, e.g. `find_quantity("decay_length").dimension`. An
+/// unlisted name returns a dimensionless quantity with the name as its long name.
 Quantity find_quantity(std::string_view name);
 
-/// Whether a name is listed.
+/// Returns true if a name is listed.
 bool is_quantity(std::string_view name);
 
 }  // namespace salebra

@@ -11,12 +11,12 @@
 
 namespace salebra {
 
-/// What a scan was made with, and so what stands between the heights and the file.
+/// The kind of instrument of a scan, which determines how the file differs from the true heights.
 enum class Instrument {
   ideal,    ///< heights at points, with noise
   optical,  ///< heights blurred by a Gaussian point spread function
   stylus,   ///< heights dilated by a tip, line by line
-  afm       ///< the same with a finer tip
+  afm       ///< like stylus, with a finer tip
 };
 
 template <>
@@ -30,18 +30,19 @@ struct EnumNames<Instrument> {
 
 struct ScanInstrument {
   Instrument kind = Instrument::ideal;
-  double resolution = 0;  ///< full width at half maximum of the point spread, m; optical alone
+  double resolution = 0;  ///< full width at half maximum of the point spread function, m; only for
+                          ///< optical
   double tip_radius = 0;  ///< m; stylus and afm
-  /// rms of white noise, m; NaN: found from the spectrum. A given one is a start, free by a factor
-  /// of about 1.6 either way.
+  /// rms of white noise, m; NaN estimates it from the spectrum. A given value is a starting point,
+  /// free by a factor of about 1.6 either way.
   double noise = std::numeric_limits<double>::quiet_NaN();
   double height_calibration = 0.05;  ///< relative standard error of all heights of the instrument
-  double scan_calibration = 0.02;    ///< the same of one scan, independent of the others
-  /// Lines along x are offset from each other by drift: the modes |k_x| <= 2 are left out. None
-  /// given: of stylus and afm.
+  double scan_calibration = 0.02;    ///< the same for one scan, independent of the others
+  /// True if drift shifts lines along x against each other: the modes |k_x| <= 2 are then omitted.
+  /// By default true for stylus and afm.
   std::optional<bool> line_drift = {};
-  /// Scans of one name share its height calibration; those without a name do where kind,
-  /// resolution and tip are the same.
+  /// Scans with the same instrument name share its height calibration; without a name, scans with
+  /// the same kind, resolution and tip do.
   std::string name = {};
 
   bool has_tip() const { return kind == Instrument::stylus || kind == Instrument::afm; }
@@ -63,8 +64,8 @@ constexpr void describe(auto&& visit, std::type_identity<ScanInstrument>) {
   visit(&S::name, Kept{"name", "name of the instrument"});
 }
 
-/// Heights between two neighbouring lengths: means over blocks of side b less the mean over 3
-/// blocks each way, which is half of the amplitude and more for waves of 2b to 5b.
+/// Heights in a band of wavelengths: means over blocks of side b minus the mean over 3 blocks in
+/// each direction, which keeps at least half of the amplitude of waves of 2b to 5b.
 struct HeightBand {
   double wavelength = 0;  ///< 4b, m
   double rms_height = 0;  ///< m
@@ -83,15 +84,15 @@ constexpr void describe(auto&& visit, std::type_identity<HeightBand>) {
   visit(&S::blocks, Kept{"blocks", "means that were taken"});
 }
 
-/// All that the fit of a surface twin needs of one scan: some hundred numbers.
+/// Everything that the fit of a surface twin needs from one scan: about a hundred numbers.
 struct ScanSpectrum {
   ScanInstrument instrument;
-  Grid2D grid;  ///< a profile has ny = 1; its ly is of no use
+  Grid2D grid;  ///< a profile has ny = 1 and ignores ly
   double weight = 1;
-  std::string name;                ///< of the scan, for what is said about it
+  std::string name;                ///< name of the scan, for messages
   std::vector<double> wavenumber;  ///< geometric middle of each bin, rad/m
-  std::vector<double> psd;         ///< mean periodogram in the bin; C, m⁴, of a profile C₁, m³
-  std::vector<Index> modes;        ///< in the bin, of the full spectrum; 0 where drift took all
+  std::vector<double> psd;         ///< mean periodogram in the bin: C, m⁴; for a profile C₁, m³
+  std::vector<Index> modes;        ///< number of modes of the full spectrum; 0 if drift removed all
   std::vector<HeightBand> bands;   ///< from fine to coarse
 
   bool profile() const { return grid.ny == 1; }
@@ -111,24 +112,26 @@ constexpr void describe(auto&& visit, std::type_identity<ScanSpectrum>) {
   visit(&S::profile, Kept{"profile", "whether it is a line"});
 }
 
-/// Spectrum of a scan in bins of κ = qL/2π, L = √(lx ly): limits 0.5, 1.5, …, 8.5, then in the
-/// ratio 1.15 up to the lower of the two Nyquist wave numbers. The least-squares plane is
-/// subtracted. Below κ = 12 the periodogram is the mean over four products of the tapers
-/// √2 sin(πkξ), k = 1, 2 (Riedel and Sidorenko (1995)), which keeps twice as many independent
-/// modes as a Hann window; above, that of a Hann window, since the tapers leak as q⁻⁴ past a sharp
-/// cut-off.
-/// heights   (nx, ny), m; lines of a scanned instrument lie along x
-/// weight    > 0; how many scans of its kind it counts as
+/// Computes the spectrum of a scan for fit_twin:
+///     const ScanSpectrum scan = scan_spectrum(surface.heights, surface.grid,
+///                                             {.kind = Instrument::afm, .tip_radius = 10e-9});
+/// Bins of κ = qL/2π, L = √(lx ly), have the limits 0.5, 1.5, …, 8.5, then grow by the ratio 1.15
+/// up to the lower Nyquist wave number. The least-squares plane is subtracted. Below κ = 12 the
+/// periodogram is the mean over four products of the tapers √2 sin(πkξ), k = 1, 2 (Riedel and
+/// Sidorenko (1995)), which keeps twice as many independent modes as a Hann window; above, it uses
+/// a Hann window, since the tapers leak as q⁻⁴ past a sharp cut-off.
+/// heights   (nx, ny), m; lines of a scanning instrument are along x
+/// weight    > 0; the number of such scans that this one represents
 /// Throws InvalidInput unless all heights are defined, nx, ny >= 32, the sides are at most 4 to 1,
-/// resolution is > 0 for optical and tip_radius > 0 for stylus and afm, calibrations are >= 0.
-/// Cost: one FFT, a product of the heights with 52 columns; 20 bytes for each point. The same bits
-/// for any number of threads.
+/// resolution is > 0 for optical and tip_radius > 0 for stylus and afm, and calibrations are >= 0.
+/// Cost: one FFT and a product of the heights with 52 columns; 20 bytes per point. The bits are the
+/// same for any number of threads.
 ScanSpectrum scan_spectrum(const Field& heights, const Grid2D& grid,
                            const ScanInstrument& instrument, double weight = 1,
                            std::string name = {});
 
-/// The same of a line of heights, m, over `length` metres, from C₁ = |dx Σ w h e^{−iqx}|²/(2πl):
-/// h_rms² = ∫C₁ dq over −∞ < q < ∞. There are at least 64 points.
+/// Does the same for a line of at least 64 heights, m, over `length` metres, from C₁ = |dx Σ w h
+/// e^{−iqx}|²/(2πl) with h_rms² = ∫C₁ dq over −∞ < q < ∞.
 ScanSpectrum profile_spectrum(const std::vector<double>& heights, double length,
                               const ScanInstrument& instrument, double weight = 1,
                               std::string name = {});

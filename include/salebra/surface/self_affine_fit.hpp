@@ -5,14 +5,14 @@
 
 namespace salebra {
 
-/// The self-affine model of a surface: a plateau down to the roll-off wavelength, a power law C ∝
+/// Self-affine model of a surface: a plateau down to the roll-off wavelength, a power law C ∝
 /// q^{−2(1+H)} down to the shortest wavelength, nothing below.
 struct SelfAffineFit {
   HurstEstimate hurst;
-  /// λ_r, m. NaN unless a plateau is seen: a law without one is less likely by more than the limit
-  /// of the interval.
+  /// λ_r, m; NaN unless a plateau is seen, i.e. unless omitting it reduces the likelihood by more
+  /// than the limit of the interval.
   IntervalEstimate rolloff;
-  /// λ_s, m. NaN unless the spectrum ends within the lattice, falling to less than a thousandth of
+  /// λ_s, m; NaN unless the spectrum ends within the lattice, falling to less than a thousandth of
   /// the law within four modes.
   IntervalEstimate short_cutoff;
 };
@@ -27,12 +27,15 @@ constexpr void describe(auto&& visit, std::type_identity<SelfAffineFit>) {
       Kept{"short_cutoff", "wavelength; NaN unless the spectrum ends within the lattice", length});
 }
 
-/// H as estimate_hurst, with the same shortest_wavelength. The roll-off is that of greatest quasi-likelihood, plateau and slope being
-/// free, over all modes up to the end of the fitted range (of a windowed spectrum without its three
-/// longest waves); its interval holds what a likelihood-ratio test at 5 % does not reject, powers
-/// being exponentially distributed and correlated as the window has it. The shortest wavelength
-/// lies between the last mode that has power and the first that has none; a window spreads power by
-/// some modes, up to four of which the interval allows for. Cost: as estimate_hurst.
+/// Fits the self-affine model to a spectrum, with H from estimate_hurst and its
+/// shortest_wavelength:
+///     const SelfAffineFit fit = fit_self_affine(power_spectrum(surface));
+/// The roll-off maximises the quasi-likelihood, with free plateau and slope, over all modes up to
+/// the end of the fitted range (without the three longest waves if windowed). Its interval contains
+/// what a likelihood-ratio test at 5 % does not reject, for exponentially distributed powers
+/// correlated by the window. The shortest wavelength lies between the last mode with power and the
+/// first without; a window spreads power over some modes, and the interval allows for up to four.
+/// Cost: as estimate_hurst.
 SelfAffineFit fit_self_affine(const PowerSpectrum& spectrum, double shortest_wavelength = 0);
 
 }  // namespace salebra

@@ -13,15 +13,15 @@ namespace salebra {
 
 /// Two-dimensional power spectral density of a surface in the convention
 ///     C(q) = (2π)⁻² ∫⟨h(0)h(x)⟩ e^{−iq·x} d²x,   h_rms² = ∫C d²q,   q in rad/m,
-/// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is left
-/// out. That of a surface which is spread over processes is spread by columns. What is made of it
-/// has the same bits for every number of processes, and is collective.
+/// on the half-spectrum of wave vectors (i, j), j = 0 … ny/2; C(−q) = C(q). The mean height is
+/// omitted. For a surface distributed over processes the columns are distributed; results computed
+/// from it are collective and have the same bits for any number of processes.
 struct PowerSpectrum {
   Grid2D grid;
   Field psd;              ///< C, (nx, ny/2+1) or (nx, columns().count()), m⁴
-  bool windowed = false;  ///< a window made the heights fade out at the edges
-  /// How many neighbouring modes count as one in a mean, since the window mixes them: ⟨w⁴⟩/⟨w²⟩²; 1
-  /// without a window.
+  bool windowed = false;  ///< true if a window tapered the heights at the edges
+  /// Number of neighbouring modes that count as one in a mean, since the window mixes them:
+  /// ⟨w⁴⟩/⟨w²⟩²; 1 without a window.
   double correlated_modes = 1;
   /// Of a surface that is not periodic: waves up to this length may be a tip's, because peaks and
   /// valleys differ (estimate_hurst), m; 0 where they do not differ, infinity where all waves may be.
@@ -32,9 +32,9 @@ struct PowerSpectrum {
 
   double wavenumber_x(Index i) const;         ///< q_x, rad/m; −π/dx < q_x <= π/dx
   double wavenumber_y(Index j) const;         ///< q_y >= 0, rad/m
-  std::vector<double> wavenumbers_x() const;  ///< of all rows
-  std::vector<double> wavenumbers_y() const;  ///< of the columns of this process
-  double multiplicity(Index j) const;  ///< 1 where column j holds its own conjugates, 2 elsewhere
+  std::vector<double> wavenumbers_x() const;  ///< q_x of all rows
+  std::vector<double> wavenumbers_y() const;  ///< q_y of the columns of this process
+  double multiplicity(Index j) const;  ///< 1 if column j contains its own conjugates, otherwise 2
   double cell() const;                 ///< d²q of one mode, (2π)²/(lx ly), m⁻²
 };
 
@@ -54,9 +54,8 @@ constexpr void describe(auto&& visit, std::type_identity<PowerSpectrum>) {
         Kept{"cell", "area of one mode in the plane of wave vectors", inverse_length_squared});
 }
 
-/// What the heights are multiplied by before they are transformed, ξ = (i+½)/nx and η = (j+½)/ny
-/// from edge to edge. A window takes the leakage of the steps between opposite edges out of the
-/// spectrum.
+/// The window that multiplies the heights before the transform, with ξ = (i+½)/nx and η = (j+½)/ny.
+/// It suppresses the leakage due to steps between opposite edges.
 enum class Window {
   automatic,  ///< none for a periodic surface, hann for any other
   none,       ///< 1
@@ -79,21 +78,23 @@ struct EnumNames<Window> {
                                                           {Window::radial_hann, "radial_hann"}});
 };
 
-/// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². Under a window the weighted
-/// mean is subtracted, and C is divided by ⟨w²⟩, so that the expectation of a short-waved C is
-/// kept, and Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩; tilt should be subtracted before.
-/// Throws InvalidInput unless the surface is complete. Cost: one FFT; 12 bytes for each point, and
-/// over processes 8 more. Collective.
+/// Computes the power spectrum of a surface:
+///     const RadialSpectrum psd = radial_spectrum(power_spectrum(surface));
+/// C of a periodic surface is exact on its modes: Σ C d²q = h_rms². With a window the weighted mean
+/// is subtracted and C is divided by ⟨w²⟩, which preserves the expectation of C at short waves;
+/// then Σ C d²q = ⟨w²(h − ⟨wh⟩/⟨w⟩)²⟩/⟨w²⟩. Subtract any tilt first. Throws InvalidInput unless the
+/// surface is complete. Collective. Cost: one FFT; 12 bytes per point, and 8 more over processes.
 PowerSpectrum power_spectrum(const Surface& surface, Window window = Window::automatic);
 
 /// Power spectral density of profiles along one axis, C₁(q) = ∫C dq_y, so that h_rms² = ∫C₁ dq over
-/// −∞ < q < ∞: mean of |dx Σ w h e^{−iqx}|²/(2π l ⟨w²⟩) over all profiles, each less its (weighted)
-/// mean.
+/// −∞ < q < ∞: the mean of |dx Σ w h e^{−iqx}|²/(2π l ⟨w²⟩) over all profiles after subtracting
+/// each one's (weighted) mean.
 struct ProfilePsd {
   std::vector<double> wavenumber;  ///< 2πk/l, k = 1 … n/2, rad/m
   std::vector<double> psd;         ///< C₁, m³
   std::vector<Index>
-      modes;  ///< q and −q of all profiles; at the Nyquist wave number of an even n they are one
+      modes;  ///< number of modes, q and −q of all profiles; one per profile at the Nyquist wave
+              ///< number of an even n
   Index profiles = 0;
   double length = 0;  ///< l, m
 
@@ -115,15 +116,16 @@ constexpr void describe(auto&& visit, std::type_identity<ProfilePsd>) {
   visit(&S::step, Kept{"step", "from one wave number to the next", Dimension::wavenumber});
 }
 
-/// radial_hann is as hann here. Throws InvalidInput unless the surface is complete. The surface may
-/// be spread over processes. Collective. Cost: transforms of all profiles.
+/// Computes the profile spectrum, e.g. `profile_psd(surface, Axis::x)`; radial_hann acts like hann.
+/// Throws InvalidInput unless the surface is complete. The surface may be distributed over
+/// processes. Collective. Cost: FFTs of all profiles.
 ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window = Window::automatic);
 
-/// C averaged over rings of wave vectors. Every bin holds at least one mode.
+/// C averaged over rings of wave vectors. Every bin has at least one mode.
 struct RadialSpectrum {
   std::vector<double> wavenumber;  ///< mean |q| of the modes in the bin, rad/m, increasing
   std::vector<double> psd;         ///< mean C, m⁴
-  std::vector<Index> modes;  ///< in the bin, of the full spectrum; h_rms² = Σ modes·C·d²q
+  std::vector<Index> modes;  ///< number of modes of the full spectrum; h_rms² = Σ modes·C·d²q
 };
 
 constexpr void describe(auto&& visit, std::type_identity<RadialSpectrum>) {
@@ -135,12 +137,12 @@ constexpr void describe(auto&& visit, std::type_identity<RadialSpectrum>) {
   visit(&S::modes, Quantity{"modes", dimensionless, "modes in the mean"});
 }
 
-/// Rings whose limits are in the ratio 2^(1/bins_per_octave), from the longest wave on; empty ones
-/// are left out. All modes are in: beyond π/max(dx, dy) only those in the corners of the lattice
-/// remain.
+/// Averages C over rings whose limits have the ratio 2^(1/bins_per_octave), starting at the longest
+/// wave; empty rings are omitted. All modes count: beyond π/max(dx, dy) these are only the corners
+/// of the lattice.
 RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octave = 4);
 
-/// A value with its 95 % interval; NaN where there is none.
+/// A value with its 95 % interval; NaN if unknown.
 struct IntervalEstimate {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double value = unknown, low = unknown, high = unknown;
@@ -157,11 +159,11 @@ constexpr void describe(auto&& visit, std::type_identity<IntervalEstimate>) {
 }
 
 /// Hurst exponent of the self-affine range of a surface, C ∝ q^{−2(1+H)}, with its 95 % interval;
-/// NaN where the spectrum has no such range.
+/// NaN if the spectrum has no such range.
 struct HurstEstimate : IntervalEstimate {
-  double wavenumber_min = unknown;  ///< the range that was fitted, rad/m
+  double wavenumber_min = unknown;  ///< fitted range, rad/m
   double wavenumber_max = unknown;
-  Index modes = 0;  ///< in it
+  Index modes = 0;  ///< number of modes in the range
 };
 
 constexpr void describe(auto&& visit, std::type_identity<HurstEstimate>) {
@@ -174,30 +176,32 @@ constexpr void describe(auto&& visit, std::type_identity<HurstEstimate>) {
   visit(&S::modes, Kept{"modes", "modes in the range"});
 }
 
-/// A spectrum without a window, of a periodic surface: the range is the middle of up to three pieces
-/// (plateau, power law, and a tail of other slope: noise, or what a tip or filter left) that describe
-/// ln C of the radial spectrum up to π/max(dx, dy) best by Bayes' information criterion, deviations
-/// of 10 % in C being forgiven; bins without power end it, and a bin at either limit is left out. In
-/// it, ln C = a − 2(1+H) ln q is fitted to all modes by maximum quasi-likelihood, the power of a
-/// mode being exponentially distributed about C (as for a Gaussian surface). The interval is
-/// Student's, from the scatter of the bins about the fit; it does not hold the choice of the range.
+/// Estimates the Hurst exponent:
+///     const HurstEstimate hurst = estimate_hurst(power_spectrum(surface));
+/// Without a window (periodic surface), ln C of the radial spectrum up to π/max(dx, dy) is
+/// described by up to three pieces: plateau, power law, and a tail of another slope (noise, tip or
+/// filter). Bayes' information criterion selects them, allowing deviations of 10 % in C; bins
+/// without power end the range, and a bin at either limit is omitted. In the middle piece, ln C = a
+/// − 2(1+H) ln q is fitted to all modes by maximum quasi-likelihood, with powers exponentially
+/// distributed about C (as for a Gaussian surface). The interval is Student's, from the scatter of
+/// the bins about the fit; it does not include the choice of the range.
 ///
-/// Under a window, of a surface that goes on beyond its edges: A·C(q)·exp(−g q²) + floor is fitted
-/// to the rings, C having a plateau or none and being seen through Hann's window. The floor >= 0 is
-/// noise and the waves shorter than two cells, which points fold into the spectrum; g >= 0 is what
-/// pixels, lenses and tips take away. The range is the longest one that this law describes (90 %
-/// point of the deviance), above the four longest waves and below 0.8 of π/max(dx, dy). The interval
-/// is that of a likelihood-ratio test at 5 % in which floor, g and roll-off are free, and holds the
-/// most likely H of the range without its shortest half octave. The powers of neighbouring modes
-/// count as correlated.
+/// With a window (a surface that continues beyond its edges), A·C(q)·exp(−g q²) + floor is fitted
+/// to the rings, with or without a plateau in C, as seen through Hann's window. The floor >= 0
+/// covers noise and aliased waves shorter than two cells; g >= 0 covers losses by pixels, lenses
+/// and tips. The range is the longest one that this law describes (90 % point of the deviance),
+/// above the four longest waves and below 0.8 of π/max(dx, dy). The interval is that of a
+/// likelihood-ratio test at 5 % with free floor, g and roll-off, and includes the most likely H of
+/// the range without its shortest half octave. Powers of neighbouring modes count as correlated.
 ///
-/// shortest_wavelength: shorter waves take no part, m; such as ReliabilityLimit::wavelength(). Where
-/// it is 0, nothing is known of the instrument, and waves up to asymmetric_wavelength take no part:
-/// second differences over s of Gaussian heights are as often positive as negative, those of heights
-/// that a tip scanned are not, and H would be wrong by up to 0.3. Their third moment tells, with the
-/// error of a mean over 36 parts of the surface (t > 4); waves up to 4s count as asymmetric.
-/// No range (less than a factor of three in q, or H outside −0.2 … 1.5) is a result with NaN, not an
-/// error. Cost: some ten passes over the modes of the range.
+/// shortest_wavelength, m, excludes shorter waves; use for instance ReliabilityLimit::wavelength().
+/// If it is 0, nothing is known of the instrument, and waves up to asymmetric_wavelength are excluded:
+/// second differences of Gaussian heights are as often positive as negative, those of heights that a
+/// tip scanned are not, and H would be wrong by up to 0.3. The test uses their third moment at each
+/// spacing s, with the error of a mean over 36 parts of the surface (t > 4); waves up to 4s then
+/// count as asymmetric.
+/// A missing range (less than a factor of three in q, or H outside −0.2 … 1.5) returns NaN and is
+/// not an error. Cost: about ten passes over the modes of the range.
 HurstEstimate estimate_hurst(const PowerSpectrum& spectrum, double shortest_wavelength = 0);
 
 }  // namespace salebra

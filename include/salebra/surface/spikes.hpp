@@ -6,28 +6,29 @@
 
 namespace salebra {
 
-/// A point that stands alone: dust, or an instrument's mistake.
+/// An isolated outlier: dust, or an error of the instrument.
 struct Spike {
   Index ix = 0, iy = 0;
-  double height = 0;  ///< above the median of its neighbours, m; below it where negative
+  double height = 0;  ///< height above the median of its neighbours, m; negative if below
 };
 
-/// Points that no continuous surface holds, in the order of their rows. A point is far from its
-/// surroundings where
+/// Finds isolated outliers, in row order:
+///     const std::vector<Spike> spikes = find_spikes(surface);
+/// A point is an outlier if
 ///     |h − median(h_n)| > threshold · max(s, s_0),
-/// h_n being its eight neighbours, those that are defined and three at least, s = 1.4826 times the
-/// median of |h_n − median(h_n)|, and s_0 = 1.4826 times the median over the surface of
-/// |h − median(h_n)|: both are standard deviations where heights are Gaussian. Such a point is a
-/// spike with all points beside it that lie beyond half of its height, where these are four at most.
-/// A step, a scratch or a summit has more of them and remains. Of a Gaussian surface a share of 2·10⁻⁹
-/// is taken for spikes by a threshold of 6.
-/// Throws InvalidInput unless threshold >= 3. Cost: two passes and a selection; memory: a field.
+/// where h_n are its defined neighbours (three to eight), s is 1.4826 times the median of
+/// |h_n − median(h_n)|, and s_0 is 1.4826 times the median over the surface of |h − median(h_n)|;
+/// both are standard deviations for Gaussian heights. A spike consists of such a point and of all
+/// neighbours beyond half of its height, if these are at most four. A step, a scratch or a summit
+/// has more of them and is kept. With a threshold of 6, a fraction of 2·10⁻⁹ of a Gaussian surface
+/// is mistaken for spikes. Throws InvalidInput unless threshold >= 3. Cost: two passes and a
+/// selection; memory for a field.
 std::vector<Spike> find_spikes(const Surface& surface, double threshold = 6);
 
 /// Makes these points undefined.
 void remove_spikes(Surface& surface, const std::vector<Spike>& spikes);
 
-/// The surface with find_spikes() undefined.
+/// Returns the surface with the points of find_spikes() undefined.
 Surface despiked(Surface surface, double threshold = 6);
 
 }  // namespace salebra

@@ -7,11 +7,11 @@
 
 namespace salebra {
 
-/// A local maximum and the paraboloid that osculates it.
+/// A local maximum with its osculating paraboloid.
 struct Summit {
-  double x = 0;           ///< m; of the paraboloid's vertex, within one cell of the highest point
+  double x = 0;           ///< m; vertex of the paraboloid, within one cell of the highest point
   double y = 0;           ///< m
-  double height = 0;      ///< m, of the vertex, from the zero of the heights
+  double height = 0;      ///< m; height of the vertex from the zero of the heights
   double curvature1 = 0;  ///< the larger principal curvature, 1/m; > 0
   double curvature2 = 0;  ///< the smaller one, 1/m; >= 0
 
@@ -29,13 +29,13 @@ constexpr void describe(auto&& visit, std::type_identity<Summit>) {
   visit(&S::mean_radius, Kept{"mean_radius", "one over the mean curvature", length});
 }
 
-/// Each process has the summits of its rows of a surface that is spread.
+/// Summits of a surface; if it is distributed, each process has those of its rows.
 struct SummitList {
   std::vector<Summit> summits;
   double searched_area =
       0;  ///< m²: cells of all processes whose eight neighbours exist and are defined
   Communicator ranks = {};
-  Index rows = 0;                    ///< of the surface; 0 where the summits are of none
+  Index rows = 0;                    ///< rows of the surface; 0 if the summits belong to none
   std::vector<Index> in_block = {};  ///< summits in each block of rows of this process
 };
 
@@ -50,16 +50,18 @@ constexpr void describe(auto&& visit, std::type_identity<SummitList>) {
   visit(&S::in_block, Kept{});
 }
 
-/// Every point that is higher than its eight neighbours (of equal neighbours the last in row order
-/// counts, so that a pair of equal points is one summit). The paraboloid is the least-squares one
-/// through the 3 × 3 points; where that is not a cap with its vertex within one cell (structure at
-/// the scale of the grid), the point itself and the second differences along x and y stand in for
-/// it. Points without any curvature are no summits. The neighbourhood wraps where the surface is
-/// periodic; elsewhere the border is not searched, nor are points beside undefined ones. Throws
-/// InvalidInput for fewer than 3 × 3 points. Cost: one pass. Collective.
+/// Finds the summits, the points higher than their eight neighbours:
+///     const SummitStatistics statistics = summit_statistics(find_summits(surface));
+/// Of equal neighbours the last in row order counts, so that a pair of equal points is one summit.
+/// The paraboloid is the least-squares fit to the 3 × 3 points; if that is not a cap with its
+/// vertex within one cell (structure at the scale of the grid), the point itself and its second
+/// differences along x and y are used. Points without any curvature are not summits. The
+/// neighbourhood wraps if the surface is periodic; otherwise the border is not searched, nor are
+/// neighbours of undefined points. Throws InvalidInput for fewer than 3 × 3 points. Cost: one pass.
+/// Collective.
 SummitList find_summits(const Surface& surface);
 
-/// Statistics of an ensemble, as the Greenwood–Williamson theory uses it.
+/// Summit statistics for the Greenwood–Williamson theory.
 struct SummitStatistics {
   double summit_density = 0;  ///< summits per searched area, 1/m²
   double mean_height = 0;     ///< from the zero of the heights, m; NaN without summits
@@ -78,7 +80,7 @@ constexpr void describe(auto&& visit, std::type_identity<SummitStatistics>) {
   visit(&S::mean_radius, Quantity{"mean_radius", length, "mean radius of summits"});
 }
 
-/// Same bits for every number of threads and of processes; collective.
+/// Computes the statistics. Collective; same bits for any number of threads and processes.
 SummitStatistics summit_statistics(const SummitList& list);
 
 }  // namespace salebra

@@ -11,7 +11,7 @@
 
 namespace salebra {
 
-/// How C falls from its plateau to its power law.
+/// Shape of the transition from the plateau of C to its power law.
 enum class SpectrumForm {
   corner,  ///< C = A max(q, q_r)^{−2(1+H)}, 0 above q_s
   smooth,  ///< C = A (q_r² + q²)^{−(1+H)}, 0 above q_s
@@ -26,20 +26,20 @@ struct EnumNames<SpectrumForm> {
                                                                 {SpectrumForm::table, "table"}});
 };
 
-/// The spectrum of one surface that the scans allow. Wavelengths λ = 2π/q.
+/// One spectrum drawn from the posterior given the scans. Wavelengths are λ = 2π/q.
 struct TwinDraw {
   SpectrumForm form = SpectrumForm::corner;
   double hurst = 0;         ///< H; NaN for a table
   double rolloff = 0;       ///< λ_r, m; NaN for a table
   double short_cutoff = 0;  ///< λ_s, m
-  double rms_height = 0;    ///< of all waves, m; of a table, of those that a scan holds
+  double rms_height = 0;    ///< from all waves, m; for a table, from those in the scans
   double rms_slope = 0;
-  double amplitude = 0;  ///< ln C at `reference` of the power law, without plateau; 0 for a table
+  double amplitude = 0;  ///< ln C of the power law at `reference`, without plateau; 0 for a table
   double reference = 0;  ///< rad/m
-  std::vector<double> knots;    ///< of a table, rad/m
-  std::vector<double> log_psd;  ///< ln C there
+  std::vector<double> knots;    ///< knots of a table, rad/m
+  std::vector<double> log_psd;  ///< ln C at the knots
 
-  /// C, m⁴, of q > 0 in rad/m.
+  /// Returns C in m⁴ at q > 0 in rad/m.
   double density(double q) const;
 };
 
@@ -58,7 +58,7 @@ constexpr void describe(auto&& visit, std::type_identity<TwinDraw>) {
   visit(&S::log_psd, Kept{"log_psd", "logarithm of the spectral density at the knots"});
 }
 
-/// C at wave numbers in geometric progression, those of the corner and of the end among them.
+/// C at wave numbers in geometric progression that include the corner and the end.
 struct SpectrumTable {
   std::vector<double> wavenumber;  ///< increasing, rad/m
   std::vector<double> psd;         ///< m⁴
@@ -70,12 +70,12 @@ constexpr void describe(auto&& visit, std::type_identity<SpectrumTable>) {
   visit(&S::psd, Kept{"psd", "spectral density", Dimension::length_to_the_fourth});
 }
 
-/// The spectrum of a draw from `lowest` to its end, straight in ln C over ln q between the points
-/// to about 1e-4. Throws InvalidInput unless 0 < lowest < 2π/λ_s.
+/// Tabulates the spectrum of a draw from `lowest` to its end, so that linear interpolation of ln C
+/// over ln q is accurate to about 1e-4. Throws InvalidInput unless 0 < lowest < 2π/λ_s.
 SpectrumTable tabulated(const TwinDraw& draw, double lowest, int points_per_decade = 60);
 
-/// What is known of one quantity. Where no scan sees it, `seen` is false: a wavelength has then one
-/// limit alone, value and the other limit being NaN.
+/// Estimate of one parameter. If no scan sees it, `seen` is false: a wavelength then has only one
+/// limit, and value and the other limit are NaN.
 struct TwinParameter : IntervalEstimate {
   bool seen = false;
 };
@@ -100,15 +100,15 @@ constexpr void describe(auto&& visit, std::type_identity<TwinSpectrum>) {
   visit(&S::high, Kept{"high", "upper 95 % limit", length_to_the_fourth});
 }
 
-/// Scans of one instrument, size and grid, and what was used of them.
+/// Scans with the same instrument, size and grid, and how the fit used them.
 struct TwinGroup {
   std::string instrument;
   Index scans = 0;
-  double shortest = 0;  ///< wavelength that was used, m
-  double longest = 0;   ///< m
+  double shortest = 0;  ///< shortest wavelength used, m
+  double longest = 0;   ///< longest wavelength used, m
   Index bins = 0;
-  double gain = 1;    ///< factor of heights that the fit found
-  double misfit = 0;  ///< χ² over what is expected
+  double gain = 1;    ///< fitted factor of the heights
+  double misfit = 0;  ///< χ² over its expectation
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinGroup>) {
@@ -125,8 +125,8 @@ constexpr void describe(auto&& visit, std::type_identity<TwinGroup>) {
 
 struct TwinScan {
   std::string name;
-  double misfit = 0;  ///< χ² of this scan against the fit over what is expected, 1 for a good one
-  double gain = 1;    ///< factor of its heights over those of its group
+  double misfit = 0;  ///< χ² of this scan against the fit over its expectation, 1 for a good one
+  double gain = 1;    ///< factor of its heights relative to its group
   bool left_out = false;
 };
 
@@ -138,12 +138,13 @@ constexpr void describe(auto&& visit, std::type_identity<TwinScan>) {
   visit(&S::left_out, Kept{"left_out", "whether it was left out"});
 }
 
-/// The fit of the likelier self-affine law without one instrument; intervals are those of the curvature of the likelihood.
+/// Fit of the more likely self-affine law without one instrument; intervals are from the curvature
+/// of the likelihood.
 struct TwinWithout {
   std::string instrument;
   TwinParameter hurst, rolloff, short_cutoff, rms_height, rms_slope;
-  double misfit = 0;   ///< χ² of the fit over what is expected
-  bool agrees = true;  ///< no parameter that both see moved by more than chance explains (1 %)
+  double misfit = 0;   ///< χ² of the fit over its expectation
+  bool agrees = true;  ///< true if no parameter seen by both changes significantly (1 %)
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinWithout>) {
@@ -163,10 +164,10 @@ constexpr void describe(auto&& visit, std::type_identity<TwinWithout>) {
 
 struct TwinOptions {
   std::uint64_t seed = 1;
-  Index draws = 1000;                     ///< of the posterior that are kept
-  std::optional<SpectrumForm> form = {};  ///< none: chosen by likelihood
-  bool drop_bad_scans = true;             ///< a scan far from the fit of all is left out
-  bool leave_one_out = true;              ///< fit without each instrument
+  Index draws = 1000;                     ///< number of posterior draws to keep
+  std::optional<SpectrumForm> form = {};  ///< empty: chosen by likelihood
+  bool drop_bad_scans = true;             ///< omits scans far from the fit of all
+  bool leave_one_out = true;              ///< also fits without each instrument in turn
 };
 
 constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
@@ -178,28 +179,28 @@ constexpr void describe(auto&& visit, std::type_identity<TwinOptions>) {
   visit(&S::leave_one_out, Kept{"leave_one_out", "whether it is fitted without each instrument"});
 }
 
-/// One isotropic surface that several scans by several instruments are pieces of.
+/// Surface twin: the isotropic surface from which several scans by several instruments are samples.
 struct SurfaceTwin {
-  static constexpr double refused_above = 2.2;  ///< misfit of a law that the scans do not have
+  static constexpr double refused_above = 2.2;  ///< misfit above which a law is rejected
 
   SpectrumForm form = SpectrumForm::corner;
-  TwinParameter hurst, rolloff, short_cutoff;  ///< not found for a table
+  TwinParameter hurst, rolloff, short_cutoff;  ///< not available for a table
   TwinParameter rms_height, rms_slope;
   Index bins = 0;
   double chi_square = 0;  ///< deviance of the fit over all bins
-  /// χ² over what is expected of it: 1 for the right law. Above refused_above a law is refused.
+  /// χ² over its expectation: 1 for the right law. A law is rejected above refused_above.
   double misfit = 0;
-  double form_ratio = 0;     ///< 2 ln of the likelihood of the form over that of the other
-  double rolloff_ratio = 0;  ///< the same over that of a roll-off 30 times the largest scan
-  double cutoff_ratio = 0;   ///< the same over that of a cut-off far below the finest wave
+  double form_ratio = 0;     ///< 2 ln of the likelihood ratio to the other form
+  double rolloff_ratio = 0;  ///< the same to a roll-off 30 times the largest scan
+  double cutoff_ratio = 0;   ///< the same to a cut-off far below the finest wave
   TwinSpectrum spectrum;
   std::vector<TwinGroup> groups;
   std::vector<TwinScan> scans;
   std::vector<TwinWithout> without;
-  std::vector<std::string> notes;  ///< what was left out or not seen, and why
+  std::vector<std::string> notes;  ///< warnings: what was omitted or not seen, and why
   std::vector<TwinDraw> draws;
 
-  /// One of the draws, chosen by the seed: the parameters of a realisation.
+  /// Returns the draw selected by the seed: the parameters of one realisation.
   const TwinDraw& draw(std::uint64_t seed) const;
 };
 
@@ -230,23 +231,25 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
   visit(&S::draws, Kept{"draws", "draws of the posterior"});
 }
 
-/// Joint posterior of one self-affine spectrum, given scans at independent random places of one
-/// isotropic surface. The mean periodogram of a group (scans of one instrument, size and grid) in
-/// bin b is expected to be
+/// Fits one self-affine spectrum to scans at independent random positions on one isotropic surface:
+///     const SurfaceTwin twin = fit_twin({optical_scan, afm_scan});
+///     const TwinDraw& realisation = twin.draw(1);
+/// The mean periodogram of a group (scans of one instrument, size and grid) in bin b has the
+/// expectation
 ///     E_b = e^{2g} Σ_j R_bj M²(q_j) C(q_j) + N e^{2ν} + T_b,   M = exp(−½(qσ)²), σ = FWHM/2.355,
-/// R the response of tapers, plane removal and sampling, N the noise, T = N e^τ (q/q_c)⁻⁵ above the
-/// cut-off for a tip, q_c a quarter of the Nyquist wave number. Its ratio to E_b is Gamma with m
-/// degrees, 1/m = 1/m_c + s²: m_c the independent modes, with the correlation of bins in them, s =
-/// 0.03 for what the law does not know, 0.5 about the cut-off and beyond. Of a tip, bins up to
-/// R·κ_rms(q) = 0.08 are used, κ_rms² = ⅜∫q⁴C d²q from the scans themselves, and s² grows by (0.75 R·κ_rms)². Priors: H flat in 0.02
-/// … 1.2, ln λ_r up to 30 times the largest scan, ln λ_s from a twentieth of the finest wavelength
-/// used, g normal as the calibrations say, ν with 0.5 (1.5 where the noise was found), ln σ with
-/// 0.05. Roll-off and cut-off are seen where twice the log likelihood ratio exceeds 6; else a limit
-/// is given by the profile likelihood, down by 1.353.
-/// scans   at least one; those of one group need not be neighbours
-/// Throws InvalidInput for no scan, fewer than 8 usable bins, or draws < 100.
-/// Cost: 0.1 s for the response of each kind of grid, 0.3 s for fits and draws; independent of the
-/// threads in every bit.
+/// with R the response of tapers, plane removal and sampling, N the noise, T = N e^τ (q/q_c)⁻⁵
+/// above the cut-off for a tip, q_c a quarter of the Nyquist wave number. Its ratio to E_b is Gamma
+/// distributed with m degrees, 1/m = 1/m_c + s²: m_c is the number of independent modes, including
+/// the correlation of bins; s = 0.03 is the model error, 0.5 about the cut-off and beyond. For a
+/// tip, bins up to R·κ_rms(q) = 0.08 are used, with κ_rms² = ⅜∫q⁴C d²q from the scans themselves,
+/// and s² grows by (0.75 R·κ_rms)². Priors: H flat in 0.02 … 1.2, ln λ_r up to 30 times the largest
+/// scan, ln λ_s from a twentieth of the finest wavelength used, g normal with the calibration
+/// errors, ν with 0.5 (1.5 if the noise was estimated), ln σ with 0.05. Roll-off and cut-off are
+/// seen if twice the log likelihood ratio exceeds 6; otherwise the profile likelihood, 1.353 below
+/// its maximum, gives a limit. scans must have at least one entry; those of one group need not be
+/// adjacent. Throws InvalidInput for no scan, fewer than 8 usable bins, or draws < 100. Cost: 0.1 s
+/// for the response of each kind of grid, 0.3 s for fits and draws. The bits do not depend on the
+/// number of threads.
 SurfaceTwin fit_twin(const std::vector<ScanSpectrum>& scans, const TwinOptions& options = {});
 
 }  // namespace salebra

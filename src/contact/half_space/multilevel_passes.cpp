@@ -8,7 +8,7 @@ namespace salebra::detail {
 
 namespace {
 
-MultilevelKernels widest_ladder_table() {
+MultilevelKernels widest_table() {
 #ifdef SALEBRA_X86_KERNELS
   switch (vector_width()) {
     case VectorWidth::avx512:
@@ -25,7 +25,7 @@ MultilevelKernels widest_ladder_table() {
 }  // namespace
 
 const MultilevelKernels& multilevel_passes() {
-  static const MultilevelKernels kernels = widest_ladder_table();
+  static const MultilevelKernels kernels = widest_table();
   return kernels;
 }
 

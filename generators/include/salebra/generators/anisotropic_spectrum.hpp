@@ -6,15 +6,15 @@
 
 namespace salebra {
 
-/// How an isotropic surface is stretched. With an isotropic correlation length ℓ, the stretched
-/// surface has the correlation lengths along·ℓ and across·ℓ.
+/// Stretching of an isotropic surface: an isotropic correlation length ℓ becomes along·ℓ and
+/// across·ℓ.
 struct Anisotropy {
   double along = 1;   ///< > 0
   double across = 1;  ///< > 0
-  double angle = 0;   ///< from the x axis to the direction of `along`, rad
+  double angle = 0;   ///< angle from the x axis to the direction of `along`, rad
 
-  /// Peklenik's number γ, the ratio of the correlation lengths along and across the lay: 1
-  /// isotropic, > 1 lay in the direction of `along`.
+  /// Peklenik's number γ, the ratio of the correlation lengths along and across the lay: 1 is
+  /// isotropic, > 1 has its lay in the direction of `along`.
   double peklenik() const { return along / across; }
 };
 
@@ -30,8 +30,9 @@ constexpr void describe(auto&& visit, std::type_identity<Anisotropy>) {
         Quantity{"peklenik", dimensionless, "correlation length along x over that along y"});
 }
 
-/// The spectrum of an isotropic surface stretched along two perpendicular directions e₁, e₂, with
-/// its rms height kept:
+/// Spectrum of an isotropic surface stretched along two perpendicular directions e₁, e₂ at constant
+/// rms height:
+///     const AnisotropicSpectrum spectrum(isotropic, {.along = 4, .across = 1});
 ///     C(q) = along·across·C_iso(|(along·q₁, across·q₂)|),  q_i = q·e_i.
 class AnisotropicSpectrum final : public Spectrum {
  public:
@@ -41,7 +42,8 @@ class AnisotropicSpectrum final : public Spectrum {
 
   double density(double qx, double qy) const override;
   double highest_wavenumber() const override;
-  SpectralMoments moments() const override;  ///< closed form from those of the isotropic spectrum
+  SpectralMoments moments() const override;  ///< closed form from the moments of the isotropic
+                                             ///< spectrum
   std::string description() const override;
 
   const Anisotropy& anisotropy() const { return anisotropy_; }

@@ -7,15 +7,18 @@
 
 namespace salebra {
 
-/// A wave of i periods along x and j along y, which may be negative.
+/// A wave with i periods along x and j along y; both may be negative.
 struct FourierMode {
   Index i = 0, j = 0;
   std::complex<double> amplitude;  ///< ĥ, m
 };
 
-/// h(x, y) = Σ ĥ exp(2πi(ix/lx + jy/ly)) over the modes and, of each, the opposite wave (−i, −j),
-/// whose amplitude is the conjugate and which need not be among them. Throws InvalidInput for a wave
-/// of fewer than two points, and for opposite waves that contradict each other.
+/// Generates a surface from Fourier modes:
+///     const Surface wave = surface_of_modes(grid, {{3, 0, 1e-9}});
+///     h(x, y) = Σ ĥ exp(2πi(ix/lx + jy/ly))
+/// The sum includes, for each mode, the opposite wave (−i, −j) with the conjugate amplitude, which
+/// need not be listed. Throws InvalidInput for a wave of fewer than two points, and for
+/// contradicting opposite waves.
 Surface surface_of_modes(const Grid2D& grid, const std::vector<FourierMode>& modes);
 
 }  // namespace salebra

@@ -12,38 +12,39 @@
 
 namespace salebra {
 
-/// A distribution of heights by its quantile function. Location and scale do not matter: generators
-/// give the heights zero mean and the rms height of their spectrum.
+/// A distribution of heights, given by its quantile function. Location and scale do not matter:
+/// generators shift and scale heights to zero mean and the rms height of the spectrum.
 struct HeightDistribution {
-  /// Height that a fraction u of the surface lies below, 0 < u < 1; increasing; called from several
-  /// threads at once.
+  /// Height below which a fraction u of the surface lies, 0 < u < 1; increasing; called from
+  /// several threads at once.
   std::function<double(double u)> quantile;
   std::string name;  ///< for provenance
 };
 
-/// Inverse of Φ(x) = ½ erfc(−x/√2), to a few units in the last place. Throws InvalidInput unless 0
-/// < u < 1.
+/// Returns the inverse of Φ(x) = ½ erfc(−x/√2), to a few units in the last digit. Throws
+/// InvalidInput unless 0 < u < 1.
 double normal_quantile(double u);
 
 HeightDistribution gaussian_heights();
 
-/// Weibull: u = 1 − exp(−x^shape), shape > 0. Skewness 2 at shape 1, 0 near 3.6, negative above.
+/// Weibull distribution u = 1 − exp(−x^shape), shape > 0. Skewness is 2 at shape 1, 0 near 3.6,
+/// negative above.
 HeightDistribution weibull_heights(double shape);
 
-/// The member of Johnson's system of curves with this skewness and kurtosis (3 for a Gaussian): a
+/// Returns the member of Johnson's system with this skewness and kurtosis (3 for a Gaussian). A
 /// normal variable z becomes
-///     sinh((z − γ)/δ) (S_U),  exp(z/δ) (S_L)  or  1/(1 + exp(−(z − γ)/δ)) (S_B),
-/// one of which fits every pair above the limit kurtosis > skewness² + 1 that all distributions
-/// obey: Johnson (1949).
-/// Throws InvalidInput below that limit, and so near to it that the curve is a pair of spikes.
+///     sinh((z − γ)/δ) (S_U),  exp(z/δ) (S_L)  or  1/(1 + exp(−(z − γ)/δ)) (S_B).
+/// One of them fits every pair above kurtosis > skewness² + 1, the limit of all distributions:
+/// Johnson (1949). Throws InvalidInput below that limit, and so close to it that the curve is a
+/// pair of spikes.
 HeightDistribution johnson_heights(double skewness, double kurtosis);
 
-/// The distribution of given heights, straight between the middles of their steps, such as those of
-/// a measured surface.
-/// Throws InvalidInput for fewer than two different or for undefined values.
+/// Returns the distribution of given heights, such as those of a measured surface, interpolated
+/// linearly between the middles of their steps. Throws InvalidInput for fewer than two different
+/// values or for undefined ones.
 HeightDistribution sampled_heights(std::vector<double> heights);
 
-/// Which of the two holds exactly in the end; the other holds as well as the iteration brings it.
+/// Which property is exact in the result; the other is as good as the iteration makes it.
 enum class Exact { heights, spectrum };
 
 template <>
@@ -55,22 +56,21 @@ struct EnumNames<Exact> {
 struct NonGaussianOptions {
   Exact exact = Exact::heights;
   int max_iterations = 200;  ///< >= 1
-  /// Stop when an iteration lowers the mismatch by less than this part of it; 0 … 1.
+  /// The iteration stops when it lowers the mismatch by less than this fraction; 0 … 1.
   double tolerance = 1e-3;
-  /// "non-gaussian", many times an iteration; step: iterations done. A stop before the first has
-  /// begun throws Interrupted.
+  /// Stage "non-gaussian", many times per iteration; step counts finished iterations. A stop before
+  /// the first has begun throws Interrupted.
   Progress on_progress = {};
 };
 
 struct NonGaussianSurface {
   Surface surface;
   int iterations = 0;
-  /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It ends
-  /// above 0: what is left is what the pair of distribution and spectrum cannot have at once on
-  /// this grid.
+  /// √(Σ(|a| − a_target)²/Σa_target²) over all modes of the surface with the exact heights. It
+  /// stays above 0 if distribution and spectrum cannot both be exact on this grid.
   double spectrum_mismatch = 0;
-  /// Converged: the mismatch has stopped falling. Interrupted: the surface is that of the last
-  /// iteration that was finished.
+  /// `converged` means that the mismatch has stopped falling; `interrupted`, that the surface is
+  /// that of the last finished iteration.
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
@@ -88,19 +88,21 @@ constexpr void describe(auto&& visit, std::type_identity<NonGaussianSurface>) {
         Quantity{"converged", dimensionless, "whether the mismatch has stopped falling"});
 }
 
-/// A periodic surface with a given spectrum and a given height distribution, by the iterated
-/// amplitude-adjusted Fourier transform of Schreiber and Schmitz (1996): in turn, heights are
-/// replaced by those of the distribution in the same order, and mode amplitudes by those of the
-/// spectrum with the same phases. It starts from random_phase of the seed, whose mode powers are
-/// the target, and has the rms height of that surface. Same bits for every thread count; since
-/// ranks depend on all points, a finer grid is another surface. The grid cuts the tails: N points
-/// reach the quantiles 1/(2N) and 1 − 1/(2N). Errors as random_phase, of the memory that
-/// non_gaussian_memory says. Cost: two real FFTs and a sort of all points for an iteration.
+/// Generates a periodic surface with a given spectrum and height distribution:
+///     const NonGaussianSurface made = non_gaussian(grid, spectrum, johnson_heights(-1, 5), 1);
+/// It iterates the amplitude-adjusted Fourier transform of Schreiber and Schmitz (1996): in turn,
+/// it replaces heights by those of the distribution in the same order, and mode amplitudes by those
+/// of the spectrum with the same phases. It starts from random_phase of the seed, whose mode powers
+/// are the target and whose rms height is kept. The bits are the same for every thread count; since
+/// the order of heights depends on all points, a finer grid gives another surface. The grid
+/// truncates the tails: N points reach the quantiles 1/(2N) and 1 − 1/(2N). Errors are those of
+/// random_phase, with the memory of non_gaussian_memory. Cost: two real FFTs and a sort of all
+/// points per iteration.
 NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
                                 const HeightDistribution& distribution, std::uint64_t seed,
                                 const NonGaussianOptions& options = {});
 
-/// Peak memory of non_gaussian on this grid, bytes: six and a half times the heights.
+/// Returns the peak memory of non_gaussian on this grid, bytes: six and a half times the heights.
 std::size_t non_gaussian_memory(const Grid2D& grid);
 
 }  // namespace salebra

@@ -8,7 +8,7 @@
 
 namespace salebra {
 
-/// A periodic line of heights: point k lies at x = k·length/n.
+/// A periodic line of heights: point k is at x = k·length/n.
 struct Profile {
   double length = 0;            ///< m
   std::vector<double> heights;  ///< m
@@ -34,20 +34,20 @@ class ProfileSpectrum {
   virtual double density(double q) const = 0;
   /// C₁ vanishes beyond this, rad/m.
   virtual double highest_wavenumber() const = 0;
-  /// ∫C₁ dq, ∫q²C₁ dq, ∫q⁴C₁ dq as moments along x; those along y are 0, so that rms_slope() is
+  /// Returns ∫C₁ dq, ∫q²C₁ dq, ∫q⁴C₁ dq as moments along x; those along y are 0, so rms_slope() is
   /// √⟨h'²⟩.
   virtual SpectralMoments moments() const = 0;
   virtual std::string description() const = 0;
 
-  /// Moments as sums over the modes of a periodic line of so many points.
+  /// Returns the moments as sums over the modes of a periodic line with this number of points.
   SpectralMoments lattice_moments(Index points, double length) const;
   /// Throws InvalidInput for a shortest wavelength below two steps or above the length.
   void require_carried_by(Index points, double length) const;
 };
 
 /// Self-affine profile: C₁ = C0 from q_L to q_r, C0 (q/q_r)^{−(1+2H)} up to q_s. A cut through an
-/// isotropic self-affine surface of the same H has this law between its cut-offs, but not near
-/// them. Parameters, limits and errors as SelfAffineSpectrum; rms_slope is √⟨h'²⟩.
+/// isotropic self-affine surface of the same H follows this law between its cut-offs, but not near
+/// them. Parameters, limits and errors are those of SelfAffineSpectrum; rms_slope is √⟨h'²⟩.
 class SelfAffineProfileSpectrum final : public ProfileSpectrum {
  public:
   explicit SelfAffineProfileSpectrum(const SelfAffineParameters& parameters);
@@ -64,12 +64,12 @@ class SelfAffineProfileSpectrum final : public ProfileSpectrum {
   double plateau_;
 };
 
-/// A Gaussian random profile, keyed by seed and wave number as filtered_noise is, from a stream of
-/// random numbers of its own.
+/// Generates a Gaussian random profile, e.g. `filtered_noise_profile(4096, 1e-3, spectrum, 1)`. It
+/// is keyed by seed and wave number like filtered_noise, with its own stream of random numbers.
 Profile filtered_noise_profile(Index points, double length, const ProfileSpectrum& spectrum,
                                std::uint64_t seed);
 
-/// A profile whose every mode has exactly its target power, as random_phase.
+/// Generates a profile in which every mode has exactly its target power, like random_phase.
 Profile random_phase_profile(Index points, double length, const ProfileSpectrum& spectrum,
                              std::uint64_t seed);
 

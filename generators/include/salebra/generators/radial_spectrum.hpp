@@ -7,16 +7,17 @@
 
 namespace salebra {
 
-/// Any function C(|q|) between two wave numbers, and 0 outside of them.
+/// Isotropic spectrum given by a function C(|q|) between two wave numbers, and 0 outside:
+///     const FunctionSpectrum cubic([](double q) { return 1e-2 / (q * q * q); }, 1e6, 1e8, "q^-3");
 class FunctionSpectrum final : public IsotropicSpectrum {
  public:
   /// density   C(q) >= 0 in m⁴ for lowest <= q <= highest, rad/m; called from several threads at
   ///           once
-  /// lowest    >= 0; 0 for all long waves of a cell
+  /// lowest    >= 0; 0 includes all long waves of a cell
   /// name      for provenance
-  /// Throws InvalidInput unless 0 <= lowest < highest, and where the density is negative or not
-  /// finite at a point where it is asked for the moments, which are integrated here: adaptive
-  /// Simpson's rule, relative error about 1e-10 for a smooth function.
+  /// Throws InvalidInput unless 0 <= lowest < highest, and if the density is negative or not finite
+  /// where the moments need it. These are integrated here by adaptive Simpson's rule, with a
+  /// relative error of about 1e-10 for a smooth function.
   FunctionSpectrum(std::function<double(double q)> density, double lowest, double highest,
                    std::string name);
 
@@ -32,11 +33,13 @@ class FunctionSpectrum final : public IsotropicSpectrum {
   SpectralMoments moments_;
 };
 
-/// A spectrum from a table, straight in ln C against ln q between its points and 0 outside of them.
+/// Isotropic spectrum given by a table, linear in ln C against ln q between its points and 0
+/// outside.
 class TabulatedSpectrum final : public IsotropicSpectrum {
  public:
   /// wavenumbers   > 0, increasing, rad/m;   densities   > 0, m⁴
-  /// Throws InvalidInput for fewer than two points or if they are not as said, naming the row.
+  /// Throws InvalidInput naming the row if these conditions are violated, and for fewer than two
+  /// points.
   TabulatedSpectrum(std::vector<double> wavenumbers, std::vector<double> densities);
 
   double radial_density(double q) const override;
@@ -48,13 +51,14 @@ class TabulatedSpectrum final : public IsotropicSpectrum {
   std::vector<double> wavenumbers_, densities_;
 };
 
-/// ⟨h(0)h(r)⟩ = rms_height² exp(−r²/ℓ²): C = rms_height² ℓ²/(4π) exp(−q²ℓ²/4), cut off where it has
-/// fallen by e³⁶.
+/// Spectrum of a Gaussian correlation ⟨h(0)h(r)⟩ = rms_height² exp(−r²/ℓ²): C = rms_height² ℓ²/(4π)
+/// exp(−q²ℓ²/4), cut off where it has fallen by e³⁶.
 FunctionSpectrum gaussian_correlation_spectrum(double rms_height, double correlation_length);
 
-/// ⟨h(0)h(r)⟩ = rms_height² exp(−r/ℓ): C ∝ (1 + q²ℓ²)^{−3/2}, a self-affine spectrum of Hurst
-/// exponent 1/2 with a smooth roll-off. Its slope grows without limit with the shortest wavelength,
-/// hence short_cutoff, and C is scaled so that what is left has the rms height asked.
+/// Spectrum of an exponential correlation ⟨h(0)h(r)⟩ = rms_height² exp(−r/ℓ): C ∝ (1 +
+/// q²ℓ²)^{−3/2}, i.e. self-affine with Hurst exponent 1/2 and a smooth roll-off. Its slope diverges
+/// without a shortest wavelength, so short_cutoff is required; C is scaled so that the rest has the
+/// requested rms height.
 FunctionSpectrum exponential_correlation_spectrum(double rms_height, double correlation_length,
                                                   double short_cutoff);
 

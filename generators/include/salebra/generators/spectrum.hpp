@@ -19,12 +19,12 @@ class Spectrum {
  public:
   virtual ~Spectrum() = default;
 
-  /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Not asked at q = 0, since a surface has zero
-  /// mean.
+  /// C(q), m⁴; q_x, q_y in rad/m. Even: C(−q) = C(q). Never evaluated at q = 0, since a surface has
+  /// zero mean.
   virtual double density(double qx, double qy) const = 0;
-  /// densities[k] = density((first + k)·step_x, qy): the row of wave vectors that generators ask
-  /// for. Where the wave vector is 0 it may be anything. An override serves speed and must agree
-  /// with density to rounding.
+  /// Sets densities[k] = density((first + k)·step_x, qy), the row of wave vectors that generators
+  /// need; the value at wave vector 0 is arbitrary. Overrides are for speed and must agree with
+  /// density to rounding.
   virtual void density_row(Index first, double step_x, double qy,
                            std::span<double> densities) const;
   /// C vanishes for |q| beyond this, rad/m.
@@ -34,22 +34,20 @@ class Spectrum {
   /// One line for provenance.
   virtual std::string description() const = 0;
 
-  /// Moments that surfaces on this grid have in the mean: the same integrals as sums over the modes
-  /// that the grid carries, without the zero mode; a mode on a Nyquist line counts once.
-  /// progress: "moments"; a stop throws Interrupted. ranks: processes that share the sum,
-  /// collectively; it has the same bits for every number of them.
-  /// Throws as require_carried_by. Cost: one evaluation of C for each pair of modes within
-  /// highest_wavenumber.
+  /// Returns the mean moments of surfaces on this grid: the same integrals as sums over the modes
+  /// that the grid carries, without the zero mode; a mode on a Nyquist line counts once. progress
+  /// has the stage "moments"; a stop throws Interrupted. ranks: processes that share the sum
+  /// collectively; the bits are the same for any number of processes. Throws as require_carried_by
+  /// does. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
   SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {},
                                   const Communicator& ranks = {}) const;
 
-  /// Throws InvalidInput where the cells are larger than half the shortest wavelength, so that the
-  /// grid would fold short waves into long ones, or where the shortest wavelength does not fit into
-  /// the cell at all.
+  /// Throws InvalidInput if the cells are larger than half the shortest wavelength, so that the
+  /// grid would alias short waves, or if the shortest wavelength does not fit into the cell at all.
   void require_carried_by(const Grid2D& grid) const;
 };
 
-/// A spectrum that depends on |q| alone.
+/// A spectrum that depends only on |q|.
 class IsotropicSpectrum : public Spectrum {
  public:
   /// C(|q|), m⁴, for |q| > 0 in rad/m.
@@ -57,7 +55,7 @@ class IsotropicSpectrum : public Spectrum {
   double density(double qx, double qy) const final;
 };
 
-/// What defines a self-affine spectrum. Wavelengths λ = 2π/q, m.
+/// Parameters of a self-affine spectrum. Wavelengths are λ = 2π/q, m.
 struct SelfAffineParameters {
   double hurst = 0.8;  ///< H, 0 < H <= 1
   std::optional<double> long_cutoff =
@@ -80,18 +78,20 @@ constexpr void describe(auto&& visit, std::type_identity<SelfAffineParameters>) 
 }
 
 /// Self-affine spectrum with a plateau:
+///     const SelfAffineSpectrum spectrum({.hurst = 0.8, .rolloff = 2e-5, .short_cutoff = 1e-6,
+///                                        .rms_height = 1e-7});
 ///     C = C0                        q_L <= q < q_r
 ///     C = C0 (q/q_r)^{−2(1+H)}      q_r <= q <= q_s
 ///     C = 0                         elsewhere.
-/// C0 is set so that the *continuum* has the rms height (or slope) asked. It does not depend on the
-/// grid, hence long waves are the same at every resolution; what a given cell has of it, some of
-/// the longest waves being left out or counted whole, is lattice_moments(grid). A wave on a limit
-/// belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
+/// C0 gives the *continuum* the requested rms height (or slope). It does not depend on the grid, so
+/// long waves are the same at every resolution; lattice_moments(grid) gives the moments in a
+/// particular cell, where some of the longest waves are omitted or counted in full. A wave on a
+/// limit belongs to the spectrum, to a relative tolerance of 1e-9 for the rounding of 2π/λ.
 class SelfAffineSpectrum final : public IsotropicSpectrum {
  public:
-  /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, one of
-  /// λ_L and λ_r is given, and exactly one of rms_height and rms_slope is given and > 0. λ_L > λ_s
-  /// or a plateau is needed: a spectrum of zero width has no power.
+  /// Throws InvalidInput that names the parameter unless 0 < H <= 1, λ_L >= λ_r >= λ_s > 0, λ_L or
+  /// λ_r is given, and exactly one of rms_height and rms_slope is given and > 0. Also requires λ_L
+  /// > λ_s or a plateau, because a spectrum of zero width has no power.
   explicit SelfAffineSpectrum(const SelfAffineParameters& parameters);
 
   double radial_density(double q) const override;

@@ -5,27 +5,30 @@
 
 namespace salebra {
 
-/// How one summit adheres.
+/// Adhesion theory for one summit.
 enum class SummitAdhesion { dmt, jkr };
 
-/// Summits of an ensemble that adhere, each for itself [Fuller and Tabor (1975)]. A summit of the
-/// height z has δ = z − s, the force f and the contact radius a:
+/// Ensemble of independent adhesive summits [Fuller and Tabor (1975)]:
+///     const AdhesiveSummits model(ensemble, material, area, SummitAdhesion::jkr, 0.05, true);
+///     const double pull_off = model.pull_off_pressure();
+/// A summit of height z has the indentation δ = z − s, the force f and the contact radius a:
 ///     jkr  δ = a²/R − √(2πwa/E*), f = 4E*a³/(3R) − √(8πwE*a³)  [Johnson et al. (1971)]
-///     dmt  δ = a²/R, f = 4E*a³/(3R) − 2πwR, of summits that touch  [Derjaguin et al. (1975)]
-/// F = ηA0 ∫f(z − s)φ(z)dz over the summits that touch. Those of jkr touch at δ = 0 when they come
-/// closer, and come off at δ = −¾(π²w²R/E*²)^{1/3} when they are drawn apart; dmt has no hysteresis.
-/// K is that of contacts whose edges stay, Σ2E*a, as boundary elements have it; F'' is not known.
-/// Relative error of the quadrature below 1e-9 of what pulls.
+///     dmt  δ = a²/R, f = 4E*a³/(3R) − 2πwR, for summits that touch  [Derjaguin et al. (1975)]
+/// F = ηA0 ∫f(z − s)φ(z)dz over the summits that touch. JKR summits touch at δ = 0 during approach,
+/// and separate at δ = −¾(π²w²R/E*²)^{1/3}; DMT has no hysteresis. K assumes fixed contact edges,
+/// Σ2E*a, as in boundary elements; F'' is unknown. The relative error of the quadrature is below
+/// 1e-9 of the adhesive force.
 class AdhesiveSummits final : public AsperityModel {
  public:
-  /// work: w > 0, J/m². unloading: the summits touched before and are drawn apart. Throws
-  /// InvalidInput as StatisticalSummits.
+  /// work: w > 0, J/m². unloading: the summits have touched before and are being separated. Throws
+  /// InvalidInput as StatisticalSummits does.
   AdhesiveSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area,
                   SummitAdhesion adhesion, double work, bool unloading);
   ~AdhesiveSummits() override;
   AsperityContact at(double separation) const override;
   double force(double separation) const override;
-  /// The largest −F/A0 over all separations, Pa, by golden section; 0 where nothing pulls.
+  /// Returns the maximum of −F/A0 over all separations, Pa, by golden section; 0 without
+  /// attraction.
   double pull_off_pressure() const;
 
  private:

@@ -7,10 +7,9 @@
 
 namespace salebra {
 
-/// `count` summits drawn from an ensemble: heights from φ with zero at its plane z = 0, positions
-/// uniform over a square of side `size` metres, curvatures 1/R. Summit i of a realisation depends
-/// on (seed, i, realisation) alone.
-/// Throws InvalidInput for an ensemble that StatisticalSummits refuses, or count < 1.
+/// Draws `count` summits from an ensemble: heights from φ with zero at its plane z = 0, positions
+/// uniform over a square of side `size` metres, curvatures 1/R. Summit i depends only on (seed, i,
+/// realisation). Throws InvalidInput for an ensemble that StatisticalSummits rejects, or count < 1.
 std::vector<Summit> draw_summits(const SummitEnsemble& ensemble, int count, double size,
                                  std::uint64_t seed, int realisation = 0);
 
@@ -19,19 +18,18 @@ struct MonteCarloOptions {
   std::uint64_t seed = 1;
 };
 
-/// What surfaces of finite size do: each sample is the mean over realisations at one separation
-/// from the plane z = 0.
+/// Force curve of surfaces of finite size: each sample is the mean over realisations at one
+/// separation from the plane z = 0.
 struct MonteCarloCurve {
   ForceCurve mean;
-  /// Standard deviation over realisations of each sample's sums, from the lowest force to the
-  /// highest as in `mean`. That of F'' is NaN: ∫φ/(z−s) diverges, so that F'' of a finite ensemble
-  /// has no variance.
+  /// Standard deviation over realisations of each sample's sums, in the order of `mean`. That of
+  /// F'' is NaN: ∫φ/(z−s) diverges, so F'' of a finite ensemble has no variance.
   std::vector<AsperityContact> deviation;
   int realisations = 0;
-  int summits = 0;  ///< of each realisation: ηA0, rounded
+  int summits = 0;  ///< summits per realisation: ηA0, rounded
 
-  /// Half-width of the 95 % interval of the mean of a quantity with this standard deviation
-  /// (Student's t).
+  /// Returns the half-width of the 95 % interval of the mean of a quantity with this standard
+  /// deviation (Student's t).
   double interval(double standard_deviation) const;
 };
 
@@ -43,9 +41,11 @@ constexpr void describe(auto&& visit, std::type_identity<MonteCarloCurve>) {
   visit(&S::summits, Kept{"summits", "summits of each realisation"});
 }
 
-/// Presses realisations of an ensemble, each with round(ηA0) >= 1 summits drawn from φ.
-/// separations: m, any order. The result has the same bits for every thread count. Cost:
-/// realisations × summits × separations.
+/// Computes the curve from realisations of an ensemble, each with round(ηA0) >= 1 summits drawn
+/// from φ:
+///     const MonteCarloCurve curve = monte_carlo_curve(ensemble, material, area, {0, 1e-8, 2e-8});
+/// separations: m, any order. The bits are the same for every thread count. Cost: realisations ×
+/// summits × separations.
 MonteCarloCurve monte_carlo_curve(const SummitEnsemble& ensemble, const Material& material,
                                   double nominal_area, const std::vector<double>& separations,
                                   const MonteCarloOptions& options = {});

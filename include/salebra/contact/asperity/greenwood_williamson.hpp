@@ -12,6 +12,8 @@
 #include <vector>
 
 /// Contact as a sum over independent Hertzian summits: Greenwood and Williamson (1966).
+///     const StatisticalSummits model(summit_ensemble(m0, m2, m4), material, area);
+///     const ForceCurve curve = curve_at_pressures(model, {1e6, 1e7});
 namespace salebra {
 
 namespace detail {
@@ -28,10 +30,10 @@ struct EnumNames<SummitDistribution> {
        {SummitDistribution::tabulated, "tabulated"}});
 };
 
-/// A point of a height density that is linear between its points and zero beyond them.
+/// One point of a height density that is piecewise linear and zero outside its points.
 struct HeightDensityPoint {
   double height = 0;   ///< z, m
-  double density = 0;  ///< φ(z), 1/m, or any multiple of it: a table is normalised in use
+  double density = 0;  ///< φ(z), 1/m, or any multiple: tables are normalised
 };
 
 constexpr void describe(auto&& visit, std::type_identity<HeightDensityPoint>) {
@@ -39,11 +41,11 @@ constexpr void describe(auto&& visit, std::type_identity<HeightDensityPoint>) {
   visit(&HeightDensityPoint::density, Kept{"density", "summits per height, 1/m"});
 }
 
-/// A statistical ensemble of equal spherical caps whose heights z are distributed as φ(z):
+/// Statistical ensemble of equal spherical caps with heights z distributed as φ(z):
 ///     gaussian      exp(−z²/2σ_s²)/(√(2π)σ_s); z = 0 is the mean plane of the summits
 ///     exponential   exp(−z/σ_s)/σ_s for z >= 0; z = 0 is the plane of the lowest summits, σ_s
 ///                   below their mean
-///     tabulated     as `table` says
+///     tabulated     given by `table`
 struct SummitEnsemble {
   double summit_density = 0;  ///< η, 1/m²
   double radius = 0;          ///< R, m
@@ -51,7 +53,7 @@ struct SummitEnsemble {
   double summit_rms = 0;
   double mean_height = 0;  ///< height of the plane z = 0 above the mean plane of the surface, m
   SummitDistribution distribution = SummitDistribution::gaussian;
-  double rms_height = ForceSample::unknown;    ///< h_rms of the surface, m, where there is one
+  double rms_height = ForceSample::unknown;    ///< h_rms of the surface, m; NaN without a surface
   std::vector<HeightDensityPoint> table = {};  ///< heights increasing, at least two
 };
 
@@ -68,17 +70,16 @@ constexpr void describe(auto&& visit, std::type_identity<SummitEnsemble>) {
   visit(&S::table, Kept{});
 }
 
-/// The ensemble of a Gaussian isotropic surface, from its profile moments m0, m2, m4 by Nayak
-/// (1971) and McCool (1986):
-///     η = m4/(6√3 π m2), R = (3/8)√(π/m4), σ_s² = (1 − 0.8968/α) m0, mean height 4√(m0/(πα)), α =
-///     m0 m4/m2².
-/// moment0 m², moment2 –, moment4 1/m². Throws InvalidInput unless they are > 0 with α >= 1, which
-/// holds for any surface.
+/// Returns the ensemble of a Gaussian isotropic surface from its profile moments m0 (m²), m2, m4
+/// (1/m²) by Nayak (1971) and McCool (1986):
+///     η = m4/(6√3 π m2), R = (3/8)√(π/m4), σ_s² = (1 − 0.8968/α) m0, mean height 4√(m0/(πα)),
+///     α = m0 m4/m2².
+/// Throws InvalidInput unless the moments are > 0 with α >= 1, which holds for any surface.
 SummitEnsemble summit_ensemble(double moment0, double moment2, double moment4);
 
-/// The ensemble with the density, mean radius, and mean and standard deviation of the heights of
-/// summits that were counted. mean_plane: mean of the surface's heights, m, from the same zero as
-/// the summits' heights.
+/// Returns the ensemble with the density, mean radius, and mean and standard deviation of height of
+/// detected summits. mean_plane: mean of the surface's heights, m, from the zero of the summits'
+/// heights.
 SummitEnsemble summit_ensemble(const SummitStatistics& statistics, double mean_plane = 0);
 
 /// Sums over the summits in contact. K = −dF/ds and F'' = d²F/ds², since δ = const − s.
@@ -88,7 +89,7 @@ struct AsperityContact {
   double force = 0;             ///< F, N
   double normal_stiffness = 0;  ///< K, N/m
   double force_curvature = 0;   ///< F'', N/m²
-  bool converged = true;        ///< only a model that iterates may say no
+  bool converged = true;        ///< false only for models that iterate
 };
 
 constexpr void describe(auto&& visit, std::type_identity<AsperityContact>) {
@@ -103,15 +104,15 @@ constexpr void describe(auto&& visit, std::type_identity<AsperityContact>) {
   visit(&S::converged, Kept{"converged", "only a model that iterates may say no"});
 }
 
-/// A smooth rigid plane at separation s from the plane z = 0 of an ensemble of summits. Immutable.
+/// Contact of summits with a smooth rigid plane at separation s from their plane z = 0. Immutable.
 class AsperityModel {
  public:
   struct Common {
     std::string name;             ///< becomes ForceCurve::model
-    Material material;            ///< G* may be unknown: then K_t is
+    Material material;            ///< if G* is unknown, so is K_t
     double nominal_area = 0;      ///< A0 > 0, m²
-    double mean_height = 0;       ///< of the plane z = 0 above the mean plane of the surface, m
-    double first_touch = 0;       ///< s where δ = 0; 0 where there is no highest summit
+    double mean_height = 0;       ///< height of z = 0 above the mean plane of the surface, m
+    double first_touch = 0;       ///< s where δ = 0; 0 if there is no highest summit
     double upper_separation = 0;  ///< no force above this s, m
     /// A step > 0 of s in which the force changes by a factor of a few, m.
     double height_scale = 0;
@@ -122,24 +123,24 @@ class AsperityModel {
   virtual ~AsperityModel();
 
   virtual AsperityContact at(double separation) const = 0;
-  /// One member of at(separation), where it can be had for less.
+  /// One member of at(separation), which models may compute faster.
   virtual double force(double separation) const { return at(separation).force; }
   virtual double normal_stiffness(double separation) const {
     return at(separation).normal_stiffness;
   }
   virtual double force_curvature(double separation) const { return at(separation).force_curvature; }
-  /// s at which F, K or K' is not smooth: where summits of given height touch, or where the height
-  /// density begins or bends.
+  /// Separations at which F, K or K' is not smooth: where summits of given height touch, or where
+  /// the height density begins or bends.
   virtual std::vector<double> break_separations() const { return {}; }
 
-  /// s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
+  /// Returns s at which the summits carry the force > 0, N: a bracketed root, exact to round-off.
   virtual double separation_of(double force) const;
   /// δ = first_touch − s: from first touch for given summits, −s for a statistical ensemble.
   double indentation(double separation) const { return common_.first_touch - separation; }
   /// ū = s + mean_height, the distance of the smooth plane from the *undeformed* mean plane of the
-  /// surface: the theory does not know how far the material between the summits moves, so that ū is
-  /// too small by the mean displacement of the surface, which matters where the contact area is no
-  /// longer small.
+  /// surface. The theory does not include the displacement of the material between the summits, so
+  /// ū is too small by the mean displacement of the surface, which matters if the contact area is
+  /// not small.
   double mean_gap(double separation) const { return separation + common_.mean_height; }
   const Common& common() const { return common_; }
 
@@ -147,14 +148,15 @@ class AsperityModel {
   Common common_;
 };
 
-/// N = ηA0∫_s^∞φ, A_c = πRηA0∫(z−s)φ, F = (4/3)E*√R ηA0∫(z−s)^{3/2}φ, K = 2E*√R ηA0∫(z−s)^{1/2}φ,
-/// F'' = E*√R ηA0∫(z−s)^{−1/2}φ. Closed forms for tabulated heights and for exponential ones with s
-/// >= 0; else GSL quadrature over t = √(z−s), in which no integrand is singular, with a relative
-/// error below 1e-10.
+/// Statistical ensemble with
+///     N = ηA0∫_s^∞φ, A_c = πRηA0∫(z−s)φ, F = (4/3)E*√R ηA0∫(z−s)^{3/2}φ,
+///     K = 2E*√R ηA0∫(z−s)^{1/2}φ, F'' = E*√R ηA0∫(z−s)^{−1/2}φ.
+/// It uses closed forms for tabulated heights and for exponential ones with s >= 0; otherwise GSL
+/// quadrature over t = √(z−s), where no integrand is singular, with a relative error below 1e-10.
 class StatisticalSummits final : public AsperityModel {
  public:
-  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, or where
-  /// the table of a tabulated density is not one.
+  /// Throws InvalidInput unless density, radius, summit_rms, nominal_area and E* are > 0, and for
+  /// an invalid table of a tabulated density.
   StatisticalSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area);
   ~StatisticalSummits() override;
   AsperityContact at(double separation) const override;
@@ -172,9 +174,9 @@ class StatisticalSummits final : public AsperityModel {
   std::unique_ptr<const detail::HeightDensity> heights_;
 };
 
-/// What a summit's two principal curvatures become.
+/// How a summit's two principal curvatures are used.
 enum class SummitShape {
-  circular,   ///< a sphere of R = 1/(mean curvature)
+  circular,   ///< a sphere with R = 1/(mean curvature)
   elliptical  ///< Hertz's elliptical contact, exact; ratios below 1e-3 count as 1e-3
 };
 
@@ -186,13 +188,13 @@ struct EnumNames<SummitShape> {
 
 /// Deterministic ensemble: each summit of one surface with its own height and radius,
 ///     F = Σ(4/3)E*√R_i (z_i−s)^{3/2} and so on, over the summits with z_i > s.
-/// s counts from the mean of the summit heights. F'' is infinite where a summit just touches; its
-/// integral is not. Cost: one pass over the summits in contact.
+/// s is measured from the mean of the summit heights. F'' is infinite where a summit just touches;
+/// its integral is finite. Cost: one pass over the summits in contact.
 class DeterministicSummits final : public AsperityModel {
  public:
-  /// mean_plane: mean of the surface's heights, m, from the same zero as the summits'.
-  /// nominal_area: of the region that was searched for summits. Throws InvalidInput for no summits
-  /// or a curvature that is not > 0.
+  /// mean_plane: mean of the surface's heights, m, from the zero of the summits' heights.
+  /// nominal_area: area of the region searched for summits. Throws InvalidInput without summits, or
+  /// for a curvature that is not > 0.
   DeterministicSummits(const std::vector<Summit>& summits, const Material& material,
                        double nominal_area, double mean_plane = 0,
                        double rms_height = ForceSample::unknown,
@@ -207,20 +209,20 @@ class DeterministicSummits final : public AsperityModel {
   std::vector<Cap> caps_;  ///< highest first, heights from their mean
 };
 
-/// What a curve of the model holds at a separation, where at(separation) is known.
+/// Converts at(separation) to a sample of a curve.
 ForceSample force_sample(const AsperityModel& model, double separation,
                          const AsperityContact& contact);
 
-/// Samples at the given separations (m, any order) or pressures (Pa, > 0, any order), from the
-/// lowest force to the highest; every quantity but K_t without G* is filled in, δ and ū as
-/// AsperityModel defines them.
+/// Compute curves at the given separations (m, any order) or pressures (Pa, > 0, any order), from
+/// the lowest force to the highest. Every quantity is set except K_t without G*; δ and ū are those
+/// of AsperityModel.
 ForceCurve curve_at_separations(const AsperityModel& model, const std::vector<double>& separations);
 ForceCurve curve_at_pressures(const AsperityModel& model, const std::vector<double>& pressures);
 
-/// F(δ) of an ensemble of summits, exact: no table, no fit. δ is AsperityModel::indentation.
+/// Exact law F(δ) of an ensemble of summits, without table or fit. δ is AsperityModel::indentation.
 class GreenwoodWilliamsonLaw final : public ContactLaw {
  public:
-  /// Throws InvalidInput where G* of the model's material is not known.
+  /// Throws InvalidInput if G* of the model's material is unknown.
   explicit GreenwoodWilliamsonLaw(std::shared_ptr<const AsperityModel> model);
   GreenwoodWilliamsonLaw(const SummitEnsemble& ensemble, const Material& material,
                          double nominal_area);
@@ -237,12 +239,14 @@ class GreenwoodWilliamsonLaw final : public ContactLaw {
   std::shared_ptr<const AsperityModel> model_;
 };
 
-/// Contact of two rough sides: Greenwood and Tripp (1970). Summits of radii R1 and R2 whose axes
-/// lie r apart interfere by w = z − s − r²/(2(R1+R2)), z the sum of their heights, and carry
-/// Hertz's force with R = R1R2/(R1+R2); the tilt of the contacts is neglected. Over all pairs,
-/// positions independent and z Gaussian with σ² = σ1² + σ2², M_n = ∫(z−s)^n φ:
-///     N = 2π(R1+R2)η1η2A0 M_1,   A_c = π²R1R2η1η2A0 M_2,   F = (4/3)E*√R·(2/5)·2π(R1+R2)η1η2A0 M_{5/2},
-/// K and F'' its derivatives. s is the distance between the mean planes of the two sides' summits.
+/// Contact of two rough sides by Greenwood and Tripp (1970). Summits of radii R1 and R2 whose axes
+/// are r apart interfere by w = z − s − r²/(2(R1+R2)), z the sum of their heights, and carry
+/// Hertz's force with R = R1R2/(R1+R2); the tilt of the contacts is neglected. Over all pairs, with
+/// independent positions and Gaussian z, σ² = σ1² + σ2², M_n = ∫(z−s)^n φ:
+///     N = 2π(R1+R2)η1η2A0 M_1,   A_c = π²R1R2η1η2A0 M_2,
+///     F = (4/3)E*√R·(2/5)·2π(R1+R2)η1η2A0 M_{5/2},
+/// and K and F'' are its derivatives. s is the distance between the mean planes of the summits of
+/// the two sides.
 class GreenwoodTripp final : public AsperityModel {
  public:
   /// Throws InvalidInput unless density, radius and summit_rms of both sides are > 0 and both are

@@ -8,31 +8,32 @@
 namespace salebra {
 
 struct InteractionOptions {
-  /// The largest error of a summit's indentation, over the largest indentation.
+  /// Maximum error of a summit's indentation, relative to the maximum indentation.
   double tolerance = 1e-10;
   int max_iterations = 100;  ///< Newton steps, >= 1
-  /// "interacting summits", after every sum over the summits; step: Newton steps done. A stop
-  /// throws Interrupted. For what has no `progress` of its own, such as at() and what rests on it.
+  /// Called with stage "interacting summits" after every sum over the summits; step counts Newton
+  /// steps. A stop throws Interrupted. It serves calls without their own `progress`, such as at().
   Progress on_progress = {};
 };
 
-/// The given summits of a periodic surface, each pressed down by all the others: Hertz's force of a
-/// summit,
+/// Elastically interacting summits of a periodic surface [Ciavarella et al. (2006)]:
+///     const InteractingSummits model(find_summits(surface).summits, material, surface.grid);
+///     const ForceCurve curve = curve_at_pressures(model, {1e6, 1e7});
+/// Each summit is pressed down by all others:
 ///     P_i = (4/3)E*√R_i δ_i^{3/2},   δ_i = z_i − s − Σ_j G(x_i − x_j) P_j,
-/// G the periodic displacement under a point force (own 1/(πE*r) left out) relative to the deformed
-/// mean plane [Ciavarella et al. (2006)]. ū is therefore the mean gap in the sense of boundary
-/// elements, which that of independent summits is not. A contact counts as a point outside of
-/// itself, which is good beyond about two contact radii; contacts do not merge, but a summit close
-/// to a larger contact is pressed out of contact. Solved by Newton's method on the energy with
-/// conjugate gradients among the summits in contact, at a given separation or under a given force;
-/// sums by Ewald's method, N log N. K and F'' follow from one more linear solve each, with the
-/// state's own interactions. Cost of a state: a dozen sums over all N summits, 0.5 µs a summit
-/// each, and some hundred over those in contact.
+/// where G is the periodic displacement under a point force (without its own 1/(πE*r)) relative to
+/// the deformed mean plane. ū is therefore the mean gap as in boundary elements, unlike that of
+/// independent summits. A contact acts as a point force outside itself, which is accurate beyond
+/// about two contact radii; contacts do not merge, but a summit close to a larger contact is
+/// pressed out of contact. Newton's method on the energy, with conjugate gradients among the
+/// summits in contact, solves for a given separation or force; Ewald sums cost N log N. K and F''
+/// need one more linear solve each, with the interactions of the state. Cost of a state: a dozen
+/// sums over all N summits, 0.5 µs per summit each, and some hundred over those in contact.
 class InteractingSummits final : public AsperityModel {
  public:
-  /// grid: of the periodic surface; its period and area are used. mean_plane as for
-  /// DeterministicSummits.
-  /// Throws InvalidInput as DeterministicSummits does, and where two summits lie at one place.
+  /// grid: grid of the periodic surface, whose period and area are used. mean_plane: as for
+  /// DeterministicSummits. Throws InvalidInput as DeterministicSummits does, and if two summits
+  /// coincide.
   InteractingSummits(const std::vector<Summit>& summits, const Material& material,
                      const Grid2D& grid, double mean_plane = 0,
                      double rms_height = ForceSample::unknown,
@@ -42,7 +43,7 @@ class InteractingSummits final : public AsperityModel {
 
   AsperityContact at(double separation) const override;
   double force(double separation) const override;
-  /// Throws NotConverged where no state was found, beside InvalidInput for a force that is not > 0.
+  /// Throws NotConverged if no state was found, and InvalidInput for a force that is not > 0.
   double separation_of(double force) const override;
 
   struct State {
@@ -53,10 +54,10 @@ class InteractingSummits final : public AsperityModel {
     int iterations = 0;
     bool converged = false;
   };
-  /// progress: takes the place of InteractionOptions::on_progress, in what follows too.
+  /// progress replaces InteractionOptions::on_progress, also in the functions below.
   State solve(double separation, const Progress& progress = {}) const;
-  /// The state under a force > 0, N, which it carries to round-off; near: a state to start from,
-  /// such as that of the load before.
+  /// Solves for a force > 0, N, which the state carries to round-off. near: an initial state, such
+  /// as that of the previous load.
   State solve_for_force(double force, const State* near = nullptr,
                         const Progress& progress = {}) const;
   AsperityContact contact_of(const State& state, const Progress& progress = {}) const;
@@ -76,9 +77,9 @@ class InteractingSummits final : public AsperityModel {
   std::unique_ptr<const System> system_;
 };
 
-/// curve_at_pressures() of other models, each load from the state of the load before. A load for
-/// which no state was found has converged = false. progress: "interacting summits", also within a
-/// load; a stop returns the samples so far.
+/// Computes a curve like curve_at_pressures() of other models, each load starting from the previous
+/// state. A load without a state has converged = false. progress has the stage "interacting
+/// summits", also within a load; a stop returns the samples so far.
 ForceCurve curve_at_pressures(const InteractingSummits& model, std::vector<double> pressures,
                               const Progress& progress = {});
 

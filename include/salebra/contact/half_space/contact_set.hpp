@@ -5,10 +5,11 @@
 
 namespace salebra {
 
-/// Cells of a grid that are in contact: (nx, ny), x first, y contiguous.
+/// Cells of a grid that are in contact, (nx, ny), x first, y contiguous:
+///     const ContactSet contact = state.contact_pressure > 0;
 using ContactSet = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A tangential vector in each cell: traction in Pa, or displacement in m.
+/// A tangential vector per cell: traction in Pa, or displacement in m.
 struct TangentialField {
   Field x;  ///< (nx, ny)
   Field y;  ///< (nx, ny)

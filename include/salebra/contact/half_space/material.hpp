@@ -12,9 +12,9 @@
 
 namespace salebra {
 
-/// periodic: the cell repeats for ever, and the mean of every displacement over it is zero (the far
-/// field is the reference). free: one loaded patch on an infinite half-space, displacement zero far
-/// away.
+/// Boundary conditions. periodic: the cell repeats in x and y, and every displacement has zero mean
+/// over it (the far field is the reference). free: one loaded patch on an infinite half-space, with
+/// zero displacement far away.
 enum class Boundary { periodic, free };
 
 template <>
@@ -38,29 +38,31 @@ constexpr void describe(auto&& visit, std::type_identity<ElasticBody>) {
   visit(&S::shear, Kept{"shear", "shear modulus G = E/(2(1+ν))", Dimension::pressure});
 }
 
-/// What a contact knows of its two bodies.
+/// Elastic constants of a contact of two bodies:
 ///     1/E* = Σ (1−ν_i²)/E_i        Eq. (1)        1/G* = Σ (2−ν_i)/(4 G_i)        Eq. (2)
+/// Steel against a rigid body, for example:
+///     const Material steel = Material::of_bodies({.young = 210e9, .poisson = 0.3});
 struct Material {
   double contact_modulus = 0;     ///< E*, Pa
-  double tangential_modulus = 0;  ///< G*, Pa; NaN where only E* was given
-  /// Cerruti's constants, which give the tangential displacement of a shear traction
-  /// (docs/theory.md, section 5), 1/Pa.
+  double tangential_modulus = 0;  ///< G*, Pa; NaN if only E* was given
+  /// Cerruti's constants for the tangential displacement under a shear traction (docs/theory.md,
+  /// section 5), 1/Pa.
   double cerruti_isotropic = 0;  ///< Σ (1−ν_i)/(2π G_i)
   double cerruti_directed = 0;   ///< Σ ν_i/(2π G_i)
 
-  /// G*/E*. Throws InvalidInput naming tangential_modulus where G* is not known: there is no
+  /// Returns G*/E*. Throws InvalidInput naming tangential_modulus if G* is unknown: there is no
   /// default.
   double modulus_ratio() const;
 
-  /// Throws InvalidInput unless young > 0 and −1 < poisson <= 0.5 of each body, at least one of
-  /// them not rigid.
+  /// Computes the constants of two bodies; the default second body is rigid. Throws InvalidInput
+  /// unless young > 0 and −1 < poisson <= 0.5 for each body, and at least one is not rigid.
   static Material of_bodies(const ElasticBody& first, const ElasticBody& second = {});
-  /// One elastic body with E* = E/(1−ν²) against a rigid one: G* = 2E*(1−ν)/(2−ν).
+  /// Describes one elastic body with E* = E/(1−ν²) against a rigid one: G* = 2E*(1−ν)/(2−ν).
   static Material of_contact_modulus(double contact_modulus, double poisson);
-  /// E* and G* as given. The Cerruti constants are those of one elastic body with that G*/E*, hence
-  /// a ratio outside [2/3, 4/3] (ν from 0.5 to −1) leaves them NaN.
+  /// Takes E* and G* as given. The Cerruti constants are those of one elastic body with this G*/E*;
+  /// a ratio outside [2/3, 4/3] (ν from 0.5 to −1) makes them NaN.
   static Material of_moduli(double contact_modulus, double tangential_modulus);
-  /// Normal contact only: G* and the Cerruti constants are NaN, modulus_ratio() throws.
+  /// Suffices for normal contact: G* and the Cerruti constants are NaN, and modulus_ratio() throws.
   static Material of_contact_modulus(double contact_modulus);
 };
 
@@ -74,8 +76,8 @@ constexpr void describe(auto&& visit, std::type_identity<Material>) {
   visit(&Material::modulus_ratio, Quantity{"modulus_ratio", Dimension::dimensionless, "G*/E*"});
 }
 
-/// A nominal pressure above a tenth of E*, where strains of the whole surface are no longer small:
-/// as a rule a unit was forgotten. In words for a warning.
+/// Returns the text of a warning if the nominal pressure exceeds E*/10: strains of the whole
+/// surface are then no longer small, and usually a unit was forgotten.
 std::optional<std::string> doubt_of_pressure(double nominal_pressure, double contact_modulus);
 
 }  // namespace salebra

@@ -9,18 +9,19 @@
 
 namespace salebra {
 
-/// Pressures between which a law is fitted or a curve is known.
+/// Range of pressures in which a law is fitted or a curve is known.
 struct PressureWindow {
   double pressure_min = 0;  ///< Pa
   double pressure_max = 0;  ///< Pa
   int points = 0;
 
-  /// slack: relative, of both limits.
+  /// Returns true if the pressure lies in the window, whose limits are widened by the relative
+  /// slack.
   bool contains(double pressure, double slack = 0) const {
     return pressure >= pressure_min * (1 - slack) && pressure <= pressure_max * (1 + slack);
   }
-  /// A load of 2 MPa comes back as a sum over cells: its last digit must not put it outside a
-  /// window of 2 MPa.
+  /// Relative slack for rounding: a load of 2 MPa is returned as a sum over cells, whose last digit
+  /// must not put it outside a window that ends at 2 MPa.
   static constexpr double round_off = 1e-9;
 };
 
@@ -32,15 +33,15 @@ constexpr void describe(auto&& visit, std::type_identity<PressureWindow>) {
   visit(&S::points, Kept{"points", "samples in the window"});
 }
 
-/// What a sample counts for in the least squares of ln p.
+/// Weight of a sample in the least-squares fit of ln p.
 enum class FitWeights {
-  /// The length of ū that it stands for, half way to its neighbours. The sum of squares is then
-  /// ∫(ln p − a + ū/l)² dū by the trapezoidal rule, so that l is a property of the curve and its
-  /// window and not of how the loads were spread: what a computed curve needs, whose residuals are
-  /// the misfit of the law and no noise.
+  /// The interval of ū up to half way to the neighbours. The sum of squares is then ∫(ln p − a +
+  /// ū/l)² dū by the trapezoidal rule, so that l depends on the curve and the window, not on the
+  /// spacing of the loads. Use it for computed curves, whose residuals are the misfit of the law,
+  /// not noise.
   spacing,
-  equal,  ///< one: for values whose relative errors are alike
-  force   ///< p²: for values whose absolute errors are alike, such as those of a load cell
+  equal,  ///< one; for values with similar relative errors
+  force   ///< p²; for values with similar absolute errors, such as those of a load cell
 };
 
 template <>
@@ -51,8 +52,8 @@ struct EnumNames<FitWeights> {
                                                               {FitWeights::force, "force"}});
 };
 
-/// p = reference_pressure · exp(−ū/decay_length), weighted least squares in ln p over a window,
-/// with Student-t 95 % limits.
+/// Fit of p = reference_pressure · exp(−ū/decay_length) by weighted least squares in ln p over a
+/// window, with 95 % limits by Student's t.
 struct ExponentialFit {
   double decay_length = 0;      ///< l, m
   double decay_length_low = 0;  ///< 95 % limits, m
@@ -80,32 +81,36 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialFit>) {
         Quantity{"decay_length_over_rms_height", dimensionless, "decay length over rms height"});
 }
 
-/// Fits the samples whose pressure lies in [pressure_min, pressure_max], limits included to 1e-9;
-/// without a window, those with ū between 1 and 2.5 h_rms, where the law is at its best, or all
-/// samples if h_rms is unknown. Samples that did not converge, have no mean gap or no pressure > 0
-/// are left out. window.points of the argument is not used; that of the result counts the samples.
-/// Where the 95 % interval of the slope reaches zero, decay_length_high is infinite. The interval
-/// holds for independent errors of ln p with one variance, whatever the weights. The residuals of a
-/// computed curve are the misfit of the law: its interval means nothing, and test_exponential has
-/// the range of the local l instead.
-/// Throws InvalidInput for fewer than three points, equal gaps, or a pressure that does not fall
-/// with ū.
+/// Fits the exponential law to a curve:
+///     const double decay_length = fit_exponential(curve).decay_length;
+/// It uses the samples with a pressure in [pressure_min, pressure_max], limits included to 1e-9.
+/// Without a window, it uses samples with ū between 1 and 2.5 h_rms, where the law is at its best,
+/// or all samples if h_rms is unknown. It ignores samples that did not converge or have no mean gap
+/// or no pressure > 0, and window.points of the argument; that of the result counts the samples.
+/// decay_length_high is infinite if the 95 % interval of the slope reaches zero. The interval
+/// assumes independent errors of ln p with one variance, whatever the weights. For a computed
+/// curve, whose residuals are the misfit of the law, it has no meaning: test_exponential gives the
+/// range of the local l instead. Throws InvalidInput for fewer than three points, equal gaps, or a
+/// pressure that does not fall with ū.
 ExponentialFit fit_exponential(const ForceCurve& curve,
                                const std::optional<PressureWindow>& window = {},
                                FitWeights weights = FitWeights::spacing);
 
-/// Whether ln p bends: ln p = a + b ū + c ū² over the window of fit_exponential and with its
-/// weights, and Student's t-test of c = 0.
+/// Test for curvature of ln p: fits ln p = a + b ū + c ū² over the window and with the weights of
+/// fit_exponential, and tests c = 0 by Student's t.
 struct ExponentialTest {
-  double quadratic = 0;             ///< c, 1/m²; > 0 where l grows with ū
-  double standard_error = 0;        ///< of c, 1/m²
-  double significance = 1;          ///< two-sided probability of so large a |c| if the law held
-  double decay_length_closest = 0;  ///< −dū/d ln p of the parabola at the least ū of the window, m
+  double quadratic = 0;             ///< c, 1/m²; > 0 if l grows with ū
+  double standard_error = 0;        ///< standard error of c, 1/m²
+  double significance = 1;          ///< p-value: two-sided probability of at least this |c| if the
+                                    ///< law holds
+  double decay_length_closest = 0;  ///< −dū/d ln p of the parabola at the smallest ū of the window,
+                                    ///< m
   double decay_length_farthest = 0;  ///< at the largest, m
   PressureWindow window;
 
-  /// The law is refuted at this level. A computed curve has next to no noise, so that any bend is
-  /// significant: how much it matters is the difference of the two decay lengths.
+  /// Returns true if the law is rejected at this level. A computed curve has almost no noise, so
+  /// that any curvature is significant; the difference of the two decay lengths shows how much it
+  /// matters.
   bool refuted(double level = 0.05) const { return significance < level; }
 };
 
@@ -125,19 +130,20 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialTest>) {
   visit(&S::window, Kept{"window", "pressures of the fit"});
 }
 
-/// Throws as fit_exponential does, and for fewer than four points.
+/// Tests the law, e.g. `test_exponential(curve).refuted()`. Throws as fit_exponential does, and for
+/// fewer than four points.
 ExponentialTest test_exponential(const ForceCurve& curve,
                                  const std::optional<PressureWindow>& window = {},
                                  FitWeights weights = FitWeights::spacing);
 
-/// How well F ∝ exp(−ū/l) describes a curve: how far F/l², which Eqs (12) and (16) rest on, is off
-/// F'' at the two ends of the window. The residuals of a computed curve are the misfit of the law,
-/// not scatter, so that no probability belongs to them.
+/// How well F ∝ exp(−ū/l) describes a curve: the relative deviation of F/l², used in Eqs (12) and
+/// (16), from F'' at both ends of the window. For a computed curve the residuals are the misfit of
+/// the law, not scatter, so there is no probability.
 struct LawDescription {
   double law_off_closest =
-      0;  ///< (l_local/l)² − 1 at the least ū of the window; ∞ where l_local ≤ 0
-  double law_off_farthest = 0;  ///< at the largest
-  bool fair = false;            ///< F/l² is within a factor of two of F'' at both ends
+      0;  ///< (l_local/l)² − 1 at the smallest ū of the window; ∞ if l_local ≤ 0
+  double law_off_farthest = 0;  ///< the same at the largest ū
+  bool fair = false;            ///< true if F/l² is within a factor of two of F'' at both ends
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LawDescription>) {
@@ -151,17 +157,17 @@ constexpr void describe(auto&& visit, std::type_identity<LawDescription>) {
         Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"});
 }
 
-/// l of the fit, and the local l at the closest and the farthest end of its window, in any one
+/// Compares l of the fit with the local l at the closest and farthest end of its window, in any
 /// unit.
 LawDescription describe_law(double decay_length, double closest, double farthest);
 
-/// How much the fit owes to its window: the least and the largest decay length of fit_exponential
-/// over every run of consecutive samples in the window that holds at least half of them, and at
-/// least three.
+/// Sensitivity of the fit to its window: the smallest and largest decay length of fit_exponential
+/// over all runs of consecutive samples that contain at least half of the window, and at least
+/// three.
 struct WindowSensitivity {
   double decay_length_min = 0;  ///< m
   double decay_length_max = 0;  ///< m
-  int windows = 0;              ///< how many runs were fitted
+  int windows = 0;              ///< number of runs fitted
 };
 
 constexpr void describe(auto&& visit, std::type_identity<WindowSensitivity>) {
@@ -179,8 +185,8 @@ WindowSensitivity window_sensitivity(const ForceCurve& curve,
                                      const std::optional<PressureWindow>& window = {},
                                      FitWeights weights = FitWeights::spacing);
 
-/// l(ū) = −dū/d ln p at the midpoints between consecutive samples; those that fit_exponential
-/// leaves out take no part.
+/// Local decay length l(ū) = −dū/d ln p at the midpoints between consecutive samples; samples that
+/// fit_exponential omits do not count.
 struct LocalDecayLength {
   std::vector<double> mean_gap;      ///< m
   std::vector<double> decay_length;  ///< m

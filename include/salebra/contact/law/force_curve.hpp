@@ -8,14 +8,15 @@
 
 namespace salebra {
 
-/// One state of a contact. A quantity that a model does not have is NaN.
+/// One state of a contact. Quantities that a model does not provide are NaN.
 struct ForceSample {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double indentation =
-      unknown;  ///< δ, m; larger is closer. From first touch where the model knows it
+      unknown;  ///< δ, m; larger is closer; measured from first touch if the model knows it
   double mean_gap = unknown;  ///< ū, m; dū = −dδ
   double separation =
-      unknown;  ///< s, m: smooth plane to mean plane of the summits (Greenwood–Williamson)
+      unknown;  ///< s, m: distance of the smooth plane from the mean plane of the summits
+                ///< (Greenwood–Williamson)
   double force = unknown;                  ///< F, N
   double pressure = unknown;               ///< p = F/A0, Pa
   double contact_area_fraction = unknown;  ///< A/A0
@@ -42,15 +43,17 @@ constexpr void describe(auto&& visit, std::type_identity<ForceSample>) {
   visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
 }
 
-/// What every contact model returns, ordered from the lowest force to the highest.
+/// The result of every contact model, ordered from the lowest force to the highest:
+///     const std::vector<double> pressures = curve.column(&ForceSample::pressure);
 struct ForceCurve {
   std::string model;                         ///< "bem", "greenwood-williamson", …
   double nominal_area = 0;                   ///< A0, m²
   double rms_height = ForceSample::unknown;  ///< h_rms of the surface, m
   std::vector<ForceSample> samples;
-  bool adhesive = false;  ///< of contacts with adhesion, which have no law: TabulatedLaw refuses it
+  bool adhesive = false;  ///< true for contacts with adhesion, which TabulatedLaw rejects because
+                          ///< they have no single-valued law
 
-  /// One member of every sample, such as column(&ForceSample::pressure).
+  /// Returns one member of every sample.
   std::vector<double> column(double ForceSample::*quantity) const;
 };
 

@@ -7,35 +7,36 @@
 
 namespace salebra {
 
-/// Force–indentation law of a contact: all that the damping problem needs to know of it
-/// (docs/theory.md, section 7). Indentation δ grows with approach. A law is immutable and may be
-/// shared between threads. Units: m, N, N/m, N/m². Evaluation outside [lowest_indentation,
-/// highest_indentation] throws InvalidInput that names the range; below first touch, laws that
-/// define it return 0.
+/// Force–indentation law of a contact, the only input that the damping problem needs from it
+/// (docs/theory.md, section 7):
+///     const TabulatedLaw law(curve, material.modulus_ratio());
+///     const double stiffness = law.normal_stiffness(law.indentation_of(10.0));
+/// Indentation δ grows with approach. A law is immutable and may be shared between threads. Units:
+/// m, N, N/m, N/m². Evaluation outside [lowest_indentation, highest_indentation] throws
+/// InvalidInput that names the range; below first touch, laws that define it return 0.
 class ContactLaw {
  public:
-  /// modulus_ratio: G*/E* > 0, which turns K into K_t.
+  /// modulus_ratio: G*/E* > 0, the ratio of K_t to K.
   explicit ContactLaw(double modulus_ratio);
   virtual ~ContactLaw() = default;
 
   virtual double force(double indentation) const = 0;             ///< F(δ)
   virtual double normal_stiffness(double indentation) const = 0;  ///< K = F'
   virtual double force_curvature(double indentation) const = 0;   ///< K' = F''
-  /// K_t(δ); (G*/E*)K unless the law was given a K_t of its own.
+  /// K_t(δ); (G*/E*)K unless the law has its own K_t.
   virtual double tangential_stiffness(double indentation) const;
   virtual double tangential_curvature(double indentation) const;  ///< K_t'(δ)
-  /// K_t/K at δ: G*/E* unless the law was given a K_t of its own. A level that touches at ζ slips
-  /// where it is stretched by μK/K_t (δ − ζ): with this ratio a contact that slides as a whole
-  /// carries μF.
+  /// K_t/K at δ: G*/E* unless the law has its own K_t. A spring with touching depth ζ slips at the
+  /// stretch μK/K_t (δ − ζ); with this ratio a contact that slides as a whole carries μF.
   virtual double stiffness_ratio(double indentation) const;
   virtual double lowest_indentation() const;   ///< −∞ unless the law is a table
   virtual double highest_indentation() const;  ///< +∞ unless the law is a table
-  /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput where the law does not reach
-  /// that force.
+  /// Inverse of force(): δ with F(δ) = force > 0. Throws InvalidInput if the law does not reach the
+  /// force.
   virtual double indentation_of(double force) const = 0;
 
-  /// Indentations at which F, K, K_t or one of their first derivatives jumps, increasing, as far as
-  /// the law knows them: quadratures over δ converge fast between them.
+  /// Known indentations, increasing, at which F, K, K_t or one of their first derivatives jumps;
+  /// quadratures over δ converge fast between them.
   virtual std::vector<double> break_points() const;
 
   double modulus_ratio() const { return modulus_ratio_; }
@@ -60,7 +61,7 @@ class PowerLaw final : public ContactLaw {
   double coefficient_, exponent_;
 };
 
-/// F = F0 exp(δ/l), δ counted from where F = F0: the law of nominally flat rough surfaces, F ∝
+/// F = F0 exp(δ/l), with δ = 0 where F = F0: the law of nominally flat rough surfaces, F ∝
 /// exp(−ū/l).
 class ExponentialLaw final : public ContactLaw {
  public:
@@ -75,13 +76,13 @@ class ExponentialLaw final : public ContactLaw {
   double reference_force_, decay_length_;
 };
 
-/// A curve, computed or read from a file. ln F against δ is interpolated by one monotone cubic,
-/// whose slopes at the nodes are K/F where every sample has K and four-point differences otherwise;
-/// K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2 in the spacing of the samples
-/// (K' jumps at the samples). K_t: where every sample has one, ln K_t is interpolated likewise and
-/// modulus_ratio is not used; otherwise (G*/E*)K. δ is the samples' indentation, or −ū where any of
-/// them lacks it: the laws differ by a shift of δ only. Samples that did not converge or have F = 0
-/// are left out. Throws InvalidInput for fewer than four usable samples or F not growing with δ.
+/// Law that interpolates a curve, computed or read from a file. One monotone cubic interpolates ln
+/// F over δ; its slopes at the nodes are K/F if every sample has K, otherwise four-point
+/// differences. K = F' and K' = F'' are its exact derivatives, of order 4, 3 and 2 in the spacing
+/// of the samples (K' jumps at the samples). If every sample has K_t, ln K_t is interpolated in the
+/// same way and modulus_ratio is not used; otherwise K_t = (G*/E*)K. δ is the samples' indentation,
+/// or −ū if any of them lacks it, which only shifts δ. Samples that did not converge or have F = 0
+/// are ignored. Throws InvalidInput for fewer than four usable samples or F not growing with δ.
 class TabulatedLaw final : public ContactLaw {
  public:
   TabulatedLaw(const ForceCurve& curve, double modulus_ratio);
@@ -91,7 +92,7 @@ class TabulatedLaw final : public ContactLaw {
   double force_curvature(double indentation) const override;
   double tangential_stiffness(double indentation) const override;
   double tangential_curvature(double indentation) const override;
-  /// Beyond the table's ends that of the end.
+  /// Beyond the ends of the table the value at the end applies.
   double stiffness_ratio(double indentation) const override;
   double lowest_indentation() const override;
   double highest_indentation() const override;

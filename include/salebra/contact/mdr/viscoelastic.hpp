@@ -9,6 +9,7 @@
 
 /// Axisymmetric contact of a linearly viscoelastic half-space with a rigid indenter, by the method
 /// of dimensionality reduction.
+///     const auto result = viscoelastic_indentation(law, prony, time, indentation);
 namespace salebra {
 
 /// One term G exp(−t/τ) of a Prony series.
@@ -25,14 +26,13 @@ constexpr void describe(auto&& visit, std::type_identity<PronyTerm>) {
 }
 
 /// Shear relaxation modulus of an isotropic material, G(t) = G∞ + Σ G_i exp(−t/τ_i): one term is
-/// the standard linear solid, none is elastic. Poisson's ratio is taken as constant; 1/2 is the
-/// incompressible material.
+/// the standard linear solid, none is elastic. Poisson's ratio is constant; 1/2 is incompressible.
 struct PronySeries {
   double relaxed_modulus = 0;  ///< G∞ > 0, Pa
   std::vector<PronyTerm> terms;
 
-  /// The series of one body against a rigid one, from E* and G* of the relaxed state: 1 − ν = g/(2
-  /// − g), g = G*/E*, and G∞ = E*(1 − ν)/2.
+  /// Returns the series of one body against a rigid one, from E* and G* of the relaxed state: 1 − ν
+  /// = g/(2 − g), g = G*/E*, and G∞ = E*(1 − ν)/2.
   static PronySeries of_body(const Material& relaxed, std::vector<PronyTerm> terms);
 
   double unrelaxed_modulus() const;  ///< G(0) = G∞ + Σ G_i, Pa
@@ -52,7 +52,7 @@ constexpr void describe(auto&& visit, std::type_identity<PronySeries>) {
         Quantity{"unrelaxed_modulus", pressure, "shear modulus after a short time"});
 }
 
-/// The contact along a path, and the springs of the foundation at its end.
+/// Force and contact radius along a path, and the springs of the foundation at its end.
 struct ViscoelasticIndentation {
   std::vector<double> force;            ///< F at the samples, N
   std::vector<double> contact_radius;   ///< a at the samples, m; 0 without contact
@@ -76,20 +76,21 @@ constexpr void describe(auto&& visit, std::type_identity<ViscoelasticIndentation
         Kept{"spring_displacement", "displacement of the springs at the last sample", length});
 }
 
-/// A body at rest, never touched before, is indented along δ(t), straight between the samples. Each
-/// spring of the foundation obeys
-///     q = E*∞ [w + Σ (G_i/G∞) y_i],    y_i' = w' − y_i/τ_i;
-/// in contact w = δ − g(x) and q >= 0; it leaves where q falls to 0, then recovers with q = 0, and
-/// is met again where δ − g(x) reaches w. Exact for every path of any axisymmetric profile with
-/// rising image, for positive terms (docs/theory.md, section 9). Growing contacts are those of the
-/// correspondence principle, Lee and Radok (1960), and one rise and fall is the solution of Ting
-/// (1966).
-/// law          of the relaxed body: E* = 2G∞/(1 − ν); only the ratios G_i/G∞ of the series enter
-/// time         s, strictly increasing; indentation: m, as many, at least two; δ < 0 is above the
-///              body, and δ > 0 at the first sample is reached at once
-/// springs      over the largest contact radius; both errors are of second order, in the steps and
+/// Indents an undisturbed body at rest along δ(t), linear between the samples. Each spring of the
+/// foundation obeys
+///     q = E*∞ [w + Σ (G_i/G∞) y_i],    y_i' = w' − y_i/τ_i.
+/// In contact w = δ − g(x) and q >= 0; a spring separates when q falls to 0, then recovers with q =
+/// 0, and touches again when δ − g(x) reaches w. This is exact for every path of any axisymmetric
+/// profile with increasing image, for positive terms (docs/theory.md, section 9). Growing contacts
+/// follow the correspondence principle, Lee and Radok (1960); one rise and fall is the solution of
+/// Ting (1966).
+/// law          of the relaxed body: E* = 2G∞/(1 − ν); only the ratios G_i/G∞ of the series matter
+/// time         s, strictly increasing
+/// indentation  m, one per time, at least two; δ < 0 is above the body, and δ > 0 at the first
+///              sample is reached instantly
+/// springs      number over the largest contact radius; errors are of second order in the steps and
 ///              in the springs
-/// throws       InvalidInput for arguments that are not so, and where δ leaves the profile
+/// throws       InvalidInput for arguments that violate this, and if δ leaves the profile
 /// cost         samples × springs × terms
 ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const PronySeries& prony,
                                                  std::span<const double> time,

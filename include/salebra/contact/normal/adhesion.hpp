@@ -70,7 +70,7 @@ struct AdhesiveContactOptions {
   bool force_coarse = false;  ///< also solves with less than 1.4 cells in the process zone
 };
 
-/// What adhesion adds to the state of a contact.
+/// Results that adhesion adds to the state of a contact.
 struct AdhesionOfState {
   Field tension;               ///< t, as contact_pressure, Pa, >= 0
   double tension_force = 0;    ///< ∫t dA, N

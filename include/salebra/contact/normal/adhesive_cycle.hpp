@@ -87,7 +87,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
 /// In load control the unloading then pulls: the load doubles from step to step until the surfaces
 /// separate, and bisection finds the pull-off to 2 %. At given mean gaps and indentations, states
 /// beyond the minimum of the force are reached.
-/// positions  of one kind, from the loosest to the closest
+/// positions  all with one control quantity, from the loosest to the closest
 /// throws     InvalidInput before any work, as press_adhesive()
 /// cost       one press_adhesive() per position
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,

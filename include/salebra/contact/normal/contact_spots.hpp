@@ -20,7 +20,7 @@ constexpr void describe(auto&& visit, std::type_identity<ContactSpot>) {
 struct ContactSpots {
   std::vector<ContactSpot> spots;    ///< largest area first
   double contact_area_fraction = 0;  ///< cells with p > 0 over all cells
-  double perimeter = 0;              ///< of all spots, along cell edges, m
+  double perimeter = 0;              ///< perimeter of all spots along cell edges, m
   double perimeter_along_x = 0;      ///< the part of it along x, m
   /// A/A0 corrected for the area that a boundary element solution overestimates along contact
   /// edges,

@@ -39,7 +39,7 @@ constexpr void describe(auto&& visit, std::type_identity<ContactDistributions>) 
 /// Those of pressure are empty if nothing touches, those of the gap in full contact. Cells with p >
 /// 0 are in contact, and pressures at the hardness fall into the last bin. Gaps below 0, within the
 /// tolerance of the solver, count as 0.
-/// bins     of each, 1 … 100000
+/// bins     number for each distribution, 1 … 100000
 /// throws   InvalidInput for bins, and for fields that do not fill the grid
 /// cost     two passes. Collective if the state is distributed: every process gets all bins, with
 ///          the bits of one process

@@ -14,13 +14,13 @@ struct CoupledContactOptions {
   /// β/(πE*), 1/Pa, such as coupling_constant() of the two bodies; default:
   /// coupling_constant(material).
   std::optional<double> coupling_constant = {};
-  /// Stop the sweeps where what remains of (Σ|Δp| + Σ|Δτ|)/Σp is < tolerance, 1e-12 … 1e-1: the
-  /// sum of the changes to come, which fall as the last two did.
+  /// The sweeps stop when the remaining (Σ|Δp| + Σ|Δτ|)/Σp is < tolerance, 1e-12 … 1e-1. It is the
+  /// sum of the changes to come, extrapolated from the decrease of the last two.
   double tolerance = 1e-6;
-  int max_sweeps = 60;  ///< of each increment, >= 1
+  int max_sweeps = 60;  ///< per increment, >= 1
 };
 
-/// How an increment of a coupled contact ended.
+/// Report on one increment of a coupled contact.
 struct CoupledReport {
   int sweeps = 0;
   double change = 0;  ///< (Σ|Δp| + Σ|Δτ|)/Σp of the last sweep
@@ -29,15 +29,15 @@ struct CoupledReport {
   bool converged() const { return termination == Termination::converged; }
 };
 
-/// All that a coupled contact remembers from one increment to the next.
+/// Complete history of a coupled contact between increments.
 struct CoupledState {
   SlidingState sliding;
-  double last_step = 0;                              ///< of the indentation, m
+  double last_step = 0;                              ///< last change of the indentation, m
   Field gap;                                         ///< (nx, ny), m
   double indentation = 0;                            ///< m
   double normal_work = 0;                            ///< ∫F dδ since the start, J
-  double gap_work = 0;                               ///< of it, J
-  Termination termination = Termination::converged;  ///< of all increments
+  double gap_work = 0;                               ///< gap_work() since the start, J
+  Termination termination = Termination::converged;  ///< worst over all increments
 };
 
 constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
@@ -52,11 +52,14 @@ constexpr void describe(auto&& visit, std::type_identity<CoupledState>) {
   visit(&S::termination, Kept{"increments_termination", "how the increments ended"});
 }
 
-/// A rough contact with friction and with the coupling of normal and tangential directions
-/// (Dundurs' β), which history leads from one state to the next. In each increment a normal solve
-/// on the heights lowered by u_z[τ] and a partial-slip solve with the displacement u_t[p] follow
-/// each other until nothing changes (Panagiotopoulos); the error falls by about β² a sweep or
-/// faster. With β = 0 it is SlidingContact on the pressures of press, in two sweeps.
+/// Rough contact with friction and normal–tangential coupling (Dundurs' β), advanced through its
+/// history:
+///     CoupledContact contact(surface, material, {.sliding = {.friction_coefficient = 0.3}});
+///     contact.advance(2e-9, {.x = 1e-9});
+/// In each increment a normal solve on the heights lowered by u_z[τ] alternates with a partial-slip
+/// solve with the displacement u_t[p] until nothing changes (Panagiotopoulos); the error falls by a
+/// factor of about β² per sweep or faster. For β = 0 it equals SlidingContact on the pressures of
+/// press, in two sweeps.
 class CoupledContact {
  public:
   /// Throws InvalidInput for a bad surface, material or option.
@@ -66,9 +69,9 @@ class CoupledContact {
   CoupledContact& operator=(CoupledContact&&) noexcept;
   ~CoupledContact();
 
-  /// Goes to a rigid approach, m, counted from the first touch of the undeformed bodies, while the
-  /// body moves tangentially. Cost: sweeps × (a warm normal solve and one or two partial-slip
-  /// solves).
+  /// Moves to a rigid approach, m, measured from the first touch of the undeformed bodies, while
+  /// the body moves tangentially. Cost: sweeps × (a normal solve from the previous state and one or
+  /// two partial-slip solves).
   CoupledReport advance(double indentation, const TangentialMove& move = {});
 
   CoupledState state() const;
@@ -83,12 +86,12 @@ class CoupledContact {
   /// ½∫(p u_z + τ·u_t) dA with all displacements, J
   double stored_energy() const;
   double normal_work() const;  ///< ∫F dδ since the start by the trapezoidal rule, J
-  /// The part of normal_work() that the rule counts for cells that touch in a part of an increment
-  /// only, while their gap closes or opens, J: ½Σ∫p g. Work less this, stored energy and losses
-  /// balance to the tolerance of the sweeps. It vanishes with the increments unless cells part at a
-  /// finite pressure.
+  /// Part of normal_work(), J, that the trapezoidal rule assigns to cells that touch during only
+  /// part of an increment, while their gap closes or opens: ½Σ∫p g. Work minus this, stored energy
+  /// and losses balance to the tolerance of the sweeps. It vanishes for small increments unless
+  /// cells separate at a finite pressure.
   double gap_work() const;
-  Termination termination() const;  ///< of all increments and the solves in them
+  Termination termination() const;  ///< worst over all increments and their solves
 
  private:
   struct Parts;

@@ -17,8 +17,8 @@ class TangentialWorkspace;
 struct SlidingContactOptions {
   /// μ >= 0: |τ| <= μp in every cell; infinite: full stick.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  /// m, > 0: the tangential displacement that the tolerance of `stick` refers to, such as the range
-  /// of the motion.
+  /// Tangential displacement, m, > 0, that the tolerance of `stick` refers to, such as the range of
+  /// the motion.
   double motion_scale = 1;
   StickOptions stick = {.tolerance = 1e-8};
 };
@@ -29,24 +29,25 @@ struct TangentialMove {
   double y = 0;
 };
 
-/// All that a sliding contact remembers from one increment to the next.
+/// Complete history of a sliding contact between increments.
 struct SlidingState {
   Field contact_pressure;                   ///< (nx, ny), Pa
-  TangentialField shift;                    ///< displacement by other causes, m
+  TangentialField shift;                    ///< displacement not caused by τ, m
   TangentialField traction;                 ///< Pa
-  TangentialField displacement;             ///< of the cells in contact, `shift` included, m
+  TangentialField displacement;             ///< displacement of the cells in contact, m; includes
+                                            ///< `shift`
   Field pressure_before;                    ///< at the start of the last increment, Pa
   TangentialField traction_before;          ///< the same, Pa
-  double last_move_x = 0, last_move_y = 0;  ///< of the last increment, m
-  Field loss;                               ///< since the start, J in each cell
+  double last_move_x = 0, last_move_y = 0;  ///< last move, m
+  Field loss;                               ///< loss since the start, J in each cell
   ContactSet
-      prepared;  ///< cells within which no contact rebuilds the kernels, whose rounding depends on
-                 ///< it
-  double motion_scale = 1;  ///< that of the increments to come, m
+      prepared;  ///< kernels are ready for contacts within these cells; their rounding depends on
+                 ///< the set
+  double motion_scale = 1;  ///< for future increments, m
   Index slipping = 0;       ///< cells at their limit after the last increment
   double work = 0;          ///< ∫F dx since the start, J
-  double released = 0;      ///< of the sum of `loss`, by cells as they opened, J
-  Termination termination = Termination::converged;  ///< of all increments
+  double released = 0;      ///< part of the sum of `loss` released by opening cells, J
+  Termination termination = Termination::converged;  ///< worst over all increments
   long iterations = 0;
   long fft_count = 0;
 };
@@ -76,21 +77,23 @@ constexpr void describe(auto&& visit, std::type_identity<SlidingState>) {
   visit(&S::fft_count, Kept{"fft_count", "Fourier transforms so far, in pairs"});
 }
 
-/// A rough contact with friction that remembers: where each of its cells has been drawn to. It goes
-/// from one state of rest to the next by increments (a new field of pressures and a move of the
-/// body, at once), each solved implicitly as by PartialSlipSolver:
+/// Rough contact with friction and memory of the displacement of each cell:
+///     SlidingContact contact(grid, material, {.friction_coefficient = 0.3, .motion_scale = 1e-9});
+///     contact.advance(state.contact_pressure, {.x = 1e-9});
+/// Each increment (a new pressure field and a simultaneous move of the body) leads from one
+/// equilibrium to the next and is solved implicitly as by PartialSlipSolver:
 ///     stay      a cell that sticks keeps its displacement relative to the body; one that slips has
 ///               |τ| = μp along its slip
-///     leave     p = 0 and so τ = 0; at finite μ the cell slips while its pressure goes
-///     enter     a cell enters on the way, with the displacement that the others have given it by
-///               then, and sticks to the body from there. The entries of an increment are spread
-///               over it in the order of their pressures: if all were at the middle, the last ones
-///               would slip that ought to stick
-/// An increment is exact in the sense of Cattaneo and Mindlin, however large, while the slipping
-/// part only grows in it; a smooth path is followed at second order. (Pressures and motion in turn,
-/// as a stuck contact allows, would be of first order: a body that moves back while its load falls
-/// then ratchets.) Energies are sums over increments by the trapezoidal rule, in which work, stored
-/// energy and losses balance to the solver's tolerance.
+///     leave     p = 0 and so τ = 0; at finite μ the cell slips while its pressure falls
+///     enter     a cell enters during the increment, with the displacement that the others have
+///               caused by then, and sticks to the body from there. Entries are spread over the
+///               increment in the order of their pressures: if all were in the middle, the last
+///               ones would slip although they should stick
+/// An increment of any size is exact in the sense of Cattaneo and Mindlin while the slipping part
+/// only grows in it; a smooth path is followed at second order. (Alternating pressures and motion,
+/// as a stuck contact allows, is first order: a body that moves back while its load falls then
+/// ratchets.) Energies are sums over increments by the trapezoidal rule, in which work, stored
+/// energy and losses balance to the tolerance of the solver.
 class SlidingContact {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -101,56 +104,57 @@ class SlidingContact {
   SlidingContact& operator=(SlidingContact&&) noexcept;
   ~SlidingContact();
 
-  /// A state that an increment may lead to, and what it costs. Values are of `cells` only, for which
-  /// vectors are (components × cells), the components being x and, with hold_lateral, y.
+  /// Candidate state after an increment, with its cost. Values cover `cells` only; their vectors
+  /// are (components × cells), with the components x and, with hold_lateral, y.
   struct Increment {
-    std::vector<Index> cells;              ///< in contact before or after it: ix·ny + iy, rising
+    std::vector<Index> cells;              ///< in contact before or after it: ix·ny + iy,
+                                           ///< increasing
     std::vector<double> contact_pressure;  ///< (cells), Pa
     std::vector<double> traction;          ///< Pa
-    std::vector<double> traction_halfway;  ///< that led to the entering cells' displacement, Pa
-    std::vector<double> displacement;      ///< of the cells, `shift` included, m
+    std::vector<double> traction_halfway;  ///< traction that determined the displacement of
+                                           ///< entering cells, Pa
+    std::vector<double> displacement;      ///< displacement of the cells, m; includes `shift`
     std::vector<double> displacement_before;  ///< the same before the increment, m
-    std::vector<double> slip;                 ///< of the body over the cells, m
-    /// Displacement by other causes at the end, m; none: as it was.
+    std::vector<double> slip;                 ///< slip of the body over the cells, m
+    /// Displacement not caused by τ at the end, m; empty: unchanged.
     std::optional<TangentialField> shift;
     TangentialMove move;
     PartialSlipReport report;
   };
-  /// Where an increment would lead.
-  /// shift   tangential displacement of the surface by causes other than τ (the coupling to the
-  ///         pressures) at the end; nullptr: as it was
-  /// guess   an earlier attempt or foreseen() to begin from; nullptr: foreseen(move)
+  /// Computes an increment without accepting it.
+  /// shift   tangential displacement of the surface not caused by τ (the coupling to the pressures)
+  ///         at the end; nullptr: unchanged
+  /// guess   an earlier attempt or foreseen() to start from; nullptr: foreseen(move)
   Increment attempt(const Field& pressure, const TangentialMove& move,
                     const TangentialField* shift = nullptr, const Increment* guess = nullptr);
   void accept(Increment increment);
-  /// A guess of where a smooth path leads: what the last increment changed is changed again, as far
-  /// as this one goes the same way. `step` and `last_step` are these increments of an indentation
-  /// that moves with the body, m. Only pressures and tractions are given.
+  /// Extrapolates a smooth path: repeats the changes of the last increment, in proportion to this
+  /// one. `step` and `last_step` are the changes of an indentation that moves with the body, m.
+  /// Only pressures and tractions are set.
   Increment foreseen(const TangentialMove& move, double step = 0, double last_step = 0) const;
-  /// attempt and accept.
+  /// Calls attempt and accept.
   PartialSlipReport advance(const Field& pressure, const TangentialMove& move = {});
 
-  /// The state after endless sliding along (direction.x, direction.y) at these pressures: τ = μp
-  /// that way in every cell, lateral slip having died away. Sets work and losses to 0. Cost: 2 FFT
-  /// pairs. Throws InvalidInput where μ is infinite or the direction is 0.
+  /// Sets the steady state of sliding along (direction.x, direction.y) at these pressures: τ = μp
+  /// in that direction in every cell, without lateral slip. Resets work and losses to 0. Cost: 2
+  /// FFT pairs. Throws InvalidInput if μ is infinite or the direction is 0.
   void slide(const Field& pressure, const TangentialMove& direction);
 
-  /// Another motion_scale for the increments to come, > 0, m.
+  /// Sets the motion_scale of future increments, > 0, m.
   void set_motion_scale(double scale);
 
-  /// Prepares the kernels for every contact within `largest`, so that none of them has to rebuild
-  /// them.
+  /// Prepares the kernels for every contact within `largest`, so that none has to rebuild them.
   void reserve(const ContactSet& largest);
 
   SlidingState state() const;
-  /// Goes on from the state of a contact with the same grid, material and options. Throws
+  /// Continues from the state of a contact with the same grid, material and options. Throws
   /// InvalidInput for another grid.
   void restore(SlidingState state);
 
   const Field& contact_pressure() const { return state_.contact_pressure; }
   const TangentialField& traction() const { return state_.traction; }
-  TangentialMove tangential_force() const;  ///< the body's on the surface: x, y in N
-  /// What an increment would lead to.
+  TangentialMove tangential_force() const;  ///< force of the body on the surface: x, y in N
+  /// Returns the force after an increment.
   TangentialMove tangential_force(const Increment& increment) const;
   Field contact_pressure(const Increment& increment) const;
   TangentialField traction(const Increment& increment) const;
@@ -160,16 +164,16 @@ class SlidingContact {
   /// ½∫τ·(u − shift) dA, J
   double stored_energy() const;
   double tangential_energy() const;  ///< ½∫τ·u dA, the shift included, J
-  /// ∫F dx since the start, J; in an increment, a cell that enters counts from its entry.
+  /// ∫F dx since the start, J; a cell that enters during an increment counts from its entry.
   double work() const { return state_.work; }
-  /// Friction's ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, where a cell leaves
-  /// with a traction, by its release.
+  /// Frictional loss ∫τ·ds since the start, (nx, ny), J in each cell: by slip and, if a cell
+  /// separates with a traction, by its release.
   const Field& loss() const { return state_.loss; }
-  /// The part of the sum of loss() that cells had left in the increment in which they opened, J:
-  /// all of it at μ = ∞; at finite μ it vanishes with the increments, since a cell slips to zero
+  /// Part of the sum of loss() that cells still had in the increment in which they opened, J: all
+  /// of it at μ = ∞; at finite μ it vanishes for small increments, since a cell slips to zero
   /// before it opens.
   double released_energy() const { return state_.released; }
-  Termination termination() const { return state_.termination; }  ///< of all increments
+  Termination termination() const { return state_.termination; }  ///< worst over all increments
   long iterations() const { return state_.iterations; }
   long fft_count() const { return state_.fft_count; }
 

@@ -11,19 +11,18 @@
 namespace salebra {
 
 struct StickOptions {
-  /// Stop at rms(u − u_given over the contact set) < tolerance · scale; K is a minimum of the
-  /// energy, so that its relative error is of the order of the square. 1e-14 … 1e-1
+  /// The solver stops at rms(u − u_given over the contact set) < tolerance · scale. K is a minimum
+  /// of the energy, so its relative error is of the order of the square. 1e-14 … 1e-1
   double tolerance = 1e-6;
-  int max_iterations = 1000;  ///< of each solve, >= 1
+  int max_iterations = 1000;  ///< per solve, >= 1
   Boundary boundary = Boundary::periodic;
-  /// The displacement across the motion is held at 0 too. false: the traction across it is 0
+  /// true: the displacement across the motion is 0 as well. false: the traction across it is 0
   /// instead.
   bool hold_lateral = true;
   Progress on_progress = {};
 };
 
-/// How a linear solve on a contact set ended. Unless converged, what it computed must not be used
-/// as the answer.
+/// Report on a linear solve on a contact set. Unless it converged, its results must not be used.
 struct StickReport {
   int iterations = 0;
   int fft_count = 0;     ///< forward-and-backward pairs of scalar fields
@@ -35,18 +34,21 @@ struct StickReport {
   bool converged() const { return termination == Termination::converged; }
 };
 
-/// Full stick on a contact set: which tractions move its cells as one piece?
+/// Full stick on a contact set: computes the tractions that move its cells by given displacements.
+///     StickSolver solver(grid, material);
+///     const StickReport report = solver.solve(contact, displacement, 1e-9, traction);
 /// The tractions satisfy Σ_A K τ = u on the cells of A and are 0 off it, with Cerruti's response of
-/// two half-spaces
-///     û_x = Σ_i [1/(G_i q)] [(1 − ν_i q_x²/q²) τ̂_x − (ν_i q_x q_y/q²) τ̂_y],  û_y by exchange, û(0) = 0      (periodic)
-///     u_x = Σ_i 1/(2πG_i) ∬{[(1−ν_i)/r + ν_i x²/r³] τ_x + ν_i xy/r³ τ_y},  summed over the cells' corners    (free)
-/// by conjugate gradients. The preconditioner inverts the normal response on A by the near-field
-/// multilevel (src/contact/README.md, "The multilevel kernel"). Grids without a multilevel kernel have a 7 × 7 stencil of |q|.
-/// Displacements of a periodic half-space count from its mean plane. The coupling to the normal
-/// direction (∝ 1 − 2ν) is neglected. Kernels and transforms are kept between calls: sets that fit
-/// into the window of an earlier one cost no set-up. One object may be used by one thread at a
-/// time. Memory: 45 to 65 bytes a cell, of the padded window where free, and twice as much where
-/// half of the cells are in contact.
+/// two half-spaces, û(0) = 0 in the periodic case, u_y by exchange, and kernels summed over the
+/// corners of cells in the free case:
+///     û_x = Σ_i [1/(G_i q)] [(1 − ν_i q_x²/q²) τ̂_x − (ν_i q_x q_y/q²) τ̂_y]         (periodic)
+///     u_x = Σ_i 1/(2πG_i) ∬{[(1−ν_i)/r + ν_i x²/r³] τ_x + ν_i xy/r³ τ_y}          (free)
+/// It uses conjugate gradients. The preconditioner inverts the normal response on A with the
+/// multilevel kernel (src/contact/README.md, "The multilevel kernel"), or a 7 × 7 stencil of |q| on grids
+/// without one. Displacements of a periodic half-space are measured from its mean plane. The
+/// coupling to the normal direction (∝ 1 − 2ν) is neglected. Kernels and transforms are kept
+/// between calls: sets that fit into the window of an earlier one need no set-up. Only one thread
+/// may use an object at a time. Memory: 45 to 65 bytes per cell (of the padded window if free), and
+/// twice as much if half of the cells are in contact.
 class StickSolver {
  public:
   /// Throws InvalidInput for a bad grid or option, or a material without tangential constants.
@@ -55,21 +57,20 @@ class StickSolver {
   StickSolver& operator=(StickSolver&&) noexcept;
   ~StickSolver();
 
-  /// Tractions on `contact` that give `displacement` there (its values elsewhere are not read).
-  /// `traction` holds a first guess (an empty field: none) and is overwritten, 0 off the contact.
-  /// scale > 0, m: the displacement that the tolerance refers to. With hold_lateral off, only the x
-  /// components count: motion is along x.
-  /// Throws InvalidInput if every cell of a periodic grid is in contact: it has no finite
-  /// stiffness.
+  /// Computes tractions on `contact` that give `displacement` there (values elsewhere are ignored).
+  /// `traction` contains a first guess (an empty field: none) and is overwritten, 0 off the
+  /// contact. scale > 0, m, is the displacement that the tolerance refers to. With hold_lateral
+  /// off, only the x components count: motion is along x. Throws InvalidInput if every cell of a
+  /// periodic grid is in contact, because its stiffness is not finite.
   StickReport solve(const ContactSet& contact, const TangentialField& displacement, double scale,
                     TangentialField& traction);
 
-  /// Displacements in the cells of `where` under tractions on `loaded`; 0 in the other cells. Cost:
-  /// 2 FFT pairs.
+  /// Computes displacements in the cells of `where` under tractions on `loaded`; 0 in other cells.
+  /// Cost: 2 FFT pairs.
   TangentialField displacement(const ContactSet& loaded, const TangentialField& traction,
                                const ContactSet& where);
 
-  /// Prepares the window for every set within `largest`, so that none of them has to rebuild it.
+  /// Prepares the window for every set within `largest`, so that none has to rebuild it.
   void reserve(const ContactSet& largest);
 
  protected:
@@ -82,9 +83,9 @@ struct StickStiffness {
   double xx = 0;
   double yy = 0;
   double xy = 0;
-  int iterations = 0;    ///< of both solves
+  int iterations = 0;    ///< total of both solves
   int fft_count = 0;     ///< pairs of both solves
-  int multilevel_count = 0;  ///< of both solves
+  int multilevel_count = 0;  ///< total of both solves
   double residual = 0;   ///< the larger of both
   Termination termination = Termination::iteration_limit;
 
@@ -104,11 +105,12 @@ constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
   visit(&S::converged, Kept{"converged", "false: do not use the stiffness"});
 }
 
-/// K_t of a contact set by two stick solves. With hold_lateral off each is a motion with no force
-/// across it, and xy = 0. The stiffness of one direction alone (yy = xy = NaN) costs half:
-/// `along_x_only`. guess: traction along the motion, for a unit motion, to start from, such as
-/// G*/E* times the pressure of a punch; empty: none. ranks: processes that hold the set by rows, as
-/// those of a NormalContactState; the call is then collective.
+/// Computes K_t of a contact set by two stick solves:
+///     const double K_t = stick_stiffness(contact, grid, material).xx;
+/// With hold_lateral off each is a motion with no force across it, and xy = 0. `along_x_only`
+/// solves for one direction (yy = xy = NaN) at half the cost. guess: initial traction along a unit
+/// motion, such as G*/E* times the pressure of a punch; empty: none. ranks: processes that share
+/// the rows of the set, as for NormalContactState; the call is then collective.
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
                                bool along_x_only = false, const Field& guess = {},
