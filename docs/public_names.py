@@ -90,9 +90,9 @@ def cpp_names():
             if line.startswith("///"):
                 comment.append(line[3:].strip())
                 continue
-            # How words and columns are told is how the library is made, not what it offers.
+            # How names and columns are described is how the library is made, not what it offers.
             found = re.match(r"(?:template <.*> ?)?(?:struct|class|enum class) (\w+)\b(?!;)", line) or re.match(r"(?!namespace|using|#)[A-Za-z][\w:<>,&* ]*?\b(\w+)\(", line)
-            if found and found[1] not in ("Words", "describe") and (comment or found[1] not in known):
+            if found and found[1] not in ("EnumNames", "describe") and (comment or found[1] not in known):
                 known.setdefault(found[1], first_sentence(" ".join(comment)))
             if not line.startswith("template"):
                 comment = []

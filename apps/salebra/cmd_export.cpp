@@ -49,10 +49,12 @@ StudyFacts facts_of(const std::filesystem::path& file) {
   if (!reader.has("damping")) return facts;
   if (const auto ratio = reader.number_attribute("damping", "modulus_ratio"))
     facts.modulus_ratio = *ratio;
-  if (reader.has("answer"))
-    if (const auto validity = reader.text_attribute("answer", "validity")) {
+  // Files of 1.0 have another name for it.
+  const std::string solution = reader.has("solution") ? "solution" : "answer";
+  if (reader.has(solution))
+    if (const auto validity = reader.text_attribute(solution, "validity")) {
       require(parse_enum<Validity>(*validity).has_value(), file.string(), *validity,
-              fmt::format("is no verdict of a study, in answer/validity; one of {}",
+              fmt::format("is no verdict of a study, in {}/validity; one of {}", solution,
                           fmt::join(names_of<Validity>(), ", ")));
       facts.remark = "Study: validity of its damping constant: " + *validity + ".";
     }

@@ -32,7 +32,7 @@ constexpr std::array descriptions{
     CommandHelp{
         "init", start, "--surface",
         "Writes a study file in which every key is explained: of generated surfaces, or of the "
-        "measured one that --surface names. It runs as it is; edit it to ask your own problem.\n\n"
+        "measured one that --surface names. It runs as it is; edit it to ask your own question.\n\n"
         "Next: salebra study FILE --dry-run estimates its time and memory, salebra study FILE runs "
         "it."},
     CommandHelp{

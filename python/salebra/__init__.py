@@ -57,9 +57,13 @@ def __dir__() -> list[str]:
     return sorted([*modules, *_COMMON, "__version__", "__doc__", "__name__", "__file__", "__path__"])
 
 
+_FORMER = {"LossWithSlip": "Loss", "StudyAnswer": "StudySolution", "SurfaceDamping": "DampingResult"}
+
 if not _typing.TYPE_CHECKING:  # type checkers, which know this name and no alias, would take it for every name
 
     def __getattr__(name: str) -> object:
+        if name in _FORMER:
+            raise AttributeError(f"salebra.{name} is now salebra.{_FORMER[name]}")
         names = [] if name.startswith("_") else [key for key in globals() if not key.startswith("_")]
         close = _difflib.get_close_matches(name, names, 1, 0.7)
         raise AttributeError(f"module 'salebra' has no attribute '{name}'" + (f"; did you mean {close[0]}?" if close else ""))

@@ -227,7 +227,7 @@ void bind_result(nb::module_& m) {
           nb::arg("model") = "bem",
           "Least and greatest deviation of Eq. (16) from the theorem on the curve.")
       .def(
-          "answer",
+          "solution",
           [](const StudyResult& self) { return unlocked([&] { return solution_of(self); }); },
           "The damping constant of the contact as described, with slip where the coefficient of "
           "friction is known, its shares, its conditions and their verdict.")

@@ -75,7 +75,9 @@ class Point {
       : file_(file),
         where_(std::move(where)),
         models_(file_.labels(where_ + "curve/model")),
-        pressures_(file_.numbers(where_ + "curve/pressure")) {}
+        pressures_(file_.numbers(where_ + "curve/pressure")),
+        // Files of 1.0 have another name for it.
+        solution_(has("solution") ? "solution" : "answer") {}
 
   Json payload(Index map_side) const {
     Json json;
@@ -93,14 +95,14 @@ class Point {
     add(json, "local", local());
     add(json, "damping", damping());
     add(json, "adhesion", adhesion());
-    if (has("answer/pressure")) {
+    if (has(solution("pressure"))) {
       for (const char* name : {"validity", "conditions", "slip_followed"})
-        if (const auto text = file_.text_attribute(where_ + "answer", name)) json[name] = *text;
-      json["answer"] = {
-          {"damping_constant", estimate("answer/damping_constant", 0, pressures_.size())}};
-      json["answer"]["damping_constant"]["error"] = list(required("answer/damping_constant_error"));
-      json["answer"]["slip_share"] = list(required("answer/slip_share"));
-      if (has("answer/regime")) json["answer"]["regime"] = regimes();
+        if (const auto text = file_.text_attribute(where_ + solution_, name)) json[name] = *text;
+      json["solution"] = {
+          {"damping_constant", estimate(solution("damping_constant"), 0, pressures_.size())}};
+      json["solution"]["damping_constant"]["error"] = list(required(solution("damping_constant_error")));
+      json["solution"]["slip_share"] = list(required(solution("slip_share")));
+      if (has(solution("regime"))) json["solution"]["regime"] = regimes();
     }
     add(json, "premises", premises());
     add(json, "spots", spots());
@@ -118,6 +120,8 @@ class Point {
   }
 
  private:
+  std::string solution(const std::string& name) const { return solution_ + "/" + name; }
+
   /// The name of a loss without slip: in files of 1.0 it was the plain one.
   std::string without_slip(const std::string& loss) const {
     const std::string name = loss + "_without_slip";
@@ -127,7 +131,7 @@ class Point {
   /// In words, one for each pressure.
   Json regimes() const {
     Json words = Json::array();
-    for (const double value : part("answer/regime", 0, pressures_.size())) {
+    for (const double value : part(solution("regime"), 0, pressures_.size())) {
       const auto known = std::ranges::find(EnumNames<Regime>::values, value,
                                            [](const auto& one) { return double(one.first); });
       words.push_back(std::string(
@@ -426,6 +430,7 @@ class Point {
   const std::string where_;
   const Names models_;
   const std::vector<double> pressures_;
+  std::string solution_;  // the group of the loss as described
   const Bootstrap bootstrap_;
 };
 

@@ -98,7 +98,7 @@ std::string damping(const Json& point) {
   const Json* followed = find(point, {"slip_followed"});
   const bool slips = followed && followed->text() == "yes";
   std::vector<std::string> heads{"pressure", "force", "closed form, fitted l", "without slip"};
-  const Json* regimes = find(point, {"answer", "regime"});
+  const Json* regimes = find(point, {"solution", "regime"});
   if (slips) heads.push_back("with slip");
   if (regimes) heads.push_back("regime");
   std::string text = "<table><caption>Damping constant by boundary elements</caption><thead>" +
@@ -110,7 +110,7 @@ std::string damping(const Json& point) {
                                    shown(at(column("curve"), i), Dimension::damping)};
     if (slips)
       cells.push_back(
-          shown(at(find(point, {"answer", "damping_constant", "mean"}), i), Dimension::damping));
+          shown(at(find(point, {"solution", "damping_constant", "mean"}), i), Dimension::damping));
     if (const Json* regime = at(regimes, i)) cells.push_back(regime->text());
     text += row(cells, "td");
   }

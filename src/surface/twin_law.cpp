@@ -2,7 +2,6 @@
 // Forms of the spectrum of a surface twin: densities, slopes in the parameters, moments, tables.
 #include "surface/twin_law.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -36,7 +35,17 @@ Eigen::MatrixXd spline_curvatures(const std::vector<double>& knots) {
     right(k, k) = -1 / step(k - 1) - 1 / step(k);
     right(k, k + 1) = 1 / step(k);
   }
-  return left.partialPivLu().solve(right);  // dominant on its diagonal, hence regular
+  // Elimination without pivots: the matrix is tridiagonal and dominant on its diagonal.
+  for (Index k = 1; k < n; ++k) {
+    const double factor = left(k, k - 1) / left(k - 1, k - 1);
+    left(k, k) -= factor * left(k - 1, k);
+    right.row(k) -= factor * right.row(k - 1);
+  }
+  for (Index k = n - 1; k >= 0; --k) {
+    if (k + 1 < n) right.row(k) -= left(k, k + 1) * right.row(k + 1);
+    right.row(k) /= left(k, k);
+  }
+  return right;
 }
 
 /// Row of the spline's basis at x, straight beyond the first and the last knot.

@@ -279,13 +279,13 @@ TEST_CASE("A study's verdict enters a deck as a known word alone", "[hostile]") 
   test.done("study study.toml --no-report -o study.h5");
   for (const std::string& verdict : {"valid\n*INCLUDE,INPUT=secret.inp\n**", "*/ int x; /*", ""}) {
     INFO(verdict);
-    hostile::set_text(test.folder() / "study.h5", "answer", "validity", verdict);
+    hostile::set_text(test.folder() / "study.h5", "solution", "validity", verdict);
     for (const std::string format : {"csv", "calculix", "ansys", "code-aster", "abaqus", "json"})
       check_harmless(test.run("export study.h5 --to " + format + " -o deck"),
                      "is no verdict of a study");
     CHECK_FALSE(fs::exists(test.folder() / "deck"));
   }
-  hostile::set_text(test.folder() / "study.h5", "answer", "validity", "not valid");
+  hostile::set_text(test.folder() / "study.h5", "solution", "validity", "not valid");
   test.done("export study.h5 --to calculix -o deck.inp");
   CHECK(holds(test.read("deck.inp"), "not valid"));
 }

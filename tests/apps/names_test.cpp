@@ -51,7 +51,7 @@ const std::map<std::string, Meanings> groups{
     {"local", meanings_of<LocalDecayLength>()},
     {"fit", meanings_of<ModelResult, LawDescription>()},
     {"damping", meanings_of<DampingPoint, DeviationRange>()},
-    {"answer", meanings_of<DampingPoint, StudySolution>()},
+    {"solution", meanings_of<DampingPoint, StudySolution>()},
     {"spots", meanings_of<SpotStatistics>()},
     {"flow", meanings_of<FlowFactors>()},
     {"adhesion", meanings_of<AdhesionSample, AdhesiveCycleNumbers, ForceSample>()},

@@ -118,7 +118,7 @@ TEST_CASE("The chart of commands keeps its columns at 80, and README names comma
   std::ifstream readme(SALEBRA_README);
   std::vector<std::string> commands;
   for (std::string line; std::getline(readme, line);) {
-    if (commands.empty() && line != "| problem | command | guide |") continue;
+    if (commands.empty() && line != "| question | command | guide |") continue;
     if (line.empty()) break;
     const auto column = line.find(" | ") + 3;
     std::istringstream cell(line.substr(column, line.find(" | ", column) - column));

@@ -132,7 +132,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "StressMap": lambda: salebra.stress_map(law, 1e-6, EQUAL, phases=16, radii=16),
         "StudyConfiguration": lambda: study.configuration,
         "StatedMean": lambda: study.solution().damping_constant[0],
-        "StudySolution": study.answer,
+        "StudySolution": study.solution,
         "StudyResult": lambda: study,
         "Summit": lambda: summits[0],
         "SummitEnsemble": lambda: ensemble,

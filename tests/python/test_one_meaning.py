@@ -75,7 +75,7 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
         found["compare --json"] = compared["damping"][name]["mean"]
         found["compare --json, models"] = compared["models"]["bem"]["damping"][name]["mean"]
         reader = salebra.ResultReader(tmp_path / f"{name}.h5")
-        found["HDF5 /answer"] = reader[f"answer/{name}_mean"]
+        found["HDF5 /solution"] = reader[f"solution/{name}_mean"]
         found["HDF5 /damping, mean"] = reader[f"damping/ensemble_{name}_mean"][0]
         found["HDF5 /damping"] = reader[f"damping/{name}"][0, 0]
         for face, numbers in found.items():
@@ -89,7 +89,7 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
         block = re.search(r'<script[^>]*type="application/json"[^>]*>(.*?)</script>', page, re.DOTALL)
         assert block
         point = json.loads(block[1])["points"][0]
-        assert point["answer"]["damping_constant"]["mean"] == pytest.approx(means(answer.damping_constant), rel=1e-6)
+        assert point["solution"]["damping_constant"]["mean"] == pytest.approx(means(answer.damping_constant), rel=1e-6)
         assert point["damping"]["curve"]["damping_constant"]["bem"]["mean"] == pytest.approx(means(answer.damping_constant_without_slip), rel=1e-6)
 
 

@@ -244,7 +244,7 @@ def test_pictures_of_a_study_name_its_models_and_draw_its_answer() -> None:
     text = STUDY.replace("[contact]", "friction_coefficient = 0.3\n[contact]").replace("[damping]", '[damping]\nexcursion = "1mm"')
     one = re.sub(r"seeds = \[.*\]", "seeds = [3]", text)
     for study, several in ((text, True), (one, False)):
-        answer = salebra.run_study(salebra.parse_study_configuration(study)).answer()
+        answer = salebra.run_study(salebra.parse_study_configuration(study)).solution()
         axes = answer.plot()
         points, _, (bars,) = axes.containers[0]
         assert np.array_equal(np.asarray(points.get_ydata(), float), [mean.mean for mean in answer.damping_constant], equal_nan=True)

@@ -313,7 +313,7 @@ for (const name of ["full.html", "study.html"]) {
   await picture(phone, `${name.replace(".html", "")}-390.png`);
   // Of several surfaces, by their mean curve: the shares that the study has in its file.
   if (name === "study.html") {
-    const shares = await phone.evaluate(() => { const point = data.points[0]; return point.answer.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
+    const shares = await phone.evaluate(() => { const point = data.points[0]; return point.solution.slip_share.map((share, k) => [share, explore(point, k, studiedMotion(point)).slip_share]).filter((pair) => pair.every(known)); });
     check(shares.length > 4 && shares.every(([share, mine]) => Math.abs(share - mine) < 1e-3), `study.html: shares by slip, in the file and by the page: ${shares.join(" | ")}`);
   }
   await phone.context().close();
@@ -387,9 +387,9 @@ for (const [name, sets] of Object.entries(motions)) {
 }
 check(seen.settings >= 20 && seen.regimes.size === 3 && seen.validities.size >= 2, `explorer: ${seen.settings} settings, ${[...seen.regimes]}, ${[...seen.validities]}`);
 // Contacts within the oscillation judge the curve: of one that they do not confirm there is no number.
-const judged = await full.evaluate(() => { const point = data.points[0], {mean, error} = point.answer.damping_constant, of = (p, k) => explore(p, k, studiedMotion(p));
+const judged = await full.evaluate(() => { const point = data.points[0], {mean, error} = point.solution.damping_constant, of = (p, k) => explore(p, k, studiedMotion(p));
   const other = structuredClone(point);
-  Object.assign(other.answer.damping_constant, {mean: mean.map((value) => value && value / 3), error: error.map((value) => value && value / 3)});
+  Object.assign(other.solution.damping_constant, {mean: mean.map((value) => value && value / 3), error: error.map((value) => value && value / 3)});
   return point.pressure.map((_, k) => ({k, mean: mean[k], error: error[k], mine: of(point, k), other: of(other, k)})).filter((one) => known(one.mean) && !/range/.test(one.mine.why)); });
 const curveOf = (answer) => answer.conditions.find((one) => one.name === "curve").verdict;
 for (const {k, mean, error, mine} of judged)

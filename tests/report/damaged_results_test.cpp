@@ -28,7 +28,7 @@ TEST_CASE("Results with parts missing, empty or short are refused, not read beyo
     CHECK_THROWS_WITH(detail::report_payload(ResultReader(file)),
                       Contains(part) && Contains("the file is damaged"));
   };
-  for (const std::string name : {"answer/damping_constant_error", "answer/slip_share", "picture/x",
+  for (const std::string name : {"solution/damping_constant_error", "solution/slip_share", "picture/x",
                                  "picture/first_load", "curve/converged"}) {
     refused(name + " is missing", [&] { hostile::remove(file, name); });
     refused(name + " has no values", [&] { hostile::set_numbers(file, name, {}); });

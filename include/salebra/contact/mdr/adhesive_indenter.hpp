@@ -70,7 +70,7 @@ AdhesivePoint adhesive_equilibrium(const std::function<AdhesivePoint(double)>& c
                                    const AdhesivePoint& pull_off, double AdhesivePoint::*quantity,
                                    double value);
 
-/// Returns Tabor's parameter μ = (R w²/(E*² ρ³))^(1/3) (1977), with the range ρ as equilibrium
+/// Returns Tabor's parameter μ = (R w²/(E*² ρ³))^(1/3) [Tabor (1977)], with the range ρ as equilibrium
 /// distance.
 double tabor_parameter(double radius, double contact_modulus, double work, double range);
 
