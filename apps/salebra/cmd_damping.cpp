@@ -38,7 +38,7 @@ struct DampingArguments {
   MapOptions maps;
   BodyOptions body;
 
-  /// Of slow tangential motions, whose damping constant does not depend on their velocity.
+  /// Whether the motion is slow and tangential: its damping constant does not depend on its speed.
   bool of_damper() const {
     const auto& amplitudes = motion.normal_amplitude;
     return body.given() || (motion.mode == "drag" && force_amplitude.empty() &&

@@ -185,7 +185,7 @@ CycleRecorder recorder_of(const OscillateArguments& arguments, const Oscillation
           arguments.friction.cycles()};
 }
 
-// Of simulation `done` of `count`, each of levels and steps that take about as long.
+// Progress of simulation `done` of `count`, each with levels and steps that take about as long.
 Progress part_of(const Progress& bar, std::size_t done, std::size_t count) {
   if (count == 1) return bar;
   return [=](const ProgressReport& report) {

@@ -83,7 +83,7 @@ Figure loss_figure(const ResultTable& table) {
   return figure;
 }
 
-// Of each motion.
+// Computes the loss of each motion.
 std::vector<ViscoelasticLoss> losses_of(const ViscoelasticArguments& arguments,
                                         const IndenterLaw& law, const PronySeries& prony,
                                         double indentation, Session& session) {

@@ -55,7 +55,7 @@ struct ContactArguments {
   Adhesion adhesion() const;
   AdhesiveContactOptions adhesive_options(Session& session) const;
   bool wants_stiffness() const { return stiffness || conduction.given(); }
-  /// Of a sample of the curve, per nominal area.
+  /// Returns the conductances of a sample of the curve, per nominal area.
   Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
 };
 

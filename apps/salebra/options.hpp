@@ -129,7 +129,7 @@ struct SurfaceOptions {
   /// Does so over one group of the processes.
   Surface read(Session& session, const Communicator& ranks,
                std::optional<Undefined> points = {}) const;
-  /// Of a file; throws InvalidInput for lists of another length.
+  /// Returns the surface of a file. Throws InvalidInput for lists of another length.
   MeasuredSurface measured() const;
   /// Reads a file; a recipe is not generated.
   SurfaceOutline outline(Session& session) const;

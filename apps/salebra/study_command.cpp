@@ -206,7 +206,7 @@ bool is_surface(const std::string& file) {
   }
 }
 
-/// Of the file, or of the surface by itself, before the other options.
+/// Reads the study of the file, or of the surface alone, before the other options apply.
 StudyConfiguration study_of(const StudyArguments& arguments) {
   const std::string& file = arguments.configuration;
   const SurfaceOptions& surface = arguments.surface;

@@ -50,7 +50,7 @@ StudyResult ensemble(std::vector<SpectrumTable> tables, double slope, int surfac
   return run_study(configuration);
 }
 
-/// Of each surface of an ensemble, at the pressure in the middle.
+/// Contacts of each surface of an ensemble, at the pressure in the middle.
 struct Contacts {
   std::vector<double> stiffness, area, damping;
 };

@@ -34,7 +34,7 @@ std::string verdicts(const Premises& premises) {
 
 namespace {
 
-/// Of functions that hold the mean indentation and nothing else.
+/// Warns for functions that hold the mean indentation and nothing else.
 void warn_of_held_indentation(const ContactLaw& law, double indentation, double mean_force) {
   const DampingResult mean{.force = law.force(indentation), .mean_force = mean_force};
   if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1})) warn_user(*doubt);

@@ -190,7 +190,7 @@ std::string why_unknown(const DamperProblem& problem, double angular_frequency) 
   return why_loss_unknown(Drag{0, problem.drag_velocity, angular_frequency}, problem.facts);
 }
 
-/// Of a law, about its mean indentation, whose γ without slip is known.
+/// Returns the loss of a law about its mean indentation, whose γ without slip is known.
 Loss loss_of(const DamperProblem& problem, const ContactLaw& law, double indentation,
              const Drag& drag, double without_slip) {
   Loss loss;

@@ -59,7 +59,7 @@ constexpr Synonym synonyms[]{
     {"velocity", {"drag_velocity", "velocities"}},
 };
 
-/// Of an option, the key of the same name, in lower case.
+/// Returns the key with the name of an option, in lower case.
 std::string key_of(std::string_view name) {
   std::string key(name.substr(std::min(name.find_first_not_of('-'), name.size())));
   for (char& symbol : key)

@@ -291,7 +291,7 @@ std::string plain(std::string_view unit) {
   return text;
 }
 
-/// Of a name in lower case, in singular or plural.
+/// Finds the scale of a unit by its name in lower case, in singular or plural.
 std::optional<Scale> scale_of_name(std::string_view name, Dimension dimension) {
   for (const Named& unit : names) {
     if (unit.dimension != dimension) continue;

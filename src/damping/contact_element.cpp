@@ -13,9 +13,9 @@
 namespace salebra {
 namespace {
 
-// Of the highest force: levels that bear less all lie in the lowest one.
+// Part of the highest force: levels that bear less all lie in the lowest one.
 constexpr double negligible_force = 1e-6;
-// Of F/K at the highest indentation: the shortest level below the motion.
+// Part of F/K at the highest indentation: the shortest level below the motion.
 constexpr double shortest_level = 1e-3;
 
 // The lowest node: where the law ends, or bears next to nothing.
@@ -50,7 +50,7 @@ std::vector<double> depths(double first, double last, int count) {
   return result;
 }
 
-// Of K_t at a node: how far the mean of nodes where it falls may lie from it.
+// Part of K_t at a node: how far the mean of nodes where it falls may lie from it.
 constexpr double most_scatter = 0.25;
 
 // A rising function at the ends of an interval, and its slope there.
@@ -376,7 +376,7 @@ struct ContactElement::Step {
       xx += level.hold, yy += level.hold;
       return 1;
     }
-    // Of what pulls across the stretch the part remains; along it the limit decides.
+    // The part that pulls across the stretch remains; along it the limit decides.
     const double size = std::sqrt(level.f_x * level.f_x + level.f_y * level.f_y);
     const double limit = limit_of(level);
     const double n_x = level.f_x / size, n_y = level.f_y / size;

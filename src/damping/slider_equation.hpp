@@ -43,7 +43,7 @@ struct SliderContact {
 /// curvature within a step: second order, estimated by halving.
 class SliderEquation {
  public:
-  /// Of the oscillation, or without one of the slider on its spring and the contact, s.
+  /// Period of the oscillation, or without one of the slider on its spring and the contact, s.
   static double period_of(const SliderContact& contact, const Slider& slider);
   /// Steps in it, for `steps` in the faster of both.
   static double steps_of_period(const SliderContact& contact, const Slider& slider, int steps);
@@ -56,7 +56,7 @@ class SliderEquation {
   void advance();
 
   double period() const { return period_; }
-  /// Of one advance().
+  /// Number of steps of one advance().
   long steps() const { return static_cast<long>(nodes_.size()) - 1; }
   double time() const { return period_ * periods_; }
   double offset() const { return offset_; }                        ///< y, m

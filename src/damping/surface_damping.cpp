@@ -482,7 +482,7 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   return result;
 }
 
-/// Of an odd number n of points along a side (n + 1)/2 share its length: slopes grow by 1/n, which
+/// If a side has an odd number n of points, (n + 1)/2 share its length: slopes grow by 1/n, which
 /// counts as an error of the cells.
 Surface every_second(const Surface& surface) {
   Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.ranks};

@@ -26,7 +26,7 @@ namespace salebra::detail {
 
 // K_t is a maximum over the tractions: its error is about the square of this.
 inline constexpr double stick_tolerance = 1e-3;
-// Of a kriged number, in standard deviations: 93 % of normal deviates are smaller.
+// Stated error of a kriged number, in standard deviations: 93 % of normal deviates are smaller.
 inline constexpr double stated_deviations = 1.8;
 
 /// Half the range of indentations of an oscillation about a load: with the force held the weight

@@ -58,7 +58,7 @@ void set_origin(DeckContact& contact, const ForceCurve& curve) {
   }
 }
 
-/// Of several contacts the middle of the clearances that all have, and its rank there.
+/// The middle of the clearances that several contacts have in common, and its rank there.
 struct Range {
   double far = std::numeric_limits<double>::infinity();
   double close = -std::numeric_limits<double>::infinity();

@@ -156,7 +156,7 @@ class PanelScript {
           least = std::min(least, shown);
           most = std::max(most, shown);
         }
-    // Of one value, but for round-off, gnuplot makes a range.
+    // If all values are equal but for round-off, gnuplot makes a range.
     if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
     const double room = margin * (most - least);
     // An axis of values of one sign ends at zero rather than just beyond it.

@@ -16,7 +16,7 @@ using Kind = HeaderToken::Kind;
 
 bool is_digit(char symbol) { return symbol >= '0' && symbol <= '9'; }
 
-/// Of a word; every byte of a letter beyond ASCII.
+/// Whether a byte belongs to a word; each byte of a letter beyond ASCII does.
 bool is_letter(char symbol) {
   return (symbol >= 'a' && symbol <= 'z') || (symbol >= 'A' && symbol <= 'Z') ||
          static_cast<unsigned char>(symbol) >= 0x80;

@@ -200,7 +200,7 @@ Meaning meaning_of_parts(std::string_view word, int parts) {
 }  // namespace
 
 std::string plain_word(std::string_view word) {
-  // Of the letters with marks of Latin-1, from U+00C0 on, in lower case.
+  // Letters with marks of Latin-1, from U+00C0 on, in lower case.
   constexpr std::string_view latin[]{"a",  "a", "a",  "a", "ae", "a", "ae", "c", "e",  "e", "e",
                                      "e",  "i", "i",  "i", "i",  "d", "n",  "o", "o",  "o", "o",
                                      "oe", "*", "oe", "u", "u",  "u", "ue", "y", "th", "ss"};

@@ -36,8 +36,8 @@ class InputFile {
   /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and
   /// for one that does not fit in the memory that is free.
   std::string content(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;
-  /// Of all its bytes, a block at a time: the file may be larger than the memory. Throws IoError
-  /// where the disk does not give them.
+  /// Checksum of all bytes, a block at a time: the file may be larger than the memory. Throws
+  /// IoError if the disk does not give them.
   std::uint64_t checksum() const;
   /// Whether the file begins as HDF5 does.
   bool is_hdf5() const;

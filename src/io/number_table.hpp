@@ -33,7 +33,7 @@ struct NumberTable {
 NumberTable read_number_table(const std::filesystem::path& file,
                               const std::vector<TableColumn>& columns, std::size_t least = 0);
 
-/// Of a table with a power spectral density.
+/// Columns of a table with a power spectral density.
 inline std::vector<TableColumn> spectrum_columns(Dimension density) {
   return {{"wavenumber", Dimension::wavenumber, {"q", "wavevector", "wave number", "wave vector"}},
           {"psd", density, {"c", "spectral density", "power spectral density"}}};

@@ -448,7 +448,7 @@ std::string spikes_text(const std::vector<Spike>& spikes, bool removed) {
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
-/// Of a part in the whole, m.
+/// Corner of a part in the whole, m.
 struct Corner {
   double x = 0, y = 0;
 };
@@ -479,7 +479,7 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
   const auto remark = [&](const std::string& text) {
     if (options.remarks && !text.empty()) options.remarks->push_back(file.string() + ": " + text);
   };
-  // Of fewer points no scatter of neighbours is known.
+  // With fewer points no scatter of neighbours is known.
   constexpr Index least_points = 8;
   if (options.despike) {
     const std::vector<Spike> spikes = find_spikes(surface, *options.despike);

@@ -31,7 +31,7 @@ class Lines {
   /// throws   InvalidInput for NUL bytes in a file, and for a line that does not fit into the memory
   bool next(std::string_view& line);
   int number() const { return number_; }
-  /// Of the bytes of the file, those of the lines so far; 1 for a text in memory.
+  /// Part of the bytes of the file that the lines so far hold; 1 for a text in memory.
   double share() const;
 
  private:

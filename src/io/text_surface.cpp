@@ -350,7 +350,7 @@ class TextReader {
     return {};
   }
 
-  /// Of a matrix or a list of heights, where nothing else tells one block of rows from the next.
+  /// Checks a matrix or a list of heights, in which nothing else separates blocks of rows.
   void require_one_block() const {
     if (!rows_.interruption.empty())
       refuse(file_, rows_.interruption +

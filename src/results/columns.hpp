@@ -119,7 +119,7 @@ template <Described T>
 Json json_of(const T& result, double nominal_area = 0) {
   return detail::numbers_of(columns_of<T>(), {&result, 1, sizeof(T)}, false, nominal_area);
 }
-/// Of several results a list for each column.
+/// Returns a list for each column of several results.
 template <Described T>
 Json json_of(const std::vector<T>& results, double nominal_area = 0) {
   return detail::numbers_of(columns_of<T>(), {results.data(), results.size(), sizeof(T)}, true,

@@ -208,7 +208,7 @@ class CaseRun {
     news_.push_back(item);
   }
 
-  /// Of several processes, each goes on to where all end together.
+  /// With several processes, each goes on until all end together.
   void talk() {
     try {
       if (!report()) stop_ = true;

@@ -57,8 +57,8 @@ TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& 
   return measurement;
 }
 
-/// Of what a file may hold. A fit has five knots a decade and a thousand draws where nobody asks for
-/// more; a study tabulates each draw.
+/// Limits of what a file may hold. A fit has five knots a decade and a thousand draws unless the
+/// user wants more; a study tabulates each draw.
 constexpr Index most_draws = 20000;
 constexpr std::size_t most_knots = 64;
 

@@ -93,7 +93,7 @@ double ray_power(const PowerSpectrum& spectrum, double angle) {
   double sum = 0;
   for (double r = 0.5;; r += 0.5) {
     const double x = r * along_x, y = r * along_y;
-    // Of sides that are far apart a step leaves what an index holds: the numbers are compared first.
+    // If sides are far apart, a step exceeds what an index holds: the numbers are compared first.
     if (2 * std::abs(x) > static_cast<double>(grid.nx) ||
         y >= static_cast<double>(spectrum.psd.cols()))
       return sum;

@@ -15,7 +15,7 @@ namespace salebra::detail {
 namespace {
 
 constexpr Index parts = 36;
-/// Of Gaussian heights, t of 36 parts is beyond it with a probability of 3e-4.
+/// For Gaussian heights, t of 36 parts exceeds it with a probability of 3e-4.
 constexpr double significant = 4;
 
 /// Sums of the powers 0 … 3 of second differences.

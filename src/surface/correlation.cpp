@@ -27,7 +27,7 @@ class PairSums {
  public:
   PairSums(Index nx, Index ny) : nx_(nx), ny_(ny) {}
 
-  /// Of value(height) of each point: column after column.
+  /// Transforms value(height) of each point, column after column.
   template <class Value>
   PairModes transform(const Field& heights, const Value& value) const {
     const Index columns = ny_ / 2 + 1;

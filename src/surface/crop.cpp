@@ -46,8 +46,8 @@ std::optional<Rectangle> largest_defined_part(const Surface& surface) {
   surface.require_whole("a search for its largest part without undefined points");
   detail::require_shape(surface);
   const Grid2D& grid = surface.grid;
-  // Of each row, the largest rectangle that ends there: `depth` counts the defined points above each
-  // of its points, and a stack holds those of increasing depth, each with the first column that is
+  // For each row, the largest rectangle that ends there: `depth` counts the defined points above
+  // each of its points, and a stack holds those of increasing depth, each with the first column that is
   // at least as deep.
   struct Step {
     Index first, depth;

@@ -57,7 +57,7 @@ struct Squares {
   }
 };
 
-/// Of the heights that are defined.
+/// Sums over the heights that are defined.
 struct HeightSums {
   double sum = 0, minimum = std::numeric_limits<double>::infinity(), maximum = -minimum;
   Index count = 0;
@@ -96,7 +96,7 @@ ProfileMoments profile_moments(const Surface& surface, Axis axis, double mean) {
   const Index n = along_x ? grid.nx : grid.ny;
   const double length = along_x ? grid.lx : grid.ly;
   RealFft2D<double> fft(1, n);
-  // Of each mode, what its power counts in the second moment, and q² times that in the fourth.
+  // For each mode, the weight of its power in the second moment, and q² times that in the fourth.
   const auto count = static_cast<std::size_t>(fft.modes_y());
   std::vector<double> weights(count), squares(count);
   for (std::size_t k = 0; k < count; ++k) {

@@ -87,7 +87,7 @@ class PeakSearch {
 
   template <class Visit>
   void visit_neighbours(Index point, const Visit& visit) const {
-    // Of 32 bits: a division of 64 would take a third of the search.
+    // Indices have 32 bits: a division of 64 would take a third of the search.
     const Index ix = static_cast<std::uint32_t>(point) / static_cast<std::uint32_t>(grid_.ny),
                 iy = point - ix * grid_.ny;
     if (ix > 0 && ix + 1 < grid_.nx && iy > 0 && iy + 1 < grid_.ny) {

@@ -93,7 +93,7 @@ double slope_of(const Values& values, Index n) {
 /// The heights less their least-squares plane.
 Field levelled(const Field& heights) {
   const Index nx = heights.rows(), ny = heights.cols();
-  // Of a complete grid, the two slopes are those of the means over the other axis.
+  // On a complete grid, the two slopes are those of the means over the other axis.
   const Eigen::ArrayXd rows = heights.rowwise().mean();
   Eigen::ArrayXd columns = Eigen::ArrayXd::Zero(ny);
   for (Index i = 0; i < nx; ++i) columns += heights.row(i).transpose();

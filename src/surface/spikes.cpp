@@ -21,7 +21,7 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double deviation_per_median = 1.4826;  // of a Gaussian
 constexpr std::size_t largest_spike = 4;         // points
 
-/// Of some values, whose order it may change.
+/// Returns the median of some values, whose order it may change.
 double middle_of(std::span<double> values) {
   std::ranges::sort(values);
   const std::size_t half = values.size() / 2;

@@ -101,7 +101,7 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].precisions.clear();
     for (std::size_t bin = 0; bin < data_[g].bins.size(); ++bin) {
-      // Of a bin whose lower limit is about the cut-off, little but a sharp edge's leakage is left.
+      // If the lower limit of a bin is about the cut-off, little but leakage of a sharp edge is left.
       constexpr double half_bin = 1.0724;  // √1.15
       const double q = data_[g].wavenumber[bin], edge = q / half_bin / cutoff;
       const double s = edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff

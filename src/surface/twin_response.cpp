@@ -53,7 +53,7 @@ struct SideModes {
   Taper taper;
   double step;  ///< κ of a mode
   std::vector<double> of_one, of_position;
-  // Of the wave at hand:
+  // Numbers of the wave at hand:
   std::vector<double> wave, mean_part, slope_part;
 
   SideModes(Taper kind, double mode_step, Index count) : taper(kind), step(mode_step) {

@@ -23,7 +23,7 @@ void lay_helper(const ProgramTest& test, const std::string& folder, const std::s
 
 bool was_called(const ProgramTest& test) { return fs::exists(test.folder() / "called"); }
 
-/// Of no format that salebra knows.
+/// Bytes of no format that salebra knows.
 std::string noise() {
   std::string bytes;
   for (int k = 0; k < 256; ++k) bytes += static_cast<char>(k);

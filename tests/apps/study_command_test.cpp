@@ -35,7 +35,7 @@ TEST_CASE("A study's answer fits a screen: numbers, validity, accuracy, law and 
     int count = 0;
     for (std::string line; std::getline(lines, line); ++count) {
       INFO(line);
-      // Of a letter of several bytes all but the first begin with the bits 10.
+      // In a letter of several bytes all but the first begin with the bits 10.
       CHECK(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; }) <= 80);
     }
     CHECK(count <= 40);

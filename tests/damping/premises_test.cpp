@@ -732,7 +732,7 @@ TEST_CASE("Conditions name their limit, what holds, at which loads, and what to 
   CHECK(validity() == Validity::not_valid);
   CHECK_THAT(conditions_of(cases, false, pressures)[0].here, Catch::EndsWith(", at all loads"));
   CHECK(validity(true) == Validity::valid_with_care);
-  // Of the case that bears least.
+  // The limit comes from the case that bears least.
   cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6, .excursion = 2e-9}};
   cases[3].largest = {{.friction_coefficient = 0.3, .drag_velocity = 2e-6, .excursion = 3e-9}};
   CHECK(motion_without_slip(cases) == "2 nm at 2 \u00b5m/s (\u00b5 = 0.3)");
@@ -768,7 +768,7 @@ TEST_CASE("Pressure and size are judged at the deepest point of the oscillation"
   const IndenterLaw punch(flat_punch_profile(radius), material);
   CHECK(judged(punch, nullptr, rest, motion).plasticity.value ==
         Approx(1.5 * 2 * modulus * (rest + amplitude) / (pi * radius) / 1e9).epsilon(1e-9));
-  // Of a curve the load that is nearest to the peak; beyond its end the last.
+  // A curve answers with the load that is nearest to the peak; beyond its end with the last.
   const double length = 1e-7;
   ForceCurve curve = exponential_curve(length);
   curve.nominal_area = 1e-6;

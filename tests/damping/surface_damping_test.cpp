@@ -293,7 +293,7 @@ TEST_CASE("Stated errors of the damping of rough surfaces hold what it converges
 }
 
 TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is missed by far") {
-  // Of the seeds 0 to 119, 99 % hold, and the largest ratio is 1.03. The first six are those in
+  // With the seeds 0 to 119, 99 % hold, and the largest ratio is 1.03. The first six are those in
   // which forces alone, without the stiffnesses of the contacts, missed by up to 1.6 times.
   int held = 0;
   double largest = 0;
@@ -323,7 +323,7 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
 }
 
 TEST_CASE("Errors of the loss with slip hold, over three decades of the excursion") {
-  // Of 80 losses of the seeds 0 to 19 92 % hold, and the largest ratio is 2.0. Cells of half the
+  // With 80 losses of the seeds 0 to 19, 92 % hold; the largest ratio is 2.0. Cells of half the
   // size stand for the surface, cells of twice the size give the error.
   int held = 0, cases = 0;
   std::vector<double> stated;
@@ -389,7 +389,7 @@ TEST_CASE("Friction leaves the loss without slip as it is, to the bit") {
 }
 
 TEST_CASE("The loss of a joint of a surface has an error that holds, at small forces too") {
-  // Of 48 surfaces of twelve kinds 98 % hold; the law through 13 forces alone misses by up to 150 %
+  // On 48 surfaces of twelve kinds 98 % hold; the law through 13 forces alone misses by up to 150 %
   // at 0.25 μF. With ν = 0 K_t is K.
   const Material stuck = Material::of_contact_modulus(1e9, 0);
   constexpr double friction = 0.3;

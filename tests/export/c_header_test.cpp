@@ -102,7 +102,7 @@ TEST_CASE("A C header takes the steps of a contact element") {
   for (const double friction : {0.3, std::numeric_limits<double>::infinity()}) {
     compare(ExponentialLaw(10, 1e-7, ratio), -5e-8, 5e-8, friction);
     compare(PowerLaw(1e9, 1.5, ratio), 1e-8, 9e-8, friction);
-    // Of a table with a K_t of its own, whose K and K_t scatter.
+    // A table with a K_t of its own, whose K and K_t scatter.
     ForceCurve curve{.model = "measured", .nominal_area = 1, .samples = {}};
     for (int i = 0; i < 60; ++i) {
       const double force = 1e-3 * std::pow(1e5, i / 59.0), scatter = 0.05 * std::sin(7.0 * i);

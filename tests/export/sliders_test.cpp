@@ -66,7 +66,7 @@ TEST_CASE("Sliders of the exponential law lose what the closed form says, with o
   INFO(ten << ' ' << fifty << ' ' << many << ' ' << most);
   CHECK(fifty < 0.02);
   CHECK(many < 1e-3);
-  // Of five places in a slider's range each, the order is known to some tenths.
+  // With five places in each slider's range, the order is known to some tenths.
   CHECK(std::log(ten / fifty) / std::log(5.) > 1.5);
   CHECK(std::log(fifty / most) / std::log(16.) == Approx(2).margin(0.3));
 }

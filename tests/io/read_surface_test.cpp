@@ -552,7 +552,7 @@ TEST_CASE("An empty last field is an undefined point", "[read]") {
   REQUIRE(later.rows() == 4);
   CHECK(std::isnan(later(3, 1)));
   CHECK(later(0, 2) == 8);
-  // Of the first rows too.
+  // The first rows count too.
   const Field first = read("1,5,0,\n3.5,4,0,\n5,6.5,0,7\n8,9,0,\n");
   REQUIRE(first.rows() == 4);
   CHECK(std::isnan(first(3, 0)));

@@ -163,7 +163,7 @@ TEST_CASE("Few undefined points are filled, and many refused with the part that 
   CHECK(part.surface.grid.ny == 40);
   CHECK(part.surface.grid.lx == Approx(34e-6).epsilon(1e-14));
   CHECK(part.surface.heights(0, 5) == whole.heights(26, 5));
-  // Of a part, the offer is in coordinates of the whole.
+  // For a part, the offer is in coordinates of the whole.
   CHECK_THROWS_WITH(read(scratch / "many.h5", {.crop = Rectangle{15e-6, 2e-6, 40e-6, 40e-6},
                                                .undefined = Undefined::fill_few}),
                     Contains("`crop` 26um,2um,40um,40um"));

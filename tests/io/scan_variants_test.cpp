@@ -17,7 +17,7 @@ namespace {
 constexpr Index columns = 7, rows = 5;
 constexpr double pixel_x = 1.1, pixel_y = 1.3;  // µm
 
-/// Of a scan with two undefined points, one at the end of a row, in hundredths of a µm.
+/// Heights of a scan with two undefined points, one at the end of a row, in hundredths of a µm.
 int hundredths(Index ix, Index iy) { return int((37 * ix + 53 * iy + 11 * ix * iy) % 100 - 50); }
 bool undefined(Index ix, Index iy) { return (ix == 2 && iy == 1) || (ix == 6 && iy == 3); }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -D ROOT=<tree> -P CheckLibraries.cmake: libraries that take seconds to compile are included by the sources listed here and by
-# no other, for each of forty files would pay for them again (scripts/measure-build). So is MPI, which the rest must build without.
+# no other, for each of forty files would pay for them again. So is MPI, which the rest must build without.
 cmake_minimum_required(VERSION 3.25)
 set(libraries CLI/ nlohmann/ toml[+][+]/ Eigen/[^C] mpi[.]h>)
 set(CLI/_in apps/salebra/program.cpp)

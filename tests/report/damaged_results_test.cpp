@@ -14,7 +14,7 @@
 using namespace salebra;
 using Catch::Contains;
 
-// Of the data alone, which every build makes, also one without plotly.js under a sanitizer.
+// Tests the data alone, which every build makes, also one without plotly.js under a sanitizer.
 TEST_CASE("Results with parts missing, empty or short are refused, not read beyond their end",
           "[report][hostile]") {
   const Scratch scratch;

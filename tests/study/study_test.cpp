@@ -75,7 +75,7 @@ TEST_CASE(
 TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[study]") {
   StudyResult result = run_study(small_study());
   REQUIRE(result.realisations.size() == 3);
-  // Of surfaces that scatter, the mean of the ratios, 1.75, is another number.
+  // If surfaces scatter, the mean of the ratios, 1.75, is another number.
   const std::array law{3.0, 2.0, 5.0}, computed{1.0, 2.0, 4.0};
   for (std::size_t i = 0; i < 3; ++i) {
     DampingPoint& point = result.realisations[i].of(ContactModel::bem).damping[5];
@@ -94,7 +94,7 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
   constexpr double student = 4.302652729911275;  // t of 97.5 %, two degrees of freedom
   CHECK(deviation[5].low == Approx(ratio - 1 - student * std::sqrt(variance)).epsilon(1e-10));
   CHECK(deviation[5].high == Approx(ratio - 1 + student * std::sqrt(variance)).epsilon(1e-10));
-  // Of every load, as it came out.
+  // The same holds at every load.
   const auto by_law = result.damping("damping_constant_closed_form"),
              stated = result.damping("damping_constant_without_slip");
   for (std::size_t k = 0; k < deviation.size(); ++k)

@@ -100,7 +100,7 @@ TEST_CASE("A twin of files is that of their heights, and its file holds its draw
         "[[measurement]]\nfile = \"" + name + "\"\ninstrument = \"ideal\"\ndetrend = \"none\"\n";
     scans.push_back(scan_spectrum(scan.heights, scan.grid, {}, 1, name));
   }
-  // Of periodic surfaces, which have no longer waves, the choice of a form would take a table.
+  // For periodic surfaces, which have no longer waves, the choice of a form would take a table.
   const TwinOptions options{.form = SpectrumForm::corner};
   const SurfaceTwin twin = twin_of(read_twin_measurements(folder.with("t.toml", list)), options);
   const SurfaceTwin direct = fit_twin(scans, options);
@@ -149,7 +149,7 @@ TEST_CASE("A prediction interval holds the next value", "[twin]") {
   CHECK(held > 0.936 * trials);
   CHECK(held < 0.964 * trials);
   CHECK(std::isnan(prediction({3}).low));
-  // Of both signs: no logarithms. t(0.975, 1) = 12.706, s = √2, √(1 + 1/2).
+  // Values of both signs have no logarithms. t(0.975, 1) = 12.706, s = √2, √(1 + 1/2).
   CHECK(prediction({-1, 1}).high == Approx(12.7062047 * std::sqrt(2) * std::sqrt(1.5)));
 }
 

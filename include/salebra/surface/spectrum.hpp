@@ -23,8 +23,8 @@ struct PowerSpectrum {
   /// Number of neighbouring modes that count as one in a mean, since the window mixes them:
   /// ⟨w⁴⟩/⟨w²⟩²; 1 without a window.
   double correlated_modes = 1;
-  /// Of a surface that is not periodic: waves up to this length may be a tip's, because peaks and
-  /// valleys differ (estimate_hurst), m; 0 where they do not differ, infinity where all waves may be.
+  /// For a surface that is not periodic: waves up to this length may come from a tip, because peaks
+  /// and valleys differ (estimate_hurst), m; 0 if they do not differ, infinity if all waves may.
   double asymmetric_wavelength = 0;
   Communicator ranks = {};  ///< the processes that hold its columns
 

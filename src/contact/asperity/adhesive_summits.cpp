@@ -26,7 +26,7 @@ double AdhesiveSummits::Summit::force(double a) const {
          (jkr ? std::sqrt(8 * pi * work * modulus * a * a * a) : 2 * pi * work * radius);
 }
 
-/// Of summits that come closer that of δ = 0, of those that are drawn apart that of dδ/da = 0.
+/// For summits that approach, the radius at δ = 0; for summits that separate, that at dδ/da = 0.
 double AdhesiveSummits::least_radius(const Summit& summit, bool unloading) {
   if (!summit.jkr) return 0;
   const double at_touch = 2 * pi * summit.work * summit.radius * summit.radius / summit.modulus;

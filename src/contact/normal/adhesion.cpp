@@ -31,7 +31,7 @@ constexpr double near_a_minimum = 1e-2;
 constexpr double inner_share = 0.02;
 constexpr double loosest_inner = 1e-3, sharpest_inner = 1e-12;
 constexpr double sharpening = 0.3, falls = 0.7;
-// Of the tension, below which a load that is left is rounding.
+// A load below this part of the tension is rounding.
 constexpr double no_load = 1e-14;
 // So many contacts without a lower residual are one that stalls.
 constexpr int patience_of_adhesion = 60;
@@ -312,7 +312,7 @@ class AdhesiveSolve {
     next_ = tension_;
   }
 
-  // Of a contact: a gap that is wrong by e·h_rms changes the tension by that over the range.
+  // A gap that is wrong by e·h_rms changes the tension by that over the range.
   double inner_tolerance(double residual) const {
     const double wanted = inner_share * std::max(residual, options_.tolerance);
     const double change = largest() * rms_raised_ / adhesion_.range;
@@ -346,7 +346,7 @@ class AdhesiveSolve {
       }
       target.pressure = load;
     } else {
-      // Of the raised heights: from first touch on.
+      // The heights are raised and count from first touch on.
       const double level = periodic_ ? sums.highest - highest_ - mean - target_.value
                                      : target_.value + sums.highest - highest_;
       if (!(level > 0)) {
@@ -497,7 +497,7 @@ class AdhesiveSolve {
             total.contact / cells_};
   }
 
-  // Of a free contact, from first touch of the surface itself.
+  // In free contact the indentation counts from first touch of the surface itself.
   double indentation() {
     if (!target_.load_given) return target_.value;
     // state_.indentation is that of the raised heights until measure() replaces it.

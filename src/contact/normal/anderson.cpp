@@ -29,7 +29,7 @@ Field Anderson::extrapolate(const Field& x, const Field& f) {
   if (steps_.empty()) return x + f;
   const std::size_t count = steps_.size();
   const Index columns = f.cols();
-  // Of the newest difference with all of them, and of all of them with f.
+  // Products of the newest difference with all of them, and of all of them with f.
   const std::vector<double> sums =
       parallel::sum_blocks(rows_, 2 * count, [&](Index begin, Index end, std::span<double> all) {
         const Rows& newest = steps_.back().f;

@@ -58,7 +58,7 @@ class DiscProblem {
   };
 
   std::size_t count() const { return limits_.size(); }
-  // Of those that can carry traction.
+  // Root of the number of cells that can carry traction.
   double root_of_count() const { return std::sqrt(static_cast<double>(open_)); }
   template <class Body>
   void for_values(const Body& body) const;

@@ -329,7 +329,7 @@ void SlidingContact::accept(Increment increment) {
       axes[c].displacement.data()[cell] = stays ? increment.displacement[i] : 0;
       const double middle = (last + traction) / 2, slip = increment.slip[i];
       lost += middle * slip;
-      // Of a cell that enters, the body's motion as the cell feels it, from its entry on.
+      // A cell that enters moves with the body only from the moment it enters.
       work +=
           middle * (stayed ? axes[c].distance
                            : increment.displacement[i] + slip - increment.displacement_before[i]);
