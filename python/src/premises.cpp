@@ -36,7 +36,9 @@ namespace {
 
 /// Warns for functions that hold the mean indentation and nothing else.
 void warn_of_held_indentation(const ContactLaw& law, double indentation, double mean_force) {
-  const DampingResult mean{.force = law.force(indentation), .mean_force = mean_force};
+  DampingResult mean;
+  mean.force = law.force(indentation);
+  mean.mean_force = mean_force;
   if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1})) warn_user(*doubt);
 }
 

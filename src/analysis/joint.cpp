@@ -152,9 +152,9 @@ JointSolution solve(JointProblem problem, const Context& context) {
   const double indentation = solution.losses.front().indentation;
   solution.state = state_of(law, indentation);
   if (oscillates) {
-    const DampingResult mean{
-        .force = solution.state.force,
-        .mean_force = mean_force_of_cycle(law, indentation, problem.normal_amplitude)};
+    DampingResult mean;
+    mean.force = solution.state.force;
+    mean.mean_force = mean_force_of_cycle(law, indentation, problem.normal_amplitude);
     if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1}))
       solution.contact.doubts.push_back(*doubt);
   }

@@ -83,7 +83,9 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
     const std::vector<SlidingPoint> found = points_at(problem, amplitude, law, position);
     points.insert(points.end(), found.begin(), found.end());
     const SteadySliding& state = found.front().state;
-    means.push_back({.force = law.force(state.indentation), .mean_force = state.mean_force});
+    DampingResult& mean = means.emplace_back();
+    mean.force = law.force(state.indentation);
+    mean.mean_force = state.mean_force;
     if (const auto lost = std::ranges::count_if(
             found, [](const SlidingPoint& point) { return !point.state.converged; });
         lost > 0)
