@@ -4,7 +4,7 @@
 # is missing is listed, by names and versions that a message can print.
 
 # Each library uses some of those before it, and no later one.
-set(salebra_libraries base generators salebra io results study questions report)
+set(salebra_libraries base generators salebra analysis io results study report)
 
 # salebra_need(FOUND WHAT): notes WHAT as missing unless FOUND is true.
 macro(salebra_need found what)
@@ -49,7 +49,7 @@ macro(salebra_find library)
     endif()
     salebra_need(GSL_FOUND "GSL 2.7 or later")
   endif()
-  if(salebra_rank GREATER 2)
+  if(salebra_rank GREATER 3)
     # CMake's module for HDF5 compiles a C program.
     if(NOT CMAKE_C_COMPILER_LOADED)
       include(CheckLanguage)
@@ -69,7 +69,7 @@ macro(salebra_find library)
     find_package(nlohmann_json QUIET)
     salebra_need(nlohmann_json_FOUND "JSON for Modern C++ (nlohmann)")
   endif()
-  if(salebra_rank GREATER 4)
+  if(salebra_rank GREATER 5)
     find_package(tomlplusplus QUIET)
     salebra_need(tomlplusplus_FOUND "toml++")
   endif()

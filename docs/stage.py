@@ -24,7 +24,7 @@ MODULES = {
     "io": "files and pictures",
     "results": "what each result is called, with unit and meaning; files of curves",
     "study": "the whole path for an ensemble",
-    "questions": "what several faces ask, as data, and the answers",
+    "analysis": "problems that several interfaces pose, as data, and their solutions",
     "export": "laws as input of other programs",
     "report": "the results of a study as a page",
 }
