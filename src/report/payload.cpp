@@ -109,7 +109,10 @@ class Point {
     const std::string work = without_slip("work_per_cycle");
     Json over_bem = by_model("comparison/",
                              {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
-    if (!over_bem.is_null() && over_bem.contains(work)) over_bem["work_per_cycle"] = over_bem[work];
+    if (!over_bem.is_null() && over_bem.contains(work)) {
+      Json ratios = over_bem[work];  // a new key may move what a reference refers to
+      over_bem["work_per_cycle"] = std::move(ratios);
+    }
     add(json, "over_bem", std::move(over_bem));
     if (const auto surfaces = column("convergence/surfaces")) {
       json["convergence"] =
