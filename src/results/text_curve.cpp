@@ -69,7 +69,9 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
   const auto refuse_gap = [&](std::initializer_list<double ForceSample::*> members) {
     for (const auto& [quantity, member] : curve_quantities()) {
       if (std::ranges::find(members, member) == members.end()) continue;
-      const auto unknown = [&](const ForceSample& sample) { return std::isnan(sample.*member); };
+      const auto unknown = [member = member](const ForceSample& sample) {
+        return std::isnan(sample.*member);
+      };
       const auto row = std::ranges::find_if(curve.samples, unknown);
       if (row != curve.samples.end() && !std::ranges::all_of(curve.samples, unknown))
         refuse(file, fmt::format("holds 'nan' for {} in row {} of its numbers; remove that row",
