@@ -77,7 +77,7 @@ void follow_file(const DampingArguments& arguments, Session& session) {
                          {"transverse", Dimension::length, {"y"}}},
                         3)
           .columns;
-  PathProblem problem{.contact = arguments.law.question_of_law(arguments.material),
+  PathProblem problem{.contact = arguments.law.problem_of_law(arguments.material),
                         .path = {columns[0], columns[1], columns[2]},
                         .facts = arguments.premises.facts(arguments.material)};
   if (columns.size() > 3) problem.transverse = columns[3];
@@ -292,7 +292,7 @@ std::string text_of(const Json& answer, const DamperSolution& found) {
   return text;
 }
 
-DamperProblem damper_question(const DampingArguments& arguments) {
+DamperProblem damper_problem(const DampingArguments& arguments) {
   const MotionOptions& motion = arguments.motion;
   require_that(motion.mode == "drag" && arguments.force_amplitude.empty(),
                arguments.force_amplitude.empty() ? "--mode" : "--force-amplitude",
@@ -327,7 +327,7 @@ DamperProblem damper_question(const DampingArguments& arguments) {
 void damp(const DampingArguments& arguments, Session& session) {
   require_that(!arguments.maps.given(), "--stress-map", "and --friction-map are of one motion");
   if (!arguments.motion.frequency.given()) require_options({"--frequency"}, "a damper");
-  DamperProblem problem = damper_question(arguments);
+  DamperProblem problem = damper_problem(arguments);
   const std::vector<double> amplitudes = problem.normal_amplitude,
                             omega = problem.angular_frequency;
   require(!amplitudes.empty() || !session.has_output(), "--output", session.output().string(),

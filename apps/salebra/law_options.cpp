@@ -105,7 +105,7 @@ ContactSolution LawOptions::contact(const MaterialOptions& material, Session& se
   return contact;
 }
 
-ContactProblem LawOptions::question_of_law(const MaterialOptions& material) const {
+ContactProblem LawOptions::problem_of_law(const MaterialOptions& material) const {
   require(!surface.given(), "--surface", surface.file,
           "has no law for a path of indentations; press it and give its --curve");
   return read(material, false);

@@ -29,7 +29,7 @@ struct LawOptions {
                         const std::optional<double>& hardness, double normal_amplitude) const;
   /// Without positions, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
-  ContactProblem question_of_law(const MaterialOptions& material) const;
+  ContactProblem problem_of_law(const MaterialOptions& material) const;
   bool of_indenter() const {
     return !indenter.law.empty() && indenter.law != "exponential" && curve.empty() &&
            !surface.given();

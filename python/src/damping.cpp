@@ -26,8 +26,8 @@
 
 namespace salebra::python {
 
-void warn_of_unknown(const Motion& motion, const ContactFacts* facts) {
-  const std::string why = why_loss_unknown(motion, known(facts));
+void warn_of_unknown(const Motion& motion, const ContactFacts* facts, bool force_given) {
+  const std::string why = why_loss_unknown(motion, known(facts), force_given);
   if (!why.empty()) warn_user("the loss is unknown: " + why);
 }
 
@@ -105,8 +105,7 @@ void bind_damping_result(nb::module_& m) {
       m, "DampingResult", "Relaxation damping of one contact under one motion; NaN is unknown.");
   describe([&](auto member, const auto& line) { described_property(bound, member, line); },
            std::type_identity<DampingResult>{});
-  bound.def_prop_ro(
-      "regime", &regime_of, "no slip, partial slip, sliding or unknown.");
+  bound.def_prop_ro("regime", &regime_of, "no slip, partial slip, sliding or unknown.");
   bound.def_prop_ro(
       "premises", [](const BoundDamping& self) { return self.judged().premises; },
       "whether the contact may be taken for one without slip, yielding and inertia; None where "
@@ -153,7 +152,7 @@ void bind_damping_curve(nb::module_& m) {
             for (const BoundDamping& one : self.results) regimes.push_back(regime_of(one));
             return regimes;
           },
-          "Of each loss no slip, partial slip, sliding or unknown.")
+          "The regime of each loss: no slip, partial slip, sliding or unknown.")
       .def_prop_ro(
           "validity",
           [](const BoundDampingCurve& self) {
@@ -201,7 +200,6 @@ void bind_theorem(nb::module_& m) {
         cite({"popov2015"});
         const Position position = position_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
-        warn_of_unknown(motion, facts);
         const DampingResult result = unlocked([&] {
           DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping(law, position, one, options);
@@ -209,8 +207,10 @@ void bind_theorem(nb::module_& m) {
           add_slip(found, law, motion, known(facts));
           return found;
         });
+        BoundDamping bound = to_be_judged(result, law, motion, facts, curve);
+        warn_of_unknown(motion, facts);
         warn_of_held_indentation(options.hold, {&result, 1});
-        return to_be_judged(result, law, motion, facts, curve);
+        return bound;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
@@ -279,10 +279,8 @@ InvalidInput
           const double place = places[places.size() == 1 ? 0 : i];
           cases.push_back({force ? Position(AtForce{place}) : Position(AtIndentation{place}),
                            motions[motions.size() == 1 ? 0 : i]});
-          described.push_back(
-              std::visit([](const auto& one) -> Motion { return one; }, cases[i].motion));
+          described.push_back(motion_of(cases[i].motion));
         }
-        if (count > 0) warn_of_unknown(described.front(), facts);
         DampingOptions options = damping_options(hold, amplitude, tolerance);
         const std::vector<DampingResult> results = interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
@@ -297,6 +295,11 @@ InvalidInput
           curve_of.results.push_back(premises
                                          ? to_be_judged(results[i], law, described[i], facts, curve)
                                          : BoundDamping{results[i], {}, {}});
+        // One warning for all motions.
+        const auto unknown = std::ranges::find_if(described, [&](const Motion& one) {
+          return !why_loss_unknown(one, known(facts)).empty();
+        });
+        if (unknown != described.end()) warn_of_unknown(*unknown, facts);
         return curve_of;
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
@@ -320,17 +323,13 @@ DampingCurve
         cite({"popov2015"});
         const DampingOptions options{.amplitude = amplitude.value("amplitude"),
                                      .tolerance = tolerance};
-        if (!std::isnan(known(facts).friction_coefficient))
-          warn_user("the loss is unknown: slip is not followed where the force is given");
+        warn_of_unknown(motion, facts, true);
         const DampingResult result = unlocked([&] {
           DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
                                                        options);
           });
-          if (!std::isnan(known(facts).friction_coefficient)) {
-            found.forget();
-            found.power = Loss::unknown;
-          }
+          if (!std::isnan(known(facts).friction_coefficient)) found.forget();
           return found;
         });
         // The normal oscillation has the amplitude that the stiffness makes of the force's.

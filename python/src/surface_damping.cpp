@@ -24,10 +24,10 @@ namespace salebra::python {
 namespace {
 
 /// The losses of a solution, whose premises are known.
-BoundDampingCurve curve_of(const DampingSolution& answer, const std::vector<double>& pressures) {
+BoundDampingCurve curve_of(const DampingSolution& solution, const std::vector<double>& pressures) {
   BoundDampingCurve curve{"pressure", pressures, {}};
-  for (std::size_t i = 0; i < answer.results.size(); ++i)
-    curve.results.push_back({answer.results[i], answer.premises[i], {}});
+  for (std::size_t i = 0; i < solution.results.size(); ++i)
+    curve.results.push_back({solution.results[i], solution.premises[i], {}});
   return curve;
 }
 
@@ -68,7 +68,7 @@ void bind_surface_damping(nb::module_& m) {
         ContactFacts all = known(facts);
         if (!std::isnan(friction_coefficient)) all.friction_coefficient = friction_coefficient;
         if (!std::isnan(excursion)) all.excursion = excursion;
-        const Motion described = std::visit([](const auto& one) -> Motion { return one; }, motion);
+        const Motion described = motion_of(oscillation(motion));
         warn_of_unknown(described, &all);
         SurfaceDampingOptions options{.hold = hold.value("hold"),
                                       .amplitude = amplitude.value("amplitude"),
@@ -77,6 +77,8 @@ void bind_surface_damping(nb::module_& m) {
                                       .friction_coefficient = all.friction_coefficient,
                                       .excursion = all.excursion};
         if (seam) options.seam = seam->value("seam");
+        require_that(curve || options.boundary == Boundary::periodic, "boundary",
+                     "'free' needs a `curve` that was swept so; give it in place of `pressures`");
         if (curve)
           return interruptible(
               progress,
@@ -88,20 +90,24 @@ void bind_surface_damping(nb::module_& m) {
               },
               surface.surface.ranks);
         std::vector<std::string> warnings;
-        BoundDampingCurve found = interruptible(progress, [&](Progress told) {
-          SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
-          if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
-          const DampingSolution answer = solve(DampingProblem{.contact = std::move(contact),
-                                                           .motions = {described},
-                                                           .hold = options.hold,
-                                                           .amplitude = options.amplitude,
-                                                           .facts = all,
-                                                           .surface = options},
-                                           {.on_progress = std::move(told)});
-          warnings = answer.contact.doubts;
-          warnings.insert(warnings.end(), answer.doubts.begin(), answer.doubts.end());
-          return curve_of(answer, pressures->values);
-        });
+        BoundDampingCurve found = interruptible(
+            progress,
+            [&](Progress told) {
+              SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
+              if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
+              const DampingSolution solution =
+                  solve(DampingProblem{.contact = std::move(contact),
+                                       .motions = {described},
+                                       .hold = options.hold,
+                                       .amplitude = options.amplitude,
+                                       .facts = all,
+                                       .surface = options},
+                        {.on_progress = std::move(told)});
+              warnings = solution.contact.doubts;
+              warnings.insert(warnings.end(), solution.doubts.begin(), solution.doubts.end());
+              return curve_of(solution, pressures->values);
+            },
+            surface.surface.ranks);
         for (const std::string& warning : warnings) warn_user(warning);
         return found;
       },
@@ -132,6 +138,7 @@ facts : ContactFacts, optional
 hold : {"indentation", "force"}
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}
+    That of the curve; pressures are swept with "periodic".
 relative_error : float
     0, or the part of W that the error is to be below.
 seam : {"window", "free"}, optional

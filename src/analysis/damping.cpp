@@ -116,13 +116,6 @@ Premises premises_of_case(const ContactSolution& contact, const Case& one,
       motion);
 }
 
-/// Why the loss of a case with friction is not known; empty: it is.
-std::string why_unknown(const Case& one, const ContactFacts& facts) {
-  if (one.force_amplitude && !std::isnan(facts.friction_coefficient))
-    return "slip is not followed where `force_amplitude` is given; give the `normal_amplitude`";
-  return why_loss_unknown(one.motion, facts);
-}
-
 /// The place of a load, whose pressure came back with round-off.
 std::size_t place_of(const ForceCurve& curve, double pressure) {
   const auto nearest = std::ranges::min_element(curve.samples, {}, [&](const ForceSample& sample) {
@@ -163,18 +156,17 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
     const SurfaceDamping& load = found[place_of(loads, pressures[i])];
     DampingResult& result = solution.results[i];
     static_cast<Loss&>(result) = load;
+    result.drop_uncertain();
     result.error_estimate = load.work_per_cycle_error();
     result.converged = load.converged;
-    if (!known) {
+    result.power = closed_form::power(result.work_per_cycle, one);
+    if (!known)
       result.forget();
-    } else if (!(load.work_per_cycle_error() < std::abs(load.work_per_cycle))) {
+    else if (std::isnan(result.work_per_cycle))
       solution.doubts.push_back(
           fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
                       "a study of the surface with a `relative_error` halves the cells further",
                       format_quantity(pressures[i], Dimension::pressure)));
-      result.work_per_cycle = result.damping_constant = not_known;
-    }
-    result.power = closed_form::power(result.work_per_cycle, one);
   }
 }
 
@@ -286,9 +278,10 @@ class SurfaceDamper {
     return surface_damping(*solution_.contact.surface, material_, drag, about_, options)[0];
   }
 
-  /// With its error where this is smaller.
+  /// Returns the loss, with its error, if the error is smaller.
   Loss stated(Loss loss, double amplitude) {
-    if (loss.damping_constant_error() < std::abs(loss.damping_constant)) return loss;
+    loss.drop_uncertain();
+    if (!std::isnan(loss.damping_constant)) return loss;
     solution_.doubts.push_back(fmt::format(
         "the error of the damping constant under {} exceeds it, and neither is given; a finer "
         "surface helps",
@@ -342,14 +335,13 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     const Case& one = cases[i];
     DampingResult& result = solution.results[i];
     solution.motions.push_back(one.motion);
-    const std::string why = why_unknown(one, problem.facts);
+    const std::string why =
+        why_loss_unknown(one.motion, problem.facts, one.force_amplitude.has_value());
     if (unknown.empty()) unknown = why;
-    if (!why.empty()) {
+    if (!why.empty())
       result.forget();
-      result.power = not_known;
-    } else if (!surface) {
+    else if (!surface)
       add_slip(result, law, one.motion, problem.facts, problem.steps, context);
-    }
     solution.ratio.push_back(1 / small_over_exact(result, one.motion));
     solution.premises.push_back(premises_of_case(solution.contact, one, result, problem.facts));
     if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {

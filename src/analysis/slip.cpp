@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Slip in the loss of a law, where the coefficient of friction is known.
 #include <cmath>
-#include <salebra/damping/closed_form.hpp>
 #include <salebra/analysis/slip.hpp>
+#include <salebra/damping/closed_form.hpp>
 #include <variant>
 
 namespace salebra {
-std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts) {
+
+std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts, bool force_given) {
   if (std::isnan(facts.friction_coefficient)) return {};
+  if (force_given)
+    return "slip is not followed where `force_amplitude` is given; give the `normal_amplitude`";
   const auto* two = std::get_if<TwoFrequencies>(&motion);
   if (two && common_period(*two).normal_cycles == 0)
     return "slip is not followed in a motion that never repeats; give frequencies with a common "
@@ -26,7 +29,6 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
   const double friction = facts.friction_coefficient;
   if (std::isnan(friction)) return;
   result.forget();
-  result.power = result.error_estimate = Loss::unknown;
   if (!why_loss_unknown(motion, facts).empty()) return;
   const auto take = [&](const auto& loss) {
     result.work_per_cycle = loss.work_per_cycle;

@@ -297,6 +297,11 @@ DampingResult force_controlled(const ContactLaw& law, double mean_force, double 
 
 }  // namespace
 
+void DampingResult::forget() {
+  Loss::forget();
+  power = error_estimate = storage_stiffness = loss_factor = unknown;
+}
+
 DampingResult detail::damping_about(const ContactLaw& law, double mean_indentation,
                                     const Motion& motion, double tolerance) {
   const Kernel kernel = std::visit([](const auto& one) { return kernel_of(one); }, motion);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damping constants of a loss.
+// Damping constants of a loss, and when it is not known.
 #include <cmath>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/loss.hpp>
@@ -14,7 +14,8 @@ void Loss::set_damping_constants(const Oscillation& motion) {
 }
 
 void Loss::drop_uncertain() {
-  if (error.total() >= std::abs(work_per_cycle)) work_per_cycle = damping_constant = unknown;
+  if (error.total() >= std::abs(work_per_cycle))
+    work_per_cycle = damping_constant = relaxation_work = slip_work = unknown;
   if (error_without_slip.total() >= std::abs(work_per_cycle_without_slip))
     work_per_cycle_without_slip = damping_constant_without_slip = unknown;
 }

@@ -31,6 +31,10 @@ SampledMotion sample_cycles(double mean, double amplitude, double angular_freque
 
 }  // namespace
 
+Motion motion_of(const Oscillation& motion) {
+  return std::visit([](const auto& one) -> Motion { return one; }, motion);
+}
+
 std::optional<Oscillation> oscillation_of(const Motion& motion) {
   if (const auto* equal = std::get_if<EqualFrequency>(&motion)) return *equal;
   if (const auto* drag = std::get_if<Drag>(&motion)) return *drag;

@@ -19,7 +19,7 @@ namespace salebra::detail {
 class InputFile;
 
 /// What the reader of a file did not understand, unless the user settles it.
-struct OpenProblem {
+struct OpenQuestion {
   std::string text;
   bool size = false, heights = false;  ///< settled by sizes, by the unit of the heights
 };
@@ -35,7 +35,7 @@ struct LoadedSurface {
   bool lateral_unit_open = false;  ///< the sizes are in a unit that the file does not name
   bool is_profile = false;         ///< one row
   bool has_channels = false;       ///< the reader chose one by ReadOptions::channel
-  std::vector<OpenProblem> questions = {};
+  std::vector<OpenQuestion> questions = {};
   std::vector<std::string> remarks = {};  ///< on what it says and the reader did not use
 };
 

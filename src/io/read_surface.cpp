@@ -291,9 +291,9 @@ void answer_questions(const std::filesystem::path& file, const ReadOptions& opti
                     (options.size_x && (options.size_y || loaded.is_profile)) ||
                     (loaded.lateral_unit_open && !options.lateral_unit.empty());
   const bool heights = !loaded.unit.empty() || !options.height_unit.empty();
-  for (const OpenProblem& problem : loaded.questions) {
-    if ((problem.size && !size) || (problem.heights && !heights)) refuse(file, problem.text);
-    loaded.remarks.push_back(problem.text.substr(0, problem.text.rfind(';')));
+  for (const OpenQuestion& question : loaded.questions) {
+    if ((question.size && !size) || (question.heights && !heights)) refuse(file, question.text);
+    loaded.remarks.push_back(question.text.substr(0, question.text.rfind(';')));
   }
   if (options.height_unit.empty() || loaded.unit.empty()) return;
   const std::string& unit = loaded.stated_unit.empty() ? loaded.unit : loaded.stated_unit;

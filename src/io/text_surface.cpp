@@ -370,7 +370,7 @@ class TextReader {
       return;
     }
     if (header_.length && !header_.width)
-      problem(header_.length->quote + ", is a length of no axis");
+      question(header_.length->quote + ", is a length of no axis");
     loaded_.size_x = size_of(file_, x, loaded_);
     loaded_.size_y = size_of(file_, y, loaded_);
   }
@@ -419,7 +419,7 @@ class TextReader {
     loaded_.is_profile = true;
     loaded_.heights = Eigen::Map<const Field>(heights.data(), rows_.rows, 1);
     if (header_.width && header_.length)
-      problem(header_.length->quote + ", is stated beside a size");
+      question(header_.length->quote + ", is stated beside a size");
     loaded_.size_x = size_of(file_,
                              {"x", rows_.rows, header_.width ? header_.width : header_.length,
                               header_.pixel_x, unit_or_common("", header_.x_unit)},
@@ -430,7 +430,7 @@ class TextReader {
                     const std::string& unit) {
     check_counts(rows_.rows, rows_.rows, rows_.rows);
     if (header_.height)
-      problem(header_.height->quote + ", states a size that a profile does not have");
+      question(header_.height->quote + ", states a size that a profile does not have");
     if (positions.size() > 1 && positions.back() < positions.front()) {
       std::ranges::reverse(positions);
       std::ranges::reverse(heights);
@@ -450,7 +450,7 @@ class TextReader {
     require_both_units(closed);
   }
 
-  void problem(const std::string& what) {
+  void question(const std::string& what) {
     loaded_.questions.push_back(
         {what + "; remove it, or give the sizes and `height_unit`", true, true});
   }

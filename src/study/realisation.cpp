@@ -101,10 +101,6 @@ double stiffness_coefficient(const ForceCurve& curve, const PressureWindow& wind
   return curve.rms_height * product / square;
 }
 
-Motion motion_of(const StudyConfiguration& configuration) {
-  return std::visit([](const auto& one) -> Motion { return one; }, configuration.motion);
-}
-
 std::vector<DampingPoint> damping_curve(const ModelResult& model,
                                         const StudyConfiguration& configuration) {
   const double modulus_ratio = configuration.material.modulus_ratio();
@@ -145,7 +141,7 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
           // Slip may reach below the curve: the loss without slip stays.
           static_cast<Loss&>(point) = by_curve;
           if (!std::isnan(configuration.known.friction_coefficient)) point.forget();
-          add_slip(by_curve, *curve_law, motion_of(configuration), configuration.known);
+          add_slip(by_curve, *curve_law, motion_of(configuration.motion), configuration.known);
           static_cast<Loss&>(point) = by_curve;
         }
       } catch (const InvalidInput&) {
@@ -169,7 +165,7 @@ void resolve_damping(ModelResult& result, const Surface& surface,
       surface_damping(surface, configuration.material, configuration.motion, result.curve, options);
   // One surface has no other number to average with.
   const bool alone = detail::seeds_of(configuration).size() == 1;
-  const bool known = why_loss_unknown(motion_of(configuration), configuration.known).empty();
+  const bool known = why_loss_unknown(motion_of(configuration.motion), configuration.known).empty();
   for (std::size_t k = 0; k < resolved.size(); ++k) {
     Loss& loss = result.damping[k];
     loss = resolved[k];

@@ -6,6 +6,8 @@
 #include <salebra/analysis/slip.hpp>
 #include <salebra/study/study_solution.hpp>
 
+#include "damping/phase_quadrature.hpp"
+
 namespace salebra {
 namespace {
 
@@ -61,8 +63,6 @@ void set_shares(StudySolution& solution, const StudyResult& result) {
 StudySolution solution_of(const StudyResult& result) {
   const StudyConfiguration& configuration = result.configuration;
   const std::size_t count = result.pressures.size();
-  const Motion motion =
-      std::visit([](const auto& one) -> Motion { return one; }, configuration.motion);
   StudySolution solution{
       .pressures = result.pressures,
       .damping_constant = result.stated("damping_constant"),
@@ -75,13 +75,13 @@ StudySolution solution_of(const StudyResult& result) {
       .slip_followed = !std::isnan(configuration.known.friction_coefficient),
       .premises = std::vector<Premises>(count)};
   if (configuration.adhesion) return solution;
-  solution.unknown = why_loss_unknown(motion, configuration.known);
+  solution.unknown = why_loss_unknown(motion_of(configuration.motion), configuration.known);
   if (solution.slips()) set_shares(solution, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
     const ContactFacts known = facts_of(result);
-    const double amplitude = std::visit([](const auto& one) { return one.normal_amplitude; }, motion);
+    const double amplitude = detail::normal_amplitude(configuration.motion);
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;

@@ -97,7 +97,7 @@ const std::set<std::string> indices{"sample",    "component",   "realisation", "
                                     "ny",        "mapped_load", "step"};
 const std::set<std::string> counts{"realisations", "seed"};
 
-/// Columns of questions and of the program, which the library's glossary does not have.
+/// Columns of problems and of the program, which the library's glossary does not have.
 const Meanings& columns_of_program() {
   static const Meanings all =
       meanings_of<Cost, PointCost, DampingProblem, PathProblem, DampingSolution, DamperSolution,

@@ -365,6 +365,30 @@ TEST_CASE("Errors of the loss with slip hold, over three decades of the excursio
   CHECK(stated[stated.size() / 2] < 0.25);
 }
 
+TEST_CASE("A loss whose error is not smaller is no number, and neither are its parts") {
+  Loss loss;
+  loss.work_per_cycle = 1;
+  loss.relaxation_work = 0.4;
+  loss.slip_work = 0.6;
+  loss.work_per_cycle_without_slip = 2;
+  loss.set_damping_constants(Drag{1e-9, 1e-3, 1e5});
+  loss.error = {.cells = 0.3, .noise = 0.4, .intervals = 0, .stiffness_ratio = 0, .solver = 0};
+  loss.error_without_slip = loss.error;
+  Loss kept = loss;
+  kept.drop_uncertain();
+  CHECK(kept.work_per_cycle == 1);
+  CHECK(kept.damping_constant_error() == Approx(0.5 * loss.damping_constant).epsilon(1e-12));
+  loss.error.noise = 1;
+  loss.error_without_slip.noise = 3;
+  loss.drop_uncertain();
+  for (const double number : {loss.work_per_cycle, loss.damping_constant, loss.relaxation_work,
+                              loss.slip_work, loss.work_per_cycle_without_slip,
+                              loss.damping_constant_without_slip})
+    CHECK(std::isnan(number));
+  // The error stays, to say why.
+  CHECK(loss.work_per_cycle_error() == Approx(std::sqrt(0.09 + 1)));
+}
+
 TEST_CASE("Friction leaves the loss without slip as it is, to the bit") {
   const Surface surface = rough(32, 7);
   const Drag motion = drag(surface, 0.05);

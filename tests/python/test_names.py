@@ -68,6 +68,8 @@ def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
         getattr(salebra, "surface_dampin")  # noqa: B009
     with pytest.raises(AttributeError, match="no attribute 'qqq'$"):
         getattr(salebra, "qqq")  # noqa: B009
+    with pytest.raises(AttributeError, match="salebra.StudyAnswer is now salebra.StudySolution"):
+        getattr(salebra, "StudyAnswer")  # noqa: B009
 
 
 def test_messages_name_arguments_of_python() -> None:

@@ -81,6 +81,9 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
         for face, numbers in found.items():
             shown = [np.nan if number is None else number for number in numbers]
             assert shown == pytest.approx(expected, rel=1e-6, nan_ok=True), f"{name} of {face}"
+    # Pressures are swept with a periodic surface, and a free one beside them would be another contact.
+    with pytest.raises(salebra.InvalidInput, match="boundary: 'free' needs a `curve`"):
+        salebra.surface_damping(surface, material, motion, pressures=[1e6], boundary="free")
     # Slip is a large part here: neither name can stand for the other.
     assert min(a / b for a, b in zip(means(answer.damping_constant), means(answer.damping_constant_without_slip)) if a == a and b == b) > 1.2
     if salebra.can_report():

@@ -8,12 +8,14 @@
 #include <salebra/analysis/contact.hpp>
 #include <string>
 
-/// Adds slip to a loss. The program, studies, Python and the report all use this function.
+/// Adds slip to a loss. The program, studies and Python call this; the report shows what a study found.
 namespace salebra {
 
 /// Returns a sentence on why the loss of a motion with a known coefficient of friction is unknown
-/// and which input is missing; empty if it is known, or friction is infinite.
-std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts);
+/// and which input is missing; empty if it is known, or friction is infinite. force_given: the normal
+/// force oscillates by a given amplitude.
+std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts,
+                             bool force_given = false);
 
 /// Turns the loss of a law without slip into that of the motion as described: with slip where the
 /// coefficient of friction is known, NaN where why_loss_unknown() gives a reason. A slow motion

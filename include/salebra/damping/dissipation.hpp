@@ -73,6 +73,9 @@ struct DampingResult : Loss {
   double error_estimate = unknown;  ///< error of work_per_cycle, J: quadrature and round-off only
   bool converged =
       false;  ///< whether the quadratures reached the tolerance; false: do not use work_per_cycle
+
+  /// Sets the loss and what follows from it to NaN, except the numbers without slip.
+  void forget();
 };
 
 constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {

@@ -70,7 +70,7 @@ struct Loss {
   }
   /// Computes γ = P/⟨ẋ²⟩ from the works, ⟨ẋ²⟩ = v² or (u_x ω)²/2; NaN where the motion has no ω.
   void set_damping_constants(const Oscillation& motion);
-  /// Sets numbers to NaN that are no larger than their error; the error stays.
+  /// Sets the loss, and the loss without slip, to NaN if its error is not smaller; the errors stay.
   void drop_uncertain();
   /// Sets the loss to NaN, except the numbers without slip.
   void forget();

@@ -81,6 +81,8 @@ using Motion = std::variant<EqualFrequency, Drag, TwoFrequencies>;
 
 /// Returns the motion if it has one frequency; empty for two.
 std::optional<Oscillation> oscillation_of(const Motion& motion);
+/// Returns the same motion as one of all motions.
+Motion motion_of(const Oscillation& motion);
 
 /// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms. It is 0/0 where no ratio with at most
 /// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means replace sums.

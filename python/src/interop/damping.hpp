@@ -56,8 +56,8 @@ struct BoundDampingCurve {
 
 inline ContactFacts known(const ContactFacts* facts) { return facts ? *facts : ContactFacts{}; }
 
-/// Says why a loss with friction is unknown, before it is returned as NaN.
-void warn_of_unknown(const Motion& motion, const ContactFacts* facts);
+/// Warns of a loss that is NaN because friction is known and another input is not.
+void warn_of_unknown(const Motion& motion, const ContactFacts* facts, bool force_given = false);
 
 /// "slip_of_opening_levels broken, amplitude doubtful", or that none is.
 std::string verdicts(const Premises& premises);

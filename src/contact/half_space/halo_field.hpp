@@ -42,7 +42,7 @@ class HaloField {
   LargeArray<Real> data_;
 };
 
-// The rows of the halo of a field, and with them how a field whose rows are shared so is with_halo.
+// Returns the exchange that fills the halo of a field whose rows are shared so.
 RowExchange halo_rows(const Share& rows, Boundary boundary);
 
 }  // namespace salebra::detail

@@ -11,9 +11,9 @@ namespace salebra::detail {
 namespace {
 
 // The share of the first tiles, which are the most. Measured on one core (bench/contact): the
-// multilevel is as fast as a transform of 512² where about a third of the points are in tiles, of 1024²
-// at some more than half of them, and of 2048² where all are; what surrounds the stencils weighs
-// less on large grids.
+// multilevel kernel is as fast as a transform of 512² where about a third of the points are in tiles,
+// of 1024² at some more than half of them, and of 2048² where all are; what surrounds the stencils
+// weighs less on large grids.
 double worthwhile_share(double points) {
   const double doublings = 0.5 * std::log2(points / (512.0 * 512.0));
   return doublings < -0.1 ? 0 : 0.35 * std::pow(1.7, std::max(doublings, 0.0));

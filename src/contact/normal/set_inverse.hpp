@@ -21,7 +21,7 @@ class SetInverse {
   ~SetInverse();
 
   // The set: ix·ny + iy of the rows of this process, in row order. False where the grid has no
-  // multilevel: apply() must not be called then. Both are collective.
+  // multilevel kernel: apply() must not be called then. Both are collective.
   bool hold(const std::vector<Index>& cells);
   // One value for each cell of the set; q may be u.
   void apply(const double* u, double* q);

@@ -24,7 +24,7 @@ struct Truncation {
   double scale, shift, full_from;
 };
 
-// A field is either with_halo, or tile after tile (packed) with zeros where a row ends within a tile.
+// A field either has a halo, or stands tile after tile (packed) with zeros where a row ends within a tile.
 // Directions and their images are packed too: as whole fields they would be the half of what an
 // iteration reads and writes. The transform spreads and collects them row by row.
 template <class Real>
@@ -33,7 +33,7 @@ struct TileArrays {
   std::ptrdiff_t tile_count;
   std::ptrdiff_t ny;             // cells of a row
   std::ptrdiff_t halo_stride;  // from one row of r to the next
-  Real* r;                       // with_halo: (g − level) on the free cells, zero elsewhere
+  Real* r;                       // with a halo: (g − level) on the free cells, zero elsewhere
   double* p;                     // packed: pressure
   double* g;                     // packed: Gp − h
   Real* t;                       // packed: search direction

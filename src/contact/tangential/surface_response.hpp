@@ -34,8 +34,8 @@ double largest_of(const double* values, Index count);
 /// Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Cells of a set in row order, as positions in the window and in the preconditioner's with_halo
-/// window: of the rows of this process.
+/// Cells of a set in row order, as positions in the window and in that of the preconditioner, which
+/// has a halo: of the rows of this process.
 struct PointList {
   std::vector<Index> cell;        ///< ix·ny + iy in the fields
   std::vector<Index> windowed;    ///< ix·ny + iy in the window
@@ -133,7 +133,7 @@ class ContactSystem {
   /// Conjugate gradients from the guess in `tractions`; stops at rms(u − Kτ) < tolerance, in m.
   /// Preconditioned by SetInverse for each component: Cerruti's response has Σ(1−ν_i)/(G_i q) and
   /// Σ1/(G_i q) as eigenvalues, so that the condition number is their ratio, 1/(1 − ν), but for
-  /// what the error of SetInverse adds. Where there is no multilevel, by the stencil. On return
+  /// what the error of SetInverse adds. Where there is no multilevel kernel, by the stencil. On return
   /// residual is in m, and `misfit` (components × points) holds u − Kτ.
   struct Limits {
     double tolerance;

@@ -12,7 +12,7 @@
 // begins here.
 namespace salebra::detail::reference {
 
-// One cell of a tile: its place in a packed array, in the with_halo residual, and in its row.
+// One cell of a tile: its place in a packed array, in the residual with its halo, and in its row.
 struct Cell {
   std::ptrdiff_t tile, packed, with_halo, column;
 };

@@ -235,7 +235,7 @@ TEST_CASE("A force curve with both stiffnesses over processes has the bits of on
           "[spread]") {
   const auto boundary = GENERATE(Boundary::periodic, Boundary::free);
   const int ranks = GENERATE(2, 3, 8);
-  // The smaller grid has no multilevel: its stick solves are preconditioned by the stencil.
+  // The smaller grid has no multilevel kernel: its stick solves are preconditioned by the stencil.
   const Index n = GENERATE(96, 256);
   const Surface surface = test::rough_surface({n, n, double(n), double(n)});
   const Material material = Material::of_contact_modulus(1, 0.3);

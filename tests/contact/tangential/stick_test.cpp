@@ -307,7 +307,7 @@ TEST_CASE("The steps of a stick solve do not grow with the grid where it is on t
           "[stick]") {
   // With the exact inverse of the normal response the condition number is 1/(1 − ν) = 1.43, each
   // step gains a factor of 11, and 1e-6 takes six. The inverse has an error of a tenth in the norm
-  // of G, which costs up to half as many again. The stencil takes 13 at 128², which has no multilevel,
+  // of G, which costs up to half as many again. The stencil takes 13 at 128², which has no such kernel,
   // and more on larger grids.
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   for (const Index n : {256, 512, 1024}) {
