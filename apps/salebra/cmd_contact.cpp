@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <salebra/study/configuration.hpp>
 
 #include "contact_command.hpp"

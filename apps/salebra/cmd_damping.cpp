@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>  // closed forms, which are no problem
 #include <salebra/io/result_file.hpp>
-#include <salebra/analysis/damping.hpp>
 
 #include "damping_maps.hpp"
 #include "figures.hpp"
@@ -78,8 +78,8 @@ void follow_file(const DampingArguments& arguments, Session& session) {
                         3)
           .columns;
   PathProblem problem{.contact = arguments.law.problem_of_law(arguments.material),
-                        .path = {columns[0], columns[1], columns[2]},
-                        .facts = arguments.premises.facts(arguments.material)};
+                      .path = {columns[0], columns[1], columns[2]},
+                      .facts = arguments.premises.facts(arguments.material)};
   if (columns.size() > 3) problem.transverse = columns[3];
   const SampledMotion& path = problem.path;
   const PathSolution answer = solve(problem, session.context());
@@ -178,12 +178,12 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
 void lose(const DampingArguments& arguments, Session& session) {
   const std::vector<Motion> motions = motions_of(arguments);
   DampingProblem problem{.contact = {},
-                           .motions = motions,
-                           .force_amplitude = arguments.force_amplitude,
-                           .hold = *parse_enum<Hold>(arguments.hold),
-                           .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
-                           .facts = arguments.premises.facts(arguments.material),
-                           .steps = arguments.steps};
+                         .motions = motions,
+                         .force_amplitude = arguments.force_amplitude,
+                         .hold = *parse_enum<Hold>(arguments.hold),
+                         .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
+                         .facts = arguments.premises.facts(arguments.material),
+                         .steps = arguments.steps};
   Varied varied = arguments.motion.varied();
   find_varied(arguments.law.at, varied);
   find_varied(problem, varied);
@@ -306,11 +306,11 @@ DamperProblem damper_problem(const DampingArguments& arguments) {
           "values are given; a damper takes one");
   arguments.law.at.require_one("a damper takes one");
   DamperProblem problem{.normal_amplitude = motion.normal_amplitude,
-                          .angular_frequency = motion.frequency.angular(),
-                          .hold = *parse_enum<Hold>(arguments.hold),
-                          .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
-                          .falling_slope = arguments.body.falling_slope,
-                          .facts = arguments.premises.facts(arguments.material)};
+                        .angular_frequency = motion.frequency.angular(),
+                        .hold = *parse_enum<Hold>(arguments.hold),
+                        .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
+                        .falling_slope = arguments.body.falling_slope,
+                        .facts = arguments.premises.facts(arguments.material)};
   if (!motion.drag_velocity.empty()) {
     require_positive(motion.drag_velocity.front(), "--drag-velocity");
     problem.drag_velocity = motion.drag_velocity.front();

@@ -13,12 +13,12 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
+#include "analysis/part.hpp"
 #include "io/atomic_file.hpp"
 #include "io/loaded_surface.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
 #include "program.hpp"
-#include "analysis/part.hpp"
 #include "results/answer_json.hpp"
 
 namespace salebra::cli {
@@ -107,13 +107,13 @@ void run(const ExportArguments& arguments, Session& session) {
                "given together with RESULT; give one of them");
   const std::string file = arguments.result.empty() ? law.curve : arguments.result;
   DeckProblem problem{.contacts = {},
-                        .format = *parse_enum<DeckFormat>(arguments.format),
-                        .units = parse_unit_system(arguments.units, "--units"),
-                        .rows = arguments.rows,
-                        .of = *parse_enum<DeckCase>(arguments.of),
-                        .sliders = arguments.sliders,
-                        .name = arguments.name,
-                        .provenance = session.provenance()};
+                      .format = *parse_enum<DeckFormat>(arguments.format),
+                      .units = parse_unit_system(arguments.units, "--units"),
+                      .rows = arguments.rows,
+                      .of = *parse_enum<DeckCase>(arguments.of),
+                      .sliders = arguments.sliders,
+                      .name = arguments.name,
+                      .provenance = session.provenance()};
   if (arguments.friction_coefficient)
     problem.friction_coefficient = *arguments.friction_coefficient;
   if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <numbers>
-#include <salebra/base/error.hpp>
 #include <salebra/analysis/damping.hpp>
+#include <salebra/base/error.hpp>
 
 #include "damping/joint_loop.hpp"
 #include "figures.hpp"

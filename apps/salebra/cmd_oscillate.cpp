@@ -7,9 +7,9 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <salebra/analysis/oscillation.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/analysis/oscillation.hpp>
 
 #include "base/memory.hpp"
 #include "base/stop_check.hpp"
@@ -51,9 +51,9 @@ OscillatingBody shape_of(const OscillateArguments& arguments, const std::string&
   const double width = arguments.surface.size_y.value_or(size);
   const double lines = points * width / size;
   constexpr double most_lines = std::numeric_limits<int>::max();
-  require(lines < most_lines, "--size-y", format_quantity(width, Dimension::length),
-          fmt::format("would need {:.3g} lines of the cells of --size-x; choose a smaller one",
-                      lines));
+  require(
+      lines < most_lines, "--size-y", format_quantity(width, Dimension::length),
+      fmt::format("would need {:.3g} lines of the cells of --size-x; choose a smaller one", lines));
   const Grid2D grid{points, std::max<Index>(1, std::lround(lines)), size, width};
   grid.validate();
   require_memory(grid, sizeof(double) * static_cast<double>(grid.points()), "a surface");

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <salebra/base/error.hpp>
 #include <salebra/analysis/sliding.hpp>
+#include <salebra/base/error.hpp>
 
 #include "law_options.hpp"
 #include "options.hpp"
@@ -136,8 +136,8 @@ void slide(const SlidingArguments& arguments, Session& session) {
   const ContactSolution contact = contact_of(arguments, session);
   const SlidingSolution found =
       solve(problem, contact,
-          contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
-          session.context());
+            contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
+            session.context());
   session.warn(found.doubts);
 
   Json answer = Json::object(), columns = json_of(found.points);

@@ -225,9 +225,10 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
     // Those of the profile with its straight line, which the fit takes off.
     const Index n = complete.grid.nx;
     fit.rms_height = height_statistics(complete).rms_height;
-    fit.rms_slope = std::sqrt(
-        (complete.heights.bottomRows(n - 1) - complete.heights.topRows(n - 1)).square().mean()) /
-        complete.grid.dx();
+    fit.rms_slope = std::sqrt((complete.heights.bottomRows(n - 1) - complete.heights.topRows(n - 1))
+                                  .square()
+                                  .mean()) /
+                    complete.grid.dx();
   }
   const ProfilePsd psd = profile_psd(complete, Axis::x, *parse_enum<Window>(arguments.window));
   Json answer{
@@ -241,8 +242,9 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   if (undefined > 0) session.note(fmt::format("{} undefined points were filled", undefined));
   if (!fit.hurst.found()) session.note(no_hurst);
   note_asymmetry(arguments, detail::asymmetric_wavelength(complete), session);
-  const std::vector<ResultTable> tables{psd_table(
-      "profile_psd_x", converted(psd, *parse_enum<PsdConvention>(arguments.convention)), psd.modes)};
+  const std::vector<ResultTable> tables{
+      psd_table("profile_psd_x", converted(psd, *parse_enum<PsdConvention>(arguments.convention)),
+                psd.modes)};
   write_tables(session, "statistics", answer, tables);
   session.answer(answer);
   if (fit.hurst.found())

@@ -156,7 +156,8 @@ std::string answer_table(const StudyResult& result, const StudySolution& answer)
 /// What a reader has to know before the numbers are of use, and after.
 std::string notes(const StudyResult& result, const StudySolution& answer) {
   std::string text;
-  if (!answer.unknown.empty()) text += wrapped(in_options("γ is n/a: " + answer.unknown + "."), 78) + "\n";
+  if (!answer.unknown.empty())
+    text += wrapped(in_options("γ is n/a: " + answer.unknown + "."), 78) + "\n";
   const auto& constants =
       answer.unknown.empty() ? answer.damping_constant : answer.damping_constant_without_slip;
   const auto unstated = std::ranges::count_if(constants, [](const StatedMean& one) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>  // the loss of rubber has one face
-#include <salebra/analysis/contact.hpp>
 
 #include "damping/phase_quadrature.hpp"
 #include "figures.hpp"
@@ -133,10 +133,9 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
       losses_of(arguments, law, prony, indentation, session);
   PremiseReport premises{.list = true, .body = "relaxed elastic body"};
   for (const Oscillation& motion : arguments.motion.motions())
-    premises.cases.push_back(premises_of(
-        law, indentation, motion,
-        at_state(known, law, nullptr, indentation,
-                 indentation + detail::normal_amplitude(motion))));
+    premises.cases.push_back(premises_of(law, indentation, motion,
+                                         at_state(known, law, nullptr, indentation,
+                                                  indentation + detail::normal_amplitude(motion))));
 
   Json answer = json_of(state_of(*any_law, indentation));
   answer.add(json_of(prony));

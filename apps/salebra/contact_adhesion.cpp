@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
 

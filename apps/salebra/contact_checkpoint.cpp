@@ -54,9 +54,10 @@ void ContactCheckpoint::check(const Session& session, const std::string& initial
         replaces || !std::filesystem::exists(file), file,
         "exists; continue from it with --initial " + file + ", or add --overwrite to start anew");
     // A checkpoint is removed at the end: a result that the user kept is none.
-    require(!same_file(file, initial) || !std::filesystem::exists(file) || is_checkpoint(file),
-            "--checkpoint", file,
-            "is a result, which --initial reads and the checkpoint would replace; name another file");
+    require(
+        !same_file(file, initial) || !std::filesystem::exists(file) || is_checkpoint(file),
+        "--checkpoint", file,
+        "is a result, which --initial reads and the checkpoint would replace; name another file");
     require_output(file, {.overwrite = true});
   });
 }

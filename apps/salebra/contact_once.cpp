@@ -7,12 +7,12 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/normal/distributions.hpp>  // a picture of one state
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
-#include <salebra/analysis/contact.hpp>
 
 #include "answers.hpp"
 #include "contact_command.hpp"

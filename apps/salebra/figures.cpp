@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/base/units.hpp>
 #include <salebra/analysis/damping.hpp>
+#include <salebra/base/units.hpp>
 
 #include "result_tables.hpp"
 

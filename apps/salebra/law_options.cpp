@@ -83,7 +83,7 @@ ContactProblem LawOptions::read(const MaterialOptions& material, bool with_posit
 }
 
 ContactProblem LawOptions::problem(const MaterialOptions& material, Session& session,
-                                     const std::optional<double>& hardness) const {
+                                   const std::optional<double>& hardness) const {
   if (!surface.given()) return read(material, true);
   require(indenter.law.empty() && curve.empty(), "--surface", surface.file,
           "is given together with --law or --curve; give one of them");
@@ -96,8 +96,8 @@ ContactProblem LawOptions::problem(const MaterialOptions& material, Session& ses
 }
 
 ContactSolution LawOptions::contact(const MaterialOptions& material, Session& session,
-                                  const std::optional<double>& hardness,
-                                  double normal_amplitude) const {
+                                    const std::optional<double>& hardness,
+                                    double normal_amplitude) const {
   ContactProblem asked = problem(material, session, hardness);
   if (auto* body = std::get_if<SurfaceContact>(&asked)) body->normal_amplitude = normal_amplitude;
   ContactSolution contact = solve(std::move(asked), session.context());

@@ -23,10 +23,10 @@ struct LawOptions {
   void add_to(Command& command);
   /// Throws InvalidInput naming the option that is missing or one too many. A surface is read.
   ContactProblem problem(const MaterialOptions& material, Session& session,
-                           const std::optional<double>& hardness) const;
+                         const std::optional<double>& hardness) const;
   /// The answer, whose doubts are told.
   ContactSolution contact(const MaterialOptions& material, Session& session,
-                        const std::optional<double>& hardness, double normal_amplitude) const;
+                          const std::optional<double>& hardness, double normal_amplitude) const;
   /// Without positions, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
   ContactProblem problem_of_law(const MaterialOptions& material) const;

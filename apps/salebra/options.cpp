@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <charconv>
 #include <numbers>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>  // the bodies are known to options alone
 #include <salebra/io/read_surface.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/surface/moments.hpp>
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/units.hpp>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/io/result_file.hpp>
 #include <salebra/analysis/oscillation.hpp>
+#include <salebra/io/result_file.hpp>
 #include <string>
 
 #include "io/plot.hpp"

@@ -38,8 +38,7 @@ int fail(int status, std::string_view message) {
   // CLI11 quotes what it was given, however long.
   constexpr std::size_t longest = 2000;
   std::string line = printable(shortened(in_options(message), longest));
-  std::ranges::replace_if(
-      line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
+  std::ranges::replace_if(line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
   print_remark(fmt::format("{}: {} {}\n", program_name(),
                            emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;

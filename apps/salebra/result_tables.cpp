@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/analysis/damping.hpp>
 #include <salebra/results/quantity.hpp>
 
 #include "answers.hpp"

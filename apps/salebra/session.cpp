@@ -11,9 +11,9 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <salebra/results/force_curve_file.hpp>
 
 #include "base/printable.hpp"
@@ -162,9 +162,10 @@ void Session::name_files(const std::deque<Option>& options) {
       const std::string& name = option.names().back();
       require(!file.empty(), name, "''", "names no file");
       if (file == "-")
-        throw InvalidInput(name, file,
-                           "is no file: standard input and output are not read or written in place of "
-                           "one; name a file, or write ./- for a file of that name");
+        throw InvalidInput(
+            name, file,
+            "is no file: standard input and output are not read or written in place of "
+            "one; name a file, or write ./- for a file of that name");
       if (option.file_use() == FileUse::output) {
         writes(name, file, option.partner());
         if (std::filesystem::path(file).extension() == ".npy")

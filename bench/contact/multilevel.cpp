@@ -111,8 +111,8 @@ int main(int argc, char** argv) {
       cases.push_back({boundary, 8, 0.02, hardness});
 
   std::printf("%-9s %-8s %7s %6s %8s  %5s %12s %12s  %7s %7s  %11s %8s\n", "points", "boundary",
-              "cut-off", "f", "hardness", "pairs", "on multilevel kernels", "as chosen", "multilevel", "chosen",
-              "contraction", "e_c");
+              "cut-off", "f", "hardness", "pairs", "on multilevel kernels", "as chosen",
+              "multilevel", "chosen", "contraction", "e_c");
   bool all_converged = true;
   for (const Case& c : cases) {
     const Index points = c.boundary == Boundary::free ? n / 2 : n;

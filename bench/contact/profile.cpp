@@ -62,7 +62,8 @@ double register_seconds(int threads) {
 }
 
 struct Share {
-  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, multilevel = 0, pointwise = 0;
+  double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, multilevel = 0,
+         pointwise = 0;
   double total() const {
     return setup + prolongation + single_pairs + double_pairs + multilevel + pointwise;
   }

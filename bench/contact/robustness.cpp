@@ -58,7 +58,8 @@ class Outcomes {
 
   void print() const {
     std::printf("\n%-42s %-7s %5s %8s %9s  %10s %6s  %9s  %10s\n", "contacts", "inner", "runs",
-                "failures", "on multilevel kernels", "iterations", "most", "worst e_c", "target off");
+                "failures", "on multilevel kernels", "iterations", "most", "worst e_c",
+                "target off");
     for (const Tally& tally : rows_)
       std::printf("%-50s %5d %8d %9d  %10.1f %6d  %9.1e  %10.1e\n", tally.family.c_str(),
                   tally.runs, tally.failures, tally.on_multilevel,

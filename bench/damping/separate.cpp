@@ -75,13 +75,13 @@ int main(int argc, char** argv) {
         const WorkOfParabola truth =
             work_of_parabola(stiffness, half, material.modulus_ratio(), motion);
         const double w = truth.work;
-        const double ratio =
-            (damping.work_per_cycle - w) / std::hypot(damping.work_per_cycle_error(), 1.8 * truth.error);
+        const double ratio = (damping.work_per_cycle - w) /
+                             std::hypot(damping.work_per_cycle_error(), 1.8 * truth.error);
         std::printf("%d %.2f %.0e %+.3e %.3f %.3f [%.3f %.3f %.1e] %.3f %+.2f %d %.3g %s\n", seed,
                     pressures[k] / slope / material.contact_modulus, relative, w,
-                    damping.work_per_cycle / w, damping.work_per_cycle_error() / w, damping.error.cells / w,
-                    damping.error.noise / w, damping.error.solver / w, truth.error / w, ratio,
-                    damping.levels, half / motion.normal_amplitude,
+                    damping.work_per_cycle / w, damping.work_per_cycle_error() / w,
+                    damping.error.cells / w, damping.error.noise / w, damping.error.solver / w,
+                    truth.error / w, ratio, damping.levels, half / motion.normal_amplitude,
                     damping.converged ? "" : "not converged");
         std::fflush(stdout);
         ++cases;

@@ -81,8 +81,7 @@ Surface scaled(Surface surface, double mean, double present, double target) {
 Surface scale_to_rms(Surface surface, Rms which, double target) {
   require_positive(target, which == Rms::height ? "rms_height" : "rms_slope");
   collectively(surface.ranks, [&] { surface.require_complete_rows("scaling to an rms value"); });
-  const double mean = mean_of(
-      surface, [](double h, double) { return h; }, 0);
+  const double mean = mean_of(surface, [](double h, double) { return h; }, 0);
   double present = 0;
   if (which == Rms::height) {
     const auto square = [](double h, double middle) { return (h - middle) * (h - middle); };
@@ -106,8 +105,8 @@ Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t se
     surface = scale_to_rms(std::move(surface), which, moments.rms_height());
   } else {
     // Random phase has the moments of the lattice.
-    const SpectralMoments lattice = spectrum.lattice_moments(
-        grid, [&](const ProgressReport&) { return keep_going(); }, ranks);
+    const SpectralMoments lattice =
+        spectrum.lattice_moments(grid, [&](const ProgressReport&) { return keep_going(); }, ranks);
     require_positive(moments.rms_slope(), "rms_slope");
     surface = scaled(std::move(surface), 0, lattice.rms_slope(), moments.rms_slope());
   }

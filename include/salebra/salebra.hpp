@@ -7,6 +7,10 @@
 //
 //     DampingSolution answer = solve(DampingProblem{.contact = ExponentialContact{30e-9, 0.8, {1}},
 //                                                .motions = {Drag{1e-9, 1e-6, 1e5}}});
+#include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/damping.hpp>
+#include <salebra/analysis/oscillation.hpp>
+#include <salebra/analysis/sliding.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/law/fit.hpp>
@@ -14,10 +18,6 @@
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/generators/shapes.hpp>
 #include <salebra/io/read_surface.hpp>
-#include <salebra/analysis/contact.hpp>
-#include <salebra/analysis/damping.hpp>
-#include <salebra/analysis/oscillation.hpp>
-#include <salebra/analysis/sliding.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/surface/detrend.hpp>

@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/analysis/slip.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
-#include <salebra/analysis/slip.hpp>
 
 #include "bindings.hpp"
 #include "damping/largest_motion.hpp"
@@ -56,8 +56,8 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
   // The object keeps the law.
   return {result, {}, [&law, kept = nb::find(law), motion, mean, all] {
             return unlocked([&] {
-              return with_motion(
-                  motion, [&](const auto& one) { return premises_of(law, mean, one, all); });
+              return with_motion(motion,
+                                 [&](const auto& one) { return premises_of(law, mean, one, all); });
             });
           }};
 }
@@ -78,9 +78,8 @@ BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
                                  : std::get<AtIndentation>(one.position).indentation);
   if (changes(curve.values) || cases.size() < 2) return curve;
   const auto of_motion = [&]<class Kind>(std::type_identity<Kind>) {
-    if (!std::ranges::all_of(cases, [](const DampingCase& one) {
-          return std::holds_alternative<Kind>(one.motion);
-        }))
+    if (!std::ranges::all_of(
+            cases, [](const DampingCase& one) { return std::holds_alternative<Kind>(one.motion); }))
       return false;
     bool found = false;
     salebra::for_each_number<Kind>([&](const NumberOf<Kind>& number, const Quantity& quantity) {
@@ -135,7 +134,8 @@ void bind_damping_curve(nb::module_& m) {
           "The quantity that the losses are a curve over: pressure, force, indentation, a quantity "
           "of the motion, or case.")
       .def_prop_ro(
-          "values", [](const BoundDampingCurve& self) { return array_of(std::vector(self.values)); },
+          "values",
+          [](const BoundDampingCurve& self) { return array_of(std::vector(self.values)); },
           nb::rv_policy::automatic, "The coordinate of each loss.")
       .def(
           "__getattr__",
@@ -160,22 +160,22 @@ void bind_damping_curve(nb::module_& m) {
             for (const BoundDamping& one : self.results)
               if (const auto judged = one.judged().premises) premises.push_back(*judged);
             if (premises.empty()) return std::string(name_of(Validity::not_checked));
-            const bool slips = std::ranges::any_of(self.results, [](const BoundDamping& one) {
-              return !std::isnan(one.slip_work);
-            });
+            const bool slips = std::ranges::any_of(
+                self.results, [](const BoundDamping& one) { return !std::isnan(one.slip_work); });
             return std::string(name_of(validity_of(conditions_of(premises, slips))));
           },
           "One word for the assumptions of all losses.");
-  salebra::for_each_number<DampingResult>([&](NumberOf<DampingResult> number, const Quantity& quantity) {
-    bound.def_prop_ro(
-        std::string(quantity.name).c_str(),
-        [number](const BoundDampingCurve& self) {
-          std::vector<double> values;
-          for (const BoundDamping& one : self.results) values.push_back(number(one));
-          return array_of(std::move(values));
-        },
-        nb::rv_policy::automatic, described_text(quantity).c_str());
-  });
+  salebra::for_each_number<DampingResult>(
+      [&](NumberOf<DampingResult> number, const Quantity& quantity) {
+        bound.def_prop_ro(
+            std::string(quantity.name).c_str(),
+            [number](const BoundDampingCurve& self) {
+              std::vector<double> values;
+              for (const BoundDamping& one : self.results) values.push_back(number(one));
+              return array_of(std::move(values));
+            },
+            nb::rv_policy::automatic, described_text(quantity).c_str());
+      });
   value_methods(
       bound,
       [](const BoundDampingCurve& self) {
@@ -286,7 +286,8 @@ InvalidInput
           options.on_progress = std::move(told);
           const detail::StopCheck check([&] { return !options.on_progress({"damping"}); });
           std::vector<DampingResult> found = relaxation_damping(law, cases, options);
-          for (std::size_t i = 0; i < count; ++i) add_slip(found[i], law, described[i], known(facts));
+          for (std::size_t i = 0; i < count; ++i)
+            add_slip(found[i], law, described[i], known(facts));
           return found;
         });
         warn_of_held_indentation(options.hold, results);

@@ -68,16 +68,16 @@ Indentation δ grows with approach. Functions take a number or an array and retu
             // The law outlives the call.
             const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
             const DeckProblem problem{.contacts = {deck_contact(alias, indentation)},
-                                        .format = format.value("format"),
-                                        .units = parse_unit_system(units),
-                                        .friction_coefficient = friction_coefficient,
-                                        .nominal_area = nominal_area,
-                                        .pressure_window = pressure_window,
-                                        .rows = rows,
-                                        .sliders = sliders,
-                                        .smallest_force = smallest_force,
-                                        .name = name,
-                                        .source = source};
+                                      .format = format.value("format"),
+                                      .units = parse_unit_system(units),
+                                      .friction_coefficient = friction_coefficient,
+                                      .nominal_area = nominal_area,
+                                      .pressure_window = pressure_window,
+                                      .rows = rows,
+                                      .sliders = sliders,
+                                      .smallest_force = smallest_force,
+                                      .name = name,
+                                      .source = source};
             return unlocked([&] { return solve(problem).text; });
           },
           nb::arg("format"), nb::kw_only(), nb::arg("indentation") = nb::none(),

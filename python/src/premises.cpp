@@ -109,8 +109,8 @@ curve : ForceCurve, optional
 
 void bind_loss_with_slip(nb::module_& m) {
   described_class<ErrorBudget>(m, "ErrorBudget", "Numerical error of a loss by its causes, J.");
-  described_class<Loss>(m, "Loss",
-                        "Energy lost in a cycle of a motion, and the damping constant that follows.");
+  described_class<Loss>(
+      m, "Loss", "Energy lost in a cycle of a motion, and the damping constant that follows.");
   m.def(
       "loss_with_slip",
       [](const ContactLaw& law, const std::variant<EqualFrequency, Drag>& motion,

@@ -95,8 +95,7 @@ void bind_hurst(nb::module_& m) {
   described_class<HurstEstimate>(
       m, "HurstEstimate",
       "Hurst exponent of the self-affine range, with its 95 % interval; NaN where there is none.");
-  m.def("estimate_hurst", &estimate_hurst, nb::arg("spectrum"),
-        nb::arg("shortest_wavelength") = 0,
+  m.def("estimate_hurst", &estimate_hurst, nb::arg("spectrum"), nb::arg("shortest_wavelength") = 0,
         "Hurst exponent by maximum quasi-likelihood over the power-law part of a "
         ":class:`PowerSpectrum`, C ∝ q^{−2(1+H)}.");
   described_class<IntervalEstimate>(m, "IntervalEstimate",

@@ -13,8 +13,8 @@
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_solution.hpp>
 #include <salebra/study/study_file.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <salebra/study/verification.hpp>
 
 #include "bindings.hpp"

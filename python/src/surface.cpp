@@ -60,18 +60,12 @@ True
     surface.def_prop_ro(
         name, [value](const BoundSurface& self) { return value(self.surface); }, description);
   };
-  property(
-      "grid", [](const Surface& s) { return s.grid; }, "Points and size.");
-  property(
-      "nx", [](const Surface& s) { return s.grid.nx; }, "Points along x.");
-  property(
-      "ny", [](const Surface& s) { return s.grid.ny; }, "Points along y.");
-  property(
-      "size_x", [](const Surface& s) { return s.grid.lx; }, "Size along x, m.");
-  property(
-      "size_y", [](const Surface& s) { return s.grid.ly; }, "Size along y, m.");
-  property(
-      "area", [](const Surface& s) { return s.grid.area(); }, "Nominal area, m².");
+  property("grid", [](const Surface& s) { return s.grid; }, "Points and size.");
+  property("nx", [](const Surface& s) { return s.grid.nx; }, "Points along x.");
+  property("ny", [](const Surface& s) { return s.grid.ny; }, "Points along y.");
+  property("size_x", [](const Surface& s) { return s.grid.lx; }, "Size along x, m.");
+  property("size_y", [](const Surface& s) { return s.grid.ly; }, "Size along y, m.");
+  property("area", [](const Surface& s) { return s.grid.area(); }, "Nominal area, m².");
   property(
       "periodic", [](const Surface& s) { return s.periodic; },
       "Whether the surface repeats itself.");
@@ -173,9 +167,8 @@ threshold : float
       .def(
           "cropped",
           [](const BoundSurface& self, double x0, double y0, double x1, double y1) {
-            return new_surface(unlocked([&] {
-              return cropped(self.surface, Rectangle{x0, y0, x1, y1});
-            }));
+            return new_surface(
+                unlocked([&] { return cropped(self.surface, Rectangle{x0, y0, x1, y1}); }));
           },
           nb::arg("x0"), nb::arg("y0"), nb::arg("x1"), nb::arg("y1"),
           "The part between two corners, m, moved to the nearest borders of cells. It is not "

@@ -6,9 +6,9 @@
 #include <nanobind/stl/vector.h>
 
 #include <cmath>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/analysis/damping.hpp>
 #include <utility>
 
 #include "bindings.hpp"
@@ -95,14 +95,13 @@ void bind_surface_damping(nb::module_& m) {
             [&](Progress told) {
               SurfaceContact contact{surface.surface, material, pressures->values, {}, 0};
               if (!std::isnan(all.hardness)) contact.hardness = all.hardness;
-              const DampingSolution solution =
-                  solve(DampingProblem{.contact = std::move(contact),
-                                       .motions = {described},
-                                       .hold = options.hold,
-                                       .amplitude = options.amplitude,
-                                       .facts = all,
-                                       .surface = options},
-                        {.on_progress = std::move(told)});
+              const DampingSolution solution = solve(DampingProblem{.contact = std::move(contact),
+                                                                    .motions = {described},
+                                                                    .hold = options.hold,
+                                                                    .amplitude = options.amplitude,
+                                                                    .facts = all,
+                                                                    .surface = options},
+                                                     {.on_progress = std::move(told)});
               warnings = solution.contact.doubts;
               warnings.insert(warnings.end(), solution.doubts.begin(), solution.doubts.end());
               return curve_of(solution, pressures->values);

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/sweep.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <salebra/surface/moments.hpp>
 #include <utility>
 
@@ -180,7 +180,7 @@ ContactSolution solution(IndenterContact body, const Context& context) {
   for (const double value : values) require_positive(value, name_of(quantity));
   const bool by_force = quantity == Standing::normal_force;
   ContactSolution solution{std::move(force_law),
-                       by_force ? at_forces(values) : at_indentations(values)};
+                           by_force ? at_forces(values) : at_indentations(values)};
   const auto& indenter = static_cast<const IndenterLaw&>(*solution.law);
   for (const Position& position : solution.positions) {
     const double radius = indenter.contact_radius(indentation_of(indenter, position));
@@ -224,7 +224,8 @@ std::size_t ContactSolution::load() const {
   return std::size_t(nearest - curve->samples.begin());
 }
 
-ContactFacts ContactSolution::facts_at(ContactFacts facts, double indentation, double deepest) const {
+ContactFacts ContactSolution::facts_at(ContactFacts facts, double indentation,
+                                       double deepest) const {
   facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation, deepest);
   if (first_loading && first_loading->yielded())
     facts.first_load = first_loading->pressure * curve->nominal_area;
@@ -232,10 +233,9 @@ ContactFacts ContactSolution::facts_at(ContactFacts facts, double indentation, d
 }
 
 Premises ContactSolution::premises_beside_slip(double indentation, const Oscillation& motion,
-                                             const ContactFacts& known) const {
+                                               const ContactFacts& known) const {
   const double deepest = indentation + detail::normal_amplitude(motion);
-  Premises premises =
-      premises_of(*law, indentation, motion, facts_at(known, indentation, deepest));
+  Premises premises = premises_of(*law, indentation, motion, facts_at(known, indentation, deepest));
   // What slides on does not turn back, and the loss is that at its amplitude.
   for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
                              &Premises::slow_motion, &Premises::amplitude})

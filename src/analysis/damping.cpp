@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/analysis/damping.hpp>
 #include <utility>
 
 #include "damping/largest_motion.hpp"
@@ -30,8 +30,7 @@ const T& at(const std::vector<T>& all, std::size_t i) {
   return all[all.size() == 1 ? 0 : i];
 }
 
-std::vector<Case> cases_of(const std::vector<Position>& positions,
-                           const DampingProblem& problem) {
+std::vector<Case> cases_of(const std::vector<Position>& positions, const DampingProblem& problem) {
   const auto& forces = problem.force_amplitude;
   const std::size_t count = std::max({positions.size(), problem.motions.size(), forces.size()});
   for (const std::size_t size :
@@ -140,7 +139,8 @@ ForceCurve loads_with_neighbours(const ForceCurve& all, const std::vector<double
 /// A surface is not interpolated between loads: contacts inside the oscillation give W and its
 /// error.
 void resolve_on_surface(const DampingProblem& problem, const std::vector<double>& pressures,
-                        const Material& material, const Context& context, DampingSolution& solution) {
+                        const Material& material, const Context& context,
+                        DampingSolution& solution) {
   const Oscillation one = *oscillation_of(problem.motions.front());
   const bool known = why_loss_unknown(problem.motions.front(), problem.facts).empty();
   const ForceCurve loads = loads_with_neighbours(*solution.contact.curve, pressures);
@@ -170,9 +170,7 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
   }
 }
 
-bool slips(const DamperProblem& problem) {
-  return !std::isnan(problem.facts.friction_coefficient);
-}
+bool slips(const DamperProblem& problem) { return !std::isnan(problem.facts.friction_coefficient); }
 
 /// Why γ of a damper with friction is not known; empty: it is.
 std::string why_unknown(const DamperProblem& problem, double angular_frequency) {
@@ -199,7 +197,10 @@ class SurfaceDamper {
  public:
   SurfaceDamper(const DamperProblem& problem, const Material& material, const Context& context,
                 DamperSolution& solution)
-      : problem_(problem), material_(material), solution_(solution), about_(*solution.contact.curve) {
+      : problem_(problem),
+        material_(material),
+        solution_(solution),
+        about_(*solution.contact.curve) {
     options_ = {.hold = problem.hold,
                 .amplitude = problem.amplitude,
                 .friction_coefficient = problem.facts.friction_coefficient,
@@ -218,8 +219,8 @@ class SurfaceDamper {
     if (!(solved_amplitude_ == amplitude)) solved_ = without_slip(amplitude);
     solved_amplitude_ = amplitude;
     Loss loss = solved_;
-    for (double* number : {&loss.damping_constant, &loss.damping_constant_without_slip,
-                           &loss.damping_per_work})
+    for (double* number :
+         {&loss.damping_constant, &loss.damping_constant_without_slip, &loss.damping_per_work})
       *number /= angular_frequency;
     if (!known) loss.forget();
     return loss;
@@ -253,10 +254,10 @@ class SurfaceDamper {
     if (!std::isfinite(by_law)) return lost();
     const Loss there = at(by_law, 1);
     const double constant = there.damping_constant, error = there.damping_constant_error();
-    const Field about =
-        damper_map(*solution_.contact.law, solution_.contact.positions.front(), {by_law, 1.05 * by_law},
-                   {angular_frequency}, {.hold = problem_.hold, .amplitude = problem_.amplitude})
-            .damping_constant;
+    const Field about = damper_map(*solution_.contact.law, solution_.contact.positions.front(),
+                                   {by_law, 1.05 * by_law}, {angular_frequency},
+                                   {.hold = problem_.hold, .amplitude = problem_.amplitude})
+                            .damping_constant;
     const double exponent = std::log(about(1, 0) / about(0, 0)) / std::log(1.05);
     amplitude *= std::pow(*problem_.falling_slope * angular_frequency / constant, 1 / exponent);
     const double off =
@@ -352,7 +353,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     if (drag == nullptr) continue;
     if (const double way = drag->way_per_cycle(); problem.facts.excursion >= way)
       solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.facts.excursion /
-                                           way);
+                                             way);
     if (!doubts.empty()) continue;
     const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
     doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
@@ -402,9 +403,9 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
   if (!std::isnan(friction)) options.friction_coefficient = friction;
   PathSolution solution;
   solution.loss = planar ? trajectory_damping(*law, problem.path, problem.transverse)
-                       : trajectory_damping(*law, problem.path, options);
+                         : trajectory_damping(*law, problem.path, options);
   solution.premises = premises_of(*law, problem.path,
-                                at_state(problem.facts, *law, nullptr, 0.5 * (low + high), high));
+                                  at_state(problem.facts, *law, nullptr, 0.5 * (low + high), high));
   if (!planar) return solution;
   // Slip is judged along x alone, where it is one of the vector.
   Premises& judged = solution.premises;
@@ -432,9 +433,9 @@ void fill_map(const DamperProblem& problem, const std::vector<double>& indentati
       const auto row = Index(i), column = Index(j);
       const Drag drag{map.normal_amplitude[i], problem.drag_velocity, map.angular_frequency[j]};
       double& constant = map.damping_constant(row, column);
-      const Loss found = of_surface
-                             ? of_surface->at(drag.normal_amplitude, drag.angular_frequency)
-                             : loss_of(problem, *solution.contact.law, indentations[i], drag, constant);
+      const Loss found =
+          of_surface ? of_surface->at(drag.normal_amplitude, drag.angular_frequency)
+                     : loss_of(problem, *solution.contact.law, indentations[i], drag, constant);
       constant = found.damping_constant;
       if (of_surface) solution.damping_constant_error(row, column) = found.damping_constant_error();
       if (!slips(problem)) continue;
@@ -477,7 +478,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
     solution.premises.push_back(
         premises_of(law, indentations.back(), motion,
                     solution.contact.facts_at(problem.facts, indentations.back(),
-                                            indentations.back() + amplitude)));
+                                              indentations.back() + amplitude)));
   }
   if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, rested))
     solution.doubts.push_back(*doubt);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/error.hpp>
 #include <salebra/analysis/damping.hpp>
+#include <salebra/base/error.hpp>
 #include <utility>
 
 #include "damping/largest_motion.hpp"
@@ -160,14 +160,14 @@ JointSolution solve(JointProblem problem, const Context& context) {
   }
   if (problem.direct_steps) {
     problem.motions = of_sample(problem.motions, ratio);
-    solution.simulated =
-        of_part(simulate(problem, *solution.contact.surface, material, indentation, context), ratio);
+    solution.simulated = of_part(
+        simulate(problem, *solution.contact.surface, material, indentation, context), ratio);
   }
 
   const JointLoss& largest =
       *std::ranges::max_element(solution.losses, {}, &JointLoss::tangential_amplitude);
   solution.largest = {problem.normal_amplitude, largest.tangential_amplitude, problem.phase,
-                    problem.angular_frequency};
+                      problem.angular_frequency};
   // A constant normal force is the limit of small normal amplitudes.
   EqualFrequency judged = solution.largest;
   if (!oscillates)

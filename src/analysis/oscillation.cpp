@@ -8,14 +8,14 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/oscillation.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/contact/half_space/coupling.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/generators/shapes.hpp>
-#include <salebra/analysis/contact.hpp>
-#include <salebra/analysis/oscillation.hpp>
 
 #include "damping/judge.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <salebra/base/error.hpp>
 #include <salebra/analysis/sliding.hpp>
+#include <salebra/base/error.hpp>
 #include <span>
 #include <tuple>
 
@@ -21,8 +21,7 @@ std::vector<SlidingPoint> points_at(const SlidingProblem& problem, double amplit
   options.hold = problem.hold;
   const NormalOscillation normal{amplitude, problem.angular_frequency};
   const auto states = [&](const std::vector<double>& velocities) {
-    return steady_sliding(law, position, normal, velocities, problem.friction_coefficient,
-                          options);
+    return steady_sliding(law, position, normal, velocities, problem.friction_coefficient, options);
   };
   std::vector<double> velocities = problem.velocities;
   if (!problem.velocity_ratios.empty()) {
@@ -35,8 +34,7 @@ std::vector<SlidingPoint> points_at(const SlidingProblem& problem, double amplit
   for (const SteadySliding& state : states(velocities)) {
     const std::size_t i = points.size();
     points.push_back({.normal_amplitude = amplitude, .velocity = velocities[i], .state = state});
-    if (!problem.velocity_ratios.empty())
-      points.back().velocity_ratio = problem.velocity_ratios[i];
+    if (!problem.velocity_ratios.empty()) points.back().velocity_ratio = problem.velocity_ratios[i];
   }
   return points;
 }
@@ -75,7 +73,7 @@ SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& l
 }  // namespace
 
 SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
-                  const Position& position) {
+                      const Position& position) {
   SlidingSolution solution;
   std::vector<SlidingPoint>& points = solution.points;
   std::vector<DampingResult> means;
@@ -98,15 +96,15 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
   std::vector<double> velocities;
   for (const SlidingPoint& point : points) velocities.push_back(point.velocity);
   solution.regimes = regime_map(law, points.front().state.indentation,
-                              {problem.normal_amplitude.front(), problem.angular_frequency},
-                              velocities, problem.excursions, problem.friction_coefficient);
+                                {problem.normal_amplitude.front(), problem.angular_frequency},
+                                velocities, problem.excursions, problem.friction_coefficient);
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i].no_slip_excursion = solution.regimes->no_slip_excursion[i];
   return solution;
 }
 
 SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
-                  const Material& material, const Context& context) {
+                      const Material& material, const Context& context) {
   SlidingSolution solution = solve(problem, *contact.law, contact.positions.front());
   if (!contact.surface) return solution;
   const std::size_t velocities = solution.points.size() / problem.normal_amplitude.size();
@@ -130,7 +128,8 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& cont
   return solution;
 }
 
-SliderSolution solve(const SliderProblem& problem, const ContactLaw& law, const Position& position) {
+SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
+                     const Position& position) {
   const auto& [slider, normal, friction, largest_amplitude, options] = problem;
   SliderSolution solution;
   solution.stability = slider_stability(law, position, normal, slider, friction, options);

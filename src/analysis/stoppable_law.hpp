@@ -2,9 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
-#include <salebra/analysis/contact.hpp>
 
 namespace salebra {
 

@@ -444,8 +444,7 @@ struct Convolution2D<Real>::Passes {
   void apply(const Source& source, const Place& place, const Done& done) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
-        set_symbol(
-            t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
+        set_symbol(t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
     if (!by_rows) {
       own_spectrum = large_array<Complex>(spectrum_size());
       place_spectrum(own_spectrum.get());
@@ -503,8 +502,7 @@ void Convolution2D<Real>::apply(const Real* field, Real* result) {
 
 template <class Real>
 void Convolution2D<Real>::apply(const RowSource& source, const RowSink& sink) {
-  passes_->apply(
-      source, [](int, Index, Real* room) { return room; }, sink);
+  passes_->apply(source, [](int, Index, Real* room) { return room; }, sink);
 }
 
 template <class Real>

@@ -142,11 +142,11 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   SweepOptions inner = options;
   const Progress& on_progress = options.contact.on_progress;
   std::atomic<double> residual = 0;  // of the contact that was heard of last
-  detail::TaskLoop loop(
-      {.at_once = concurrent, .ranks = surface.ranks, .talk = [&] {
-         const int done = loop.finished();
-         return !on_progress || on_progress({"sweep", double(done) / loads, done, residual});
-       }});
+  detail::TaskLoop loop({.at_once = concurrent, .ranks = surface.ranks, .talk = [&] {
+                           const int done = loop.finished();
+                           return !on_progress ||
+                                  on_progress({"sweep", double(done) / loads, done, residual});
+                         }});
   // Processes that solve a contact together all ask, or none.
   if (on_progress || surface.ranks.alone())
     inner.contact.on_progress = [&](const ProgressReport& report) {

@@ -350,7 +350,8 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
                                    .phase = pi / 2};
     const SurfaceDamping found = damping_about(pressure, as_normal, surface, material, on_progress);
     loss.work_per_cycle = found.work_per_cycle / 2;
-    loss.work_error = std::hypot(found.work_per_cycle_error() / 2, loss.exponent * loss.work_per_cycle * change);
+    loss.work_error =
+        std::hypot(found.work_per_cycle_error() / 2, loss.exponent * loss.work_per_cycle * change);
     if (!(loss.work_error < std::abs(loss.work_per_cycle)))
       loss.work_per_cycle = loss.work_error = JointLoss::unknown;
     loss.slip_work = loss.work_per_cycle;

@@ -104,13 +104,10 @@ Series best_fit(const FitData& data, int highest_degree) {
 // the sum of their squares.
 double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes,
                        const std::vector<double>& errors, double error_of_least) {
-  double sum = std::pow(loss(
-                            motion, nodes, [](std::size_t) { return 0.0; }, error_of_least),
-                        2);
+  double sum = std::pow(loss(motion, nodes, [](std::size_t) { return 0.0; }, error_of_least), 2);
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    sum += std::pow(loss(
-                        motion, nodes, [&](std::size_t i) { return i == k ? errors[k] : 0.0; }, 0),
-                    2);
+    sum += std::pow(
+        loss(motion, nodes, [&](std::size_t i) { return i == k ? errors[k] : 0.0; }, 0), 2);
   return std::sqrt(sum);
 }
 

@@ -277,7 +277,8 @@ class Springs {
   double above_noise(double change) const {
     return std::clamp(1e-13 * scale_ / change, tolerance, 1e-3);
   }
-  SpringLoss follow(TangentialContact& contact, double displacement, int periods, double ahead) const {
+  SpringLoss follow(TangentialContact& contact, double displacement, int periods,
+                    double ahead) const {
     // sample() begins at the least indentation.
     double x = displacement * path_.displacement.front();
     contact.start(path_.indentation.front(), x);

@@ -413,12 +413,11 @@ double damping_error(const Case& at, const Slider& slider, double friction_coeff
   const double yielding =
       std::min(sliding_stiffness(at.contact) / (slider.mass * omega * omega), 0.999);
   const double velocities[] = {slider.velocity / (1 - yielding)};
-  const double faster =
-      detail::steady_sliding_about(at.contact.law, at.contact.indentation,
-                                   {at.contact.normal_amplitude, omega}, velocities,
-                                   friction_coefficient)
-          .front()
-          .sliding_damping;
+  const double faster = detail::steady_sliding_about(at.contact.law, at.contact.indentation,
+                                                     {at.contact.normal_amplitude, omega},
+                                                     velocities, friction_coefficient)
+                            .front()
+                            .sliding_damping;
   const double slow = natural_frequency(slider) / omega;
   // A tenth for what is of higher order.
   return 1.1 * std::max(more, damping - faster) + pi * pi / 3 * slow * slow * damping;
@@ -585,10 +584,9 @@ SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& posit
   check_falling(slider);
   const double low = slider.velocity / last.angular_frequency /
                      limit_of_slope(law, position, friction_coefficient);
-  return threshold({law, position, slider, friction_coefficient, options}, low,
-                   last.normal_amplitude, [&](double amplitude) {
-                     return NormalOscillation{amplitude, last.angular_frequency};
-                   });
+  return threshold(
+      {law, position, slider, friction_coefficient, options}, low, last.normal_amplitude,
+      [&](double amplitude) { return NormalOscillation{amplitude, last.angular_frequency}; });
 }
 
 SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
@@ -602,10 +600,9 @@ SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Positio
       slider.velocity / last.normal_amplitude / limit_of_slope(law, position, friction_coefficient);
   // Slower oscillations do not average.
   const double low = std::max(touch, 4.01 * natural_frequency(slider));
-  return threshold({law, position, slider, friction_coefficient, options}, low,
-                   last.angular_frequency, [&](double frequency) {
-                     return NormalOscillation{last.normal_amplitude, frequency};
-                   });
+  return threshold(
+      {law, position, slider, friction_coefficient, options}, low, last.angular_frequency,
+      [&](double frequency) { return NormalOscillation{last.normal_amplitude, frequency}; });
 }
 
 }  // namespace salebra

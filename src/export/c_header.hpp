@@ -8,10 +8,10 @@
 namespace salebra {
 
 struct CHeaderOptions {
-  std::string name = "contact";  ///< with which every name in the header begins
+  std::string name = "contact";           ///< with which every name in the header begins
   std::vector<std::string> comment = {};  ///< sentences at the top: licence, source, units
-  double length_unit = 1;        ///< of the header, m
-  double force_unit = 1;         ///< of the header, N
+  double length_unit = 1;                 ///< of the header, m
+  double force_unit = 1;                  ///< of the header, N
 };
 
 /// A header of C99, which is C++ as well, that needs the standard's math.h alone: tables of the

@@ -12,9 +12,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "analysis/part.hpp"
 #include "damping/largest_motion.hpp"
 #include "formats.hpp"
-#include "analysis/part.hpp"
 
 namespace salebra {
 namespace {

@@ -41,7 +41,7 @@ struct Deck {
 
 /// How a format marks a comment, and what would end one or be obeyed in it.
 struct CommentStyle {
-  std::string_view mark;                            ///< before each line
+  std::string_view mark;  ///< before each line
   std::vector<std::string_view> forbidden = {};
 };
 

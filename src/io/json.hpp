@@ -37,7 +37,8 @@ class Json {
   Json(std::nullptr_t) {}
   Json(bool truth) : value_(truth) {}
   template <std::integral T>
-  requires(!std::same_as<T, bool>) Json(T number) {
+    requires(!std::same_as<T, bool>)
+  Json(T number) {
     if constexpr (std::signed_integral<T>)
       value_ = static_cast<std::int64_t>(number);
     else

@@ -43,9 +43,9 @@ struct PlotCurve {
       high = {};  ///< a band around it, such as a confidence interval; both or none. Points have
                   ///< error bars in its place
   PlotStyle style = PlotStyle::line;
-  int color =
-      -1;  ///< 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey, 8 wine; −1:
-           ///< the next one
+  /// 0 blue, 1 vermilion, 2 green, 3 purple, 4 orange, 5 light blue, 6 black, 7 grey, 8 wine; −1: the
+  /// next one.
+  int color = -1;
 };
 
 /// sequential: dark to bright; diverging: blue over white to red, for signed values, symmetric

@@ -100,15 +100,16 @@ class Point {
         if (const auto text = file_.text_attribute(where_ + solution_, name)) json[name] = *text;
       json["solution"] = {
           {"damping_constant", estimate(solution("damping_constant"), 0, pressures_.size())}};
-      json["solution"]["damping_constant"]["error"] = list(required(solution("damping_constant_error")));
+      json["solution"]["damping_constant"]["error"] =
+          list(required(solution("damping_constant_error")));
       json["solution"]["slip_share"] = list(required(solution("slip_share")));
       if (has(solution("regime"))) json["solution"]["regime"] = regimes();
     }
     add(json, "premises", premises());
     add(json, "spots", spots());
     const std::string work = without_slip("work_per_cycle");
-    Json over_bem = by_model("comparison/",
-                             {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
+    Json over_bem =
+        by_model("comparison/", {"mean_gap", "contact_area_fraction", "normal_stiffness", work});
     if (!over_bem.is_null() && over_bem.contains(work)) {
       Json ratios = over_bem[work];  // a new key may move what a reference refers to
       over_bem["work_per_cycle"] = std::move(ratios);
@@ -168,8 +169,7 @@ class Point {
   /// in it.
   std::vector<double> required(const std::string& name) const {
     std::optional<std::vector<double>> values = column(name);
-    if (!values || values->empty())
-      refuse_damaged(name, values ? "has no values" : "is missing");
+    if (!values || values->empty()) refuse_damaged(name, values ? "has no values" : "is missing");
     return std::move(*values);
   }
 
@@ -205,8 +205,7 @@ class Point {
     for (const std::string& quantity : quantities)
       for (std::size_t m = 0; m < models_.size(); ++m)
         if (has(prefix + quantity + "_mean"))
-          json[quantity][models_[m]] =
-              estimate(prefix + quantity, m, pressures_.size());
+          json[quantity][models_[m]] = estimate(prefix + quantity, m, pressures_.size());
     return json;
   }
 
@@ -341,8 +340,7 @@ class Point {
     if (!midpoints || bem() == models_.size()) return json;
     const std::size_t count = realisations(), points = midpoints->size();
     for (const char* name : {"mean_gap", "local_decay_length"}) {
-      const auto values =
-          part(std::string("local/") + name, bem(), count * points);
+      const auto values = part(std::string("local/") + name, bem(), count * points);
       for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r)
         json[name].push_back(list(std::span(values).subspan(r * points, points)));
     }

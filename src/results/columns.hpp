@@ -19,8 +19,8 @@ struct Column {
   std::string name;
   Dimension dimension = Dimension::dimensionless;
   std::string long_name;
-  bool list = false;      ///< several values, of a table
-  bool per_area = false;  ///< the value is to be divided by the nominal area
+  bool list = false;         ///< several values, of a table
+  bool per_area = false;     ///< the value is to be divided by the nominal area
   bool where_known = false;  ///< answers leave it out where no row knows its value
   /// The value at an address: a number, a truth, a word or a list of them, null where there is
   /// none. Empty for fields, which no answer prints.

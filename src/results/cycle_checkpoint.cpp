@@ -11,9 +11,9 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/version.hpp>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "base/archive.hpp"
@@ -43,7 +43,7 @@ class StateWriter {
     group_.attribute(std::string(line.name), static_cast<std::int64_t>(count));
   }
   template <class Enum>
-  requires std::is_enum_v<Enum>
+    requires std::is_enum_v<Enum>
   void put(const Kept& line, Enum value) {
     group_.attribute(std::string(line.name), std::string(name_of(value)));
   }
@@ -119,7 +119,7 @@ class StateReader {
     count = static_cast<Count>(*found);
   }
   template <class Enum>
-  requires std::is_enum_v<Enum>
+    requires std::is_enum_v<Enum>
   void get(const Kept& line, Enum& value) {
     const std::string name(line.name);
     const std::optional<Enum> found =

@@ -45,12 +45,12 @@ const Column* entry_of(std::string_view name) {
       NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, LawDescription,
       WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
       CycleFrame, CycleMesh, LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
-      EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, Premise,
-      Loss, TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider,
-      SliderMotion, SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap,
-      RegimeMap, PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy,
-      NonGaussianSurface, Conductances, ContactDistributions, FlowFactors, AdhesionOfState,
-      AdhesiveCycle, AdhesivePoint>(name);
+      EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, Premise, Loss,
+      TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider, SliderMotion,
+      SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap, RegimeMap,
+      PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy, NonGaussianSurface,
+      Conductances, ContactDistributions, FlowFactors, AdhesionOfState, AdhesiveCycle,
+      AdhesivePoint>(name);
 }
 
 }  // namespace

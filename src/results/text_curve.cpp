@@ -20,7 +20,7 @@ namespace {
 
 /// A column of the table: what it means and what its values are multiplied by.
 struct Column {
-  double ForceSample::* member = nullptr;
+  double ForceSample::*member = nullptr;
   bool converged = false;
   double factor = 1;
 };
@@ -78,7 +78,7 @@ void complete_and_sort(const std::filesystem::path& file, ForceCurve& curve) {
                                  quantity.name, row - curve.samples.begin() + 1));
     }
   };
-  const auto has = [&](double ForceSample::* member) {
+  const auto has = [&](double ForceSample::*member) {
     return std::ranges::none_of(
         curve.samples, [&](const ForceSample& sample) { return std::isnan(sample.*member); });
   };

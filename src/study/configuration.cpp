@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/base/error.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/error.hpp>
 #include <salebra/generators/radial_spectrum.hpp>
 #include <salebra/study/configuration.hpp>
 #include <salebra/study/twin_file.hpp>

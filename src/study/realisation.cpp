@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <salebra/analysis/slip.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/base/share.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/analysis/slip.hpp>
 #include <salebra/study/realisation.hpp>
 #include <string>
 #include <type_traits>
@@ -39,11 +39,7 @@ double seam_step(const Surface& surface) {
   const auto row = [&](Index at, std::vector<std::byte>& room) {
     const auto bytes = static_cast<std::size_t>(ny) * sizeof(double);
     const RowExchange to_all(
-        rows,
-        [at](int) {
-          return RowExchange::Window{at, 1};
-        },
-        RowExchange::Edge::none);
+        rows, [at](int) { return RowExchange::Window{at, 1}; }, RowExchange::Edge::none);
     return static_cast<const double*>(to_all.fetch(h.data(), bytes, bytes, room).front());
   };
   const double *first = row(0, first_room), *last = row(nx - 1, last_room);

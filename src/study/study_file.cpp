@@ -6,14 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <salebra/base/error.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/error.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/quantity.hpp>
-#include <salebra/study/study_solution.hpp>
 #include <salebra/study/study_file.hpp>
+#include <salebra/study/study_solution.hpp>
 #include <set>
 
 #include "realisation_record.hpp"

@@ -182,9 +182,9 @@ std::vector<EnsembleMean> StudyResult::damping_over_bem(const NumberOf<DampingPo
                                                         ContactModel model) const {
   return at_pressures([&](const Realisation& r, std::size_t k) {
     const auto& points = r.of(model).damping;
-    return k < points.size() ? number(points[k]) /
-                                   r.of(ContactModel::bem).damping[k].work_per_cycle_without_slip
-                             : ForceSample::unknown;
+    return k < points.size()
+               ? number(points[k]) / r.of(ContactModel::bem).damping[k].work_per_cycle_without_slip
+               : ForceSample::unknown;
   });
 }
 
@@ -193,8 +193,8 @@ std::vector<std::pair<std::string, std::vector<EnsembleMean>>> StudyResult::comp
   std::vector<std::pair<std::string, std::vector<EnsembleMean>>> ratios;
   for (const char* name : {"mean_gap", "contact_area_fraction", "normal_stiffness"})
     ratios.emplace_back(name, over_bem(number_of<ForceSample>(name, "quantity"), model));
-  for (const char* name : {"work_per_cycle_closed_form", "small_amplitude_work", "work_per_cycle_without_slip",
-                           "work_per_cycle"})
+  for (const char* name : {"work_per_cycle_closed_form", "small_amplitude_work",
+                           "work_per_cycle_without_slip", "work_per_cycle"})
     ratios.emplace_back(name, damping_over_bem(number_of<DampingPoint>(name, "quantity"), model));
   return ratios;
 }

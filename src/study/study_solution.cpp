@@ -2,8 +2,8 @@
 // Answer of a study: the loss of the motion as described, and its conditions.
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/error.hpp>
 #include <salebra/analysis/slip.hpp>
+#include <salebra/base/error.hpp>
 #include <salebra/study/study_solution.hpp>
 
 #include "damping/phase_quadrature.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <salebra/base/error.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/error.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/realisation.hpp>
 #include <salebra/study/twin_file.hpp>
@@ -208,11 +208,10 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   for (const auto& [name, member] : numbers_of_draw) {
     // A table has neither exponent nor roll-off.
     const bool unused = table && (member == &TwinDraw::hurst || member == &TwinDraw::rolloff);
-    const std::vector<double> values = unused                       ? file.numbers(place + name)
-                                       : member == &TwinDraw::hurst ? within(name, -1, 3)
-                                       : member == &TwinDraw::rms_slope
-                                           ? within(name, 0, 1e6)
-                                           : within(name, 1e-15, 1e6);
+    const std::vector<double> values = unused                           ? file.numbers(place + name)
+                                       : member == &TwinDraw::hurst     ? within(name, -1, 3)
+                                       : member == &TwinDraw::rms_slope ? within(name, 0, 1e6)
+                                                                        : within(name, 1e-15, 1e6);
     for (std::size_t i = 0; i < count; ++i) draws[i].*member = values[i];
   }
   for (std::size_t i = 0; i < count; ++i) {

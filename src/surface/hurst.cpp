@@ -269,10 +269,11 @@ HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
   };
   const std::size_t first = places[law.begin], last = places[law.end - 1];
   const ModesWithin modes(
-      spectrum, {first > 0 ? limit(first - 1, first) : 0,
-                 last + 1 < radial.modes.size() ? std::min(highest, limit(last, last + 1)) : highest});
-  const auto [all] = modes.sums<1>(
-      [](std::span<double> sums, const Mode& mode) { sums[0] += 2 * mode.weight; });
+      spectrum,
+      {first > 0 ? limit(first - 1, first) : 0,
+       last + 1 < radial.modes.size() ? std::min(highest, limit(last, last + 1)) : highest});
+  const auto [all] =
+      modes.sums<1>([](std::span<double> sums, const Mode& mode) { sums[0] += 2 * mode.weight; });
   const auto [least, greatest] = modes.range();
   HurstEstimate estimate{law.hurst, std::exp(least), std::exp(greatest), static_cast<Index>(all)};
   return estimate;

@@ -77,9 +77,8 @@ struct HeightSums {
 
 HeightSums sums_of_heights(const Surface& surface) {
   collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
-  return sum_defined<HeightSums>(surface, [](HeightSums& sums, double height) {
-    sums.add({height, height, height, 1});
-  });
+  return sum_defined<HeightSums>(
+      surface, [](HeightSums& sums, double height) { sums.add({height, height, height, 1}); });
 }
 
 struct ProfileMoments {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Self-affine law of a range of wave numbers with a floor and an attenuation that are not known.
+#include "surface/power_law_range.hpp"
+
 #include <gsl/gsl_cdf.h>
 
 #include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "surface/dense_systems.hpp"
-#include "surface/power_law_range.hpp"
 
 namespace salebra::detail {
 namespace {
@@ -50,7 +50,8 @@ class LawInRange {
 
   /// From `from` downhill: Fisher's scoring with a step that is damped until it goes down.
   Fit descend(Numbers from, const Held& held) const {
-    for (std::size_t p = 0; p < parameters; ++p) from[p] = std::clamp(from[p], least_[p], greatest_[p]);
+    for (std::size_t p = 0; p < parameters; ++p)
+      from[p] = std::clamp(from[p], least_[p], greatest_[p]);
     Fit best = at(from);
     std::vector<double> shape(bins_.size()), other(bins_.size());
     double damping = 1e-3;
@@ -102,7 +103,8 @@ class LawInRange {
         const Eigen::VectorXd step = damped.ldlt().solve(gradient);
         Numbers next = best.at;
         for (std::size_t p = 0; p < parameters; ++p)
-          next[p] = std::clamp(next[p] + std::clamp(step(Index(p)), -1.0, 1.0), least_[p], greatest_[p]);
+          next[p] =
+              std::clamp(next[p] + std::clamp(step(Index(p)), -1.0, 1.0), least_[p], greatest_[p]);
         const Fit tried = at(next);
         if (tried.deviance < best.deviance) {
           gain = best.deviance - tried.deviance;
@@ -209,7 +211,8 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
   for (const std::size_t begin : places)
     for (const std::size_t end : places)
       if (end >= begin + fewest)
-        if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber; span >= least_span)
+        if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber;
+            span >= least_span)
           candidates.push_back({begin, end, span});
   std::ranges::stable_sort(candidates, std::greater(), &Candidate::span);
   const auto acceptable = [&](std::size_t begin, std::size_t end, const LawInRange::Fit& fit) {
@@ -240,14 +243,16 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     const double shorter = bins[candidate.end - 1].wavenumber / std::numbers::sqrt2;
     std::size_t end = candidate.end;
     while (end > candidate.begin + fewest && bins[end - 1].wavenumber > shorter) --end;
-    const double other =
-        LawInRange(bins.subspan(candidate.begin, end - candidate.begin), density).fit(true).at[hurst];
+    const double other = LawInRange(bins.subspan(candidate.begin, end - candidate.begin), density)
+                             .fit(true)
+                             .at[hurst];
     found.hurst.low = std::min(found.hurst.low, other);
     found.hurst.high = std::max(found.hurst.high, other);
     // An interval from 0 to 1 excludes nothing.
     if (found.hurst.low <= 0 && found.hurst.high >= 1) return {};
     if (best.at[rolloff] > range.no_rolloff()) found.q_rolloff = std::exp(best.at[rolloff]);
-    found.amplitude = best.amplitude / density(bins[candidate.end - 1].wavenumber, best.at[hurst], found.q_rolloff);
+    found.amplitude = best.amplitude /
+                      density(bins[candidate.end - 1].wavenumber, best.at[hurst], found.q_rolloff);
     return found;
   }
   return {};

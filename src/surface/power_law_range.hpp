@@ -24,9 +24,9 @@ using SelfAffineDensity = std::function<double(double q, double hurst, double q_
 struct PowerLawRange {
   std::size_t begin = 0, end = 0;  ///< the bins; none where begin == end
   IntervalEstimate hurst;
-  double q_rolloff = 0;        ///< rad/m; 0 without a plateau
-  bool rolloff_seen = false;   ///< a law without a plateau is less likely by more than 5 % allow
-  double amplitude = 0;        ///< of the density
+  double q_rolloff = 0;       ///< rad/m; 0 without a plateau
+  bool rolloff_seen = false;  ///< a law without a plateau is less likely by more than 5 % allow
+  double amplitude = 0;       ///< of the density
   bool found() const { return end > begin; }
 };
 

@@ -83,7 +83,8 @@ double interpolated_wavelength(const Surface& profile) {
   const double least = 1e-12 * profile.heights.abs().maxCoeff();
   Index straight = 0, run = 0, longest = 0;
   for (Index i = 1; i + 1 < n; ++i) {
-    const double bend = profile.heights(i + 1, 0) - 2 * profile.heights(i, 0) + profile.heights(i - 1, 0);
+    const double bend =
+        profile.heights(i + 1, 0) - 2 * profile.heights(i, 0) + profile.heights(i - 1, 0);
     run = std::abs(bend) <= least ? run + 1 : 0;
     straight += run > 0;
     longest = std::max(longest, run);
@@ -126,9 +127,10 @@ double profile_density(double q, double hurst, double q_rolloff, double q_short)
   if (q < q_rolloff) density += 2 * std::sqrt(q_rolloff * q_rolloff - q * q);
   const double from = std::acos(q / std::max(q, q_rolloff)), to = std::acos(q / q_short);
   // The whole quarter of a turn has a closed form, √π Γ(H+½)/(2 Γ(H+1)).
-  const double integral = q >= q_rolloff && q < 1e-9 * q_short
-                              ? std::sqrt(pi) / 2 * std::tgamma(hurst + 0.5) / std::tgamma(hurst + 1)
-                              : cosine_integral(2 * hurst, from, to);
+  const double integral =
+      q >= q_rolloff && q < 1e-9 * q_short
+          ? std::sqrt(pi) / 2 * std::tgamma(hurst + 0.5) / std::tgamma(hurst + 1)
+          : cosine_integral(2 * hurst, from, to);
   return density + 2 * std::pow(q_rolloff / q, 2 + 2 * hurst) * q * integral;
 }
 
@@ -152,15 +154,17 @@ ProfileFit fit_profile(const Surface& profile, double shortest_wavelength) {
   if (shortest_wavelength == 0) shortest_wavelength = detail::asymmetric_wavelength(level);
   const double unreliable = std::max(shortest_wavelength, interpolated_wavelength(profile));
   // Waves of less than two and a half cells are what points fold most, and no law describes them.
-  const double highest = std::min(0.8 * pi / level.grid.dx(), unreliable > 0 ? 2 * pi / unreliable : endless);
+  const double highest =
+      std::min(0.8 * pi / level.grid.dx(), unreliable > 0 ? 2 * pi / unreliable : endless);
   std::vector<detail::SpectrumBin> bins = profile_bins(profile_psd(level, Axis::x, Window::hann));
-  if (unreliable > 0) std::erase_if(bins, [&](const auto& bin) { return bin.wavenumber > highest; });
+  if (unreliable > 0)
+    std::erase_if(bins, [&](const auto& bin) { return bin.wavenumber > highest; });
   if (std::ranges::any_of(bins, [](const auto& bin) { return !(bin.power > 0); })) return fit;
 
   const double step = 2 * pi / level.grid.lx;
   const auto below = [&](double limit) {
-    return std::span(bins).first(static_cast<std::size_t>(std::ranges::count_if(
-        bins, [&](const auto& bin) { return bin.wavenumber < limit; })));
+    return std::span(bins).first(static_cast<std::size_t>(
+        std::ranges::count_if(bins, [&](const auto& bin) { return bin.wavenumber < limit; })));
   };
   double q_short = endless;
   detail::PowerLawRange law;

@@ -173,7 +173,7 @@ ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
   std::vector<double> sums;
   for (const auto& block :
        detail::map_profiles(surface, axis, std::vector<double>(modes_of_profile, 0.0),
-                            [&](std::vector<double>&power, std::span<double> values) {
+                            [&](std::vector<double>& power, std::span<double> values) {
                               Eigen::Map<Eigen::ArrayXd> heights(values.data(), n);
                               heights -= (weights * heights).sum() / sum_of_weights;
                               heights *= weights;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
 #include <salebra/generators/shapes.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <utility>
 #include <vector>
 

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
-#include <salebra/base/error.hpp>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/analysis/sliding.hpp>
+#include <salebra/base/error.hpp>
 #include <vector>
 
 #include "results/answer_json.hpp"
@@ -46,7 +46,8 @@ TEST_CASE("Much friction is no slip, and little of it loses less by relaxation",
   CHECK(much.results.at(0).work_per_cycle == Approx(stuck).epsilon(1e-4));
   CHECK(little.results.at(0).relaxation_work < 0.99 * stuck);
   CHECK(little.results.at(0).work_per_cycle_without_slip == stuck);
-  CHECK(little.results.at(0).damping_constant_without_slip == without.results.at(0).damping_constant);
+  CHECK(little.results.at(0).damping_constant_without_slip ==
+        without.results.at(0).damping_constant);
   CHECK(std::isnan(without.results.at(0).slip_share()));
   CHECK(!answer_json(without).contains("slip_share"));
 }
@@ -78,14 +79,14 @@ TEST_CASE("What decides and is missing leaves the loss unknown, with what to giv
 
 TEST_CASE("Cases that do not match in number are refused", "[analysis]") {
   const DampingProblem problem{.contact = ExponentialContact{1e-7, ratio, {1, 2, 3}},
-                                 .motions = {Drag{1e-8, 1e-3, omega}, Drag{2e-8, 1e-3, omega}}};
+                               .motions = {Drag{1e-8, 1e-3, omega}, Drag{2e-8, 1e-3, omega}}};
   CHECK_THROWS_AS(solve(problem), InvalidInput);
 }
 
 TEST_CASE("A joint is that of its law, and what a surface alone has is refused of a law",
           "[analysis]") {
   JointProblem problem{.contact = contact,
-                         .motions = {TangentialAmplitude{2e-9}, TangentialForce{0.05}}};
+                       .motions = {TangentialAmplitude{2e-9}, TangentialForce{0.05}}};
   problem.facts.friction_coefficient = 0.3;
   const JointSolution constant = solve(problem);
   const ExponentialLaw law(1, 1e-7, ratio);

@@ -334,9 +334,8 @@ TEST_CASE("Crafted twins are refused in one line, at a bounded cost", "[hostile]
       {"in twin/draws/rolloff", numbers("rolloff", std::vector<double>(1000, 1e-300))},
       {"in twin/draws/short_cutoff", numbers("short_cutoff", std::vector<double>(1000, 1e300))},
       {"in twin/draws/log_psd", numbers("log_psd", std::vector<double>(1000, 700), 1000)},
-      {"999 values of hurst", [&](const fs::path& file) {
-         numbers("hurst", std::vector<double>(999, 0.8))(file);
-       }},
+      {"999 values of hurst",
+       [&](const fs::path& file) { numbers("hurst", std::vector<double>(999, 0.8))(file); }},
       {"at most 20000", numbers("log_psd", std::vector<double>(100000, -60), 100000)}};
   for (const auto& [part, edit] : edits) {
     INFO(part);

@@ -6,12 +6,12 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <salebra/analysis/damping.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/export/deck.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
-#include <salebra/analysis/damping.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/study.hpp>
 #include <salebra/study/study_solution.hpp>

@@ -229,10 +229,10 @@ TEST_CASE("SIGINT stops work that reports no progress", "[program]") {
       "generate --points 2048 --size-x 1mm --hurst 0.8 --rolloff 0.25mm --short-cutoff 2um "
       "--rms-height 1um -o surface.h5");
   // Its tables take more than a second, and were printed with status 0.
-  const auto result = test.run(
-      "statistics surface.h5 --all -o out.h5 --quiet --threads 1",
-      "(until grep -q '^SigCgt:.*[2367abef]$' /proc/$$/status; do sleep 0.01; done; sleep 0.2; kill "
-      "-INT $$) &");
+  const auto result = test.run("statistics surface.h5 --all -o out.h5 --quiet --threads 1",
+                               "(until grep -q '^SigCgt:.*[2367abef]$' /proc/$$/status; do sleep "
+                               "0.01; done; sleep 0.2; kill "
+                               "-INT $$) &");
   CHECK(result.status == 130);
   CHECK(result.out.empty());
   CHECK(test.files() == words("surface.h5"));
@@ -271,8 +271,7 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
             "--friction-coefficient 0.3 --frequency 20kHz --normal-amplitude 1:20nm:40 "
             "--velocity-ratios 0.001:0.9:4000",
         "damping " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000",
-        cylinder + "--size-y 1m", cylinder + "--points 16 --levels 4000",
-        surface,
+        cylinder + "--size-y 1m", cylinder + "--points 16 --levels 4000", surface,
         surface + "--skewness 1 --kurtosis 5"}) {
     INFO(command);
     const auto start = std::chrono::steady_clock::now();

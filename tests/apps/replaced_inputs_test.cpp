@@ -31,9 +31,10 @@ std::string study_of(const std::string& surface) {
 TEST_CASE("No output replaces a file that the command reads", "[hostile]") {
   const ProgramTest test;
   const auto surface = [&](const std::string& name) {
-    test.done("generate --points 16 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.6um "
-              "--rms-height 1nm -o " +
-              name);
+    test.done(
+        "generate --points 16 --size-x 4um --hurst 0.8 --rolloff 2um --short-cutoff 0.6um "
+        "--rms-height 1nm -o " +
+        name);
   };
   surface("scan.h5");
   surface("scan.npy");

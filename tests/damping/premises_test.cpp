@@ -515,7 +515,7 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   // what is left are the tables of K_t that are followed, good to 1e-9.
   const auto same = [&](const Oscillation& motion, double excursion) {
     const Loss table = loss_with_slip(own, 0, motion, friction, excursion),
-                       formula = loss_with_slip(like, 0, motion, friction, excursion);
+               formula = loss_with_slip(like, 0, motion, friction, excursion);
     CHECK(table.work_per_cycle == Approx(formula.work_per_cycle).epsilon(1e-6));
     CHECK(table.slip_work == Approx(formula.slip_work).epsilon(1e-6));
     return table.work_per_cycle;

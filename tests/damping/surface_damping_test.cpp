@@ -203,8 +203,7 @@ TEST_CASE("A surface that slides as a whole loses μF on its way, whatever its K
     CHECK(std::abs(result.stiffness_ratio - 1) > 0.03);
     // Turning points take 4μδ/g of the excursion, below 0.5 %; the amplitude is 1e-3 of δ.
     const double way = 2 * pi * motion.drag_velocity / motion.angular_frequency;
-    CHECK(result.work_per_cycle ==
-          Approx(friction * curve.samples[0].force * way).epsilon(0.01));
+    CHECK(result.work_per_cycle == Approx(friction * curve.samples[0].force * way).epsilon(0.01));
   }
 }
 
@@ -233,7 +232,8 @@ TEST_CASE("The loss of a paraboloid with slip is that of Hertz' law, from no sli
     // Some 200 cells enter within the oscillation on the finer grid: two standard deviations are
     // 14 %. Where slip makes most of W it is an integral of forces, which hardly feel the cells.
     CHECK(result.work_per_cycle_error() < 0.2 * exact.work_per_cycle);
-    if (exact.slip_share() > 0.5) CHECK(result.work_per_cycle_error() < 0.05 * exact.work_per_cycle);
+    if (exact.slip_share() > 0.5)
+      CHECK(result.work_per_cycle_error() < 0.05 * exact.work_per_cycle);
     CHECK(std::abs(result.slip_work / found - exact.slip_share()) <
           result.work_per_cycle_error() / found);
   };
@@ -308,7 +308,8 @@ TEST_CASE("Surfaces unlike the generator's have errors that hold, and none is mi
     // 33 contacts in place of 17 change it by 0.3 %.
     const double converged =
         work_by_contacts(refined(surface, 4), material, pressure, motion, 16, false);
-    const double ratio = std::abs(result.work_per_cycle - converged) / result.work_per_cycle_error();
+    const double ratio =
+        std::abs(result.work_per_cycle - converged) / result.work_per_cycle_error();
     INFO(seed << ' ' << result.work_per_cycle_error() / result.work_per_cycle << ' '
               << converged / result.work_per_cycle - 1);
     REQUIRE(result.converged);
@@ -347,8 +348,8 @@ TEST_CASE("Errors of the loss with slip hold, over three decades of the excursio
       const double found = result.work_per_cycle;
       const double converged =
           work_with_slip_by_contacts(dense, material, motion, friction, options.excursion);
-      const double ratio =
-          std::abs(found - converged) / std::hypot(result.work_per_cycle_error(), 0.005 * converged);
+      const double ratio = std::abs(found - converged) /
+                           std::hypot(result.work_per_cycle_error(), 0.005 * converged);
       INFO(seed << ' ' << friction << ' ' << steps << ": " << found / converged << ' '
                 << result.work_per_cycle_error() / converged << ' ' << result.slip_work / found);
       REQUIRE(result.converged);
@@ -381,9 +382,9 @@ TEST_CASE("A loss whose error is not smaller is no number, and neither are its p
   loss.error.noise = 1;
   loss.error_without_slip.noise = 3;
   loss.drop_uncertain();
-  for (const double number : {loss.work_per_cycle, loss.damping_constant, loss.relaxation_work,
-                              loss.slip_work, loss.work_per_cycle_without_slip,
-                              loss.damping_constant_without_slip})
+  for (const double number :
+       {loss.work_per_cycle, loss.damping_constant, loss.relaxation_work, loss.slip_work,
+        loss.work_per_cycle_without_slip, loss.damping_constant_without_slip})
     CHECK(std::isnan(number));
   // The error stays, to say why.
   CHECK(loss.work_per_cycle_error() == Approx(std::sqrt(0.09 + 1)));
@@ -752,7 +753,7 @@ TEST_CASE("A loss below zero is no result") {
   const SurfaceDamping damping =
       surface_damping(surface, material, drag(surface, 0.01), curve, options)[1];
   CHECK(!damping.converged);
-  for (const double number : {damping.work_per_cycle, damping.damping_constant, damping.work_per_cycle_error(),
-                              damping.damping_constant_error()})
+  for (const double number : {damping.work_per_cycle, damping.damping_constant,
+                              damping.work_per_cycle_error(), damping.damping_constant_error()})
     CHECK(std::isnan(number));
 }

@@ -152,8 +152,8 @@ TEST_CASE("The rows of every table rise as another program reads them, or there 
     problem.rows = 40;
     if (few)
       CHECK_THAT(refusal(problem), Contains("rows: 40 are too many: two have the ") &&
-                                        Contains("in all digits that are read; give fewer, or "
-                                                 "widen `pressure_window`"));
+                                       Contains("in all digits that are read; give fewer, or "
+                                                "widen `pressure_window`"));
     // The remedy helps.
     problem.rows = 4;
     problem.pressure_window->second = 2e6 * (1 + 1e-10);
@@ -186,10 +186,9 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
         rest.erase(begin, rest.find("*/", begin) + 2 - begin);
       return rest;
     }
-    const std::string mark = format == DeckFormat::ansys ? "!"
-                             : format == DeckFormat::calculix || format == DeckFormat::abaqus
-                                 ? "**"
-                                 : "#";
+    const std::string mark = format == DeckFormat::ansys                                      ? "!"
+                             : format == DeckFormat::calculix || format == DeckFormat::abaqus ? "**"
+                                                                                              : "#";
     std::string rest;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);)

@@ -28,12 +28,13 @@ TEST_CASE("Results with parts missing, empty or short are refused, not read beyo
     CHECK_THROWS_WITH(detail::report_payload(ResultReader(file)),
                       Contains(part) && Contains("the file is damaged"));
   };
-  for (const std::string name : {"solution/damping_constant_error", "solution/slip_share", "picture/x",
-                                 "picture/first_load", "curve/converged"}) {
+  for (const std::string name : {"solution/damping_constant_error", "solution/slip_share",
+                                 "picture/x", "picture/first_load", "curve/converged"}) {
     refused(name + " is missing", [&] { hostile::remove(file, name); });
     refused(name + " has no values", [&] { hostile::set_numbers(file, name, {}); });
   }
-  refused("fit/law_off_closest has", [&] { hostile::set_numbers(file, "fit/law_off_closest", {}); });
+  refused("fit/law_off_closest has",
+          [&] { hostile::set_numbers(file, "fit/law_off_closest", {}); });
   refused("picture/heights has 1 values",
           [&] { hostile::set_numbers(file, "picture/heights", {1e-9}); });
   refused("premises/inertia is missing", [&] { hostile::remove(file, "premises/inertia"); });

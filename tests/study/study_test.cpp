@@ -19,8 +19,8 @@
 #include <salebra/io/result_file.hpp>
 #include <salebra/study/parts.hpp>
 #include <salebra/study/study.hpp>
-#include <salebra/study/study_solution.hpp>
 #include <salebra/study/study_file.hpp>
+#include <salebra/study/study_solution.hpp>
 
 #include "ranks_in_threads.hpp"
 #include "small_study.hpp"
@@ -338,9 +338,9 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
   other.conduction = {};
   CHECK(StudyParts::keys(other) == StudyParts::keys(configuration));
   CHECK(solution_of({.configuration = other,
-                   .grid = result.grid,
-                   .pressures = result.pressures,
-                   .realisations = result.realisations})
+                     .grid = result.grid,
+                     .pressures = result.pressures,
+                     .realisations = result.realisations})
             .thermal_conductance.empty());
 }
 

@@ -40,19 +40,17 @@ class FractionalBrownian {
   salebra::Field surface(salebra::Index n, double hurst) {
     using salebra::Index;
     const double alpha = 2 * hurst, range = alpha <= 1.5 ? 1 : 2;
-    const double beta =
-        alpha <= 1.5 ? 0 : alpha * (2 - alpha) / (3 * range * (range * range - 1));
+    const double beta = alpha <= 1.5 ? 0 : alpha * (2 - alpha) / (3 * range * (range * range - 1));
     const double square =
-        alpha <= 1.5 ? alpha / 2
-                     : (alpha - beta * (range - 1) * (range - 1) * (range + 2)) / 2;
+        alpha <= 1.5 ? alpha / 2 : (alpha - beta * (range - 1) * (range - 1) * (range + 2)) / 2;
     const double constant = beta * std::pow(range - 1, 3) + 1 - square;
     const double step = 1 / (std::numbers::sqrt2 * double(n));
     const auto half = Index(std::ceil(range / step)) + 1;
     salebra::Field circulant(2 * half, 2 * half);
     for (Index i = 0; i < 2 * half; ++i)
       for (Index j = 0; j < 2 * half; ++j) {
-        const double r = step * std::hypot(double(std::min(i, 2 * half - i)),
-                                           double(std::min(j, 2 * half - j)));
+        const double r =
+            step * std::hypot(double(std::min(i, 2 * half - i)), double(std::min(j, 2 * half - j)));
         circulant(i, j) = r <= 1       ? constant - std::pow(r, alpha) + square * r * r
                           : r <= range ? beta * std::pow(range - r, 3) / r
                                        : 0;

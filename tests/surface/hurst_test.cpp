@@ -48,8 +48,9 @@ TEST_CASE("Intervals of H hold the truth of exact fractional Brownian profiles",
   Coverage all;
   for (const double hurst : {0.2, 0.5, 0.8})
     for (unsigned seed = 0; seed < 12; ++seed)
-      all.add(fit_profile(measured(1e-9 * pixel_means(
-                              FractionalBrownian(seed).profile(4000 * pixel, hurst), pixel)))
+      all.add(fit_profile(
+                  measured(1e-9 * pixel_means(FractionalBrownian(seed).profile(4000 * pixel, hurst),
+                                              pixel)))
                   .hurst,
               hurst);
   INFO(all.covered << " of " << all.found << ", half-width " << all.width / all.found);
@@ -67,8 +68,8 @@ TEST_CASE("Intervals of H hold the truth of fractional Brownian maps of points a
   Coverage all;
   for (const double hurst : {0.2, 0.5, 0.8})
     for (unsigned seed = 0; seed < 4; ++seed)
-      all.add(of_map(measured(1e-8 * pixel_means(
-                         FractionalBrownian(seed).surface(128 * pixel, hurst), pixel))),
+      all.add(of_map(measured(
+                  1e-8 * pixel_means(FractionalBrownian(seed).surface(128 * pixel, hurst), pixel))),
               hurst);
   INFO(all.covered << " of " << all.found << ", half-width " << all.width / all.found);
   CHECK(all.found == 12);
@@ -160,8 +161,7 @@ TEST_CASE("A tip that is stated does not shift H", "[hurst]") {
   for (unsigned seed = 0; seed < 4; ++seed) {
     Surface scan = measured(2e-6 * FractionalBrownian(seed).surface(128, hurst));
     scan.heights = dilated(scan.heights, cell, radius);
-    all.add(of_map(scan, short_wavelength_limit(scan, {.tip_radius = radius}).wavelength()),
-            hurst);
+    all.add(of_map(scan, short_wavelength_limit(scan, {.tip_radius = radius}).wavelength()), hurst);
   }
   // Of four at 95 %, one or none has a probability of 5e-4.
   CHECK(all.covered >= all.found - 2);

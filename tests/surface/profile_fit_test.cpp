@@ -83,8 +83,7 @@ TEST_CASE("A profile of a generated surface gives the law that made it", "[profi
     slope += fit.surface_slope * fit.surface_slope;
     // Fifteen roll-offs lie in the profile, of whose plateau it has some ten waves: too few to see
     // it in most lines.
-    if (!std::isnan(fit.rolloff))
-      CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
+    if (!std::isnan(fit.rolloff)) CHECK(std::abs(std::log(fit.rolloff / rolloff)) < std::log(2.5));
     if (!std::isnan(fit.short_cutoff)) {
       ++cutoffs;
       // A bin is 12 % wide, and the end of a profile is that of its surface smeared.

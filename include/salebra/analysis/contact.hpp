@@ -4,9 +4,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>

@@ -3,6 +3,8 @@
 
 #include <limits>
 #include <optional>
+#include <salebra/analysis/contact.hpp>
+#include <salebra/analysis/slip.hpp>
 #include <salebra/base/describe.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
@@ -12,8 +14,6 @@
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/surface_damping.hpp>
-#include <salebra/analysis/contact.hpp>
-#include <salebra/analysis/slip.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -117,7 +117,7 @@ PathSolution solve(const PathProblem& problem, const Context& context = {});
 /// A contact as a damper of slow tangential motions under fast normal oscillation, over amplitudes
 /// and frequencies.
 struct DamperProblem {
-  ContactProblem contact = {};                ///< at one operating point
+  ContactProblem contact = {};                 ///< at one operating point
   std::vector<double> normal_amplitude = {};   ///< m; empty: found for falling_slope
   std::vector<double> angular_frequency = {};  ///< rad/s, at least one
   Hold hold = Hold::indentation;

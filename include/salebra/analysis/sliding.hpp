@@ -2,10 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <vector>
 
@@ -39,14 +39,15 @@ struct SlidingSolution {
 ///
 /// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
 ///         NotConverged where a quadrature did not reach its tolerance
-SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law, const Position& position);
+SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
+                      const Position& position);
 /// The same at the first operating point of a contact. On a surface each point comes from contacts
 /// solved inside the oscillation, with errors (surface_sliding()); regimes always come from the
 /// law.
 /// material  of a surface; ignored otherwise
 /// throws    NotConverged, Interrupted
 SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
-                  const Material& material, const Context& context = {});
+                      const Material& material, const Context& context = {});
 
 /// The final motion of a slider, its stability, and the threshold of the oscillation.
 struct SliderProblem {

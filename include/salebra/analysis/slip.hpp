@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <salebra/analysis/contact.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <string>
 
 /// Adds slip to a loss. The program, studies and Python call this; the report shows what a study found.

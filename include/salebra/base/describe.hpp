@@ -55,9 +55,7 @@ struct Kept {
 constexpr void keep(auto&& visit, auto... members) { (visit(members, Kept{}), ...); }
 
 template <class T>
-concept Described = requires {
-  describe([](auto&&...) {}, std::type_identity<T>{});
-};
+concept Described = requires { describe([](auto&&...) {}, std::type_identity<T>{}); };
 
 /// Returns true if the description lists all members in the order of their declarations. A
 /// static_assert on it fails when a struct gains a member that is not described.

@@ -21,7 +21,8 @@ struct EnumNames;  ///< values: pairs of a value and its word
 /// Returns the name of a value.
 template <class Enum>
 std::string_view name_of(Enum value) {
-  return std::ranges::find(EnumNames<Enum>::values, value, &std::pair<Enum, std::string_view>::first)
+  return std::ranges::find(EnumNames<Enum>::values, value,
+                           &std::pair<Enum, std::string_view>::first)
       ->second;
 }
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <limits>
-#include <salebra/base/progress.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/loss.hpp>
 #include <salebra/damping/oscillation.hpp>

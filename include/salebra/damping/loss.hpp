@@ -37,8 +37,7 @@ constexpr void describe(auto&& visit, std::type_identity<ErrorBudget>) {
                                 "error of work_per_cycle by the intervals of the oscillation"});
   visit(&S::stiffness_ratio,
         Quantity{"ratio_error", energy, "error of work_per_cycle by the ratio of stiffnesses"});
-  visit(&S::seam,
-        Quantity{"seam_error", energy, "error of work_per_cycle by the seam of a scan"});
+  visit(&S::seam, Quantity{"seam_error", energy, "error of work_per_cycle by the seam of a scan"});
   visit(&S::solver,
         Quantity{"solver_error", energy, "error of work_per_cycle by the solver's tolerance"});
 }
@@ -83,16 +82,14 @@ constexpr void describe(auto&& visit, std::type_identity<Loss>) {
   using S = Loss;
   visit(&S::work_per_cycle, Extensive{quantity::work_per_cycle});
   visit(&S::damping_constant, quantity::damping_constant);
-  visit(&S::work_per_cycle_without_slip,
-        WhereKnown{"work_per_cycle_without_slip", energy,
-                   "energy dissipated in a cycle without slip"});
+  visit(&S::work_per_cycle_without_slip, WhereKnown{"work_per_cycle_without_slip", energy,
+                                                    "energy dissipated in a cycle without slip"});
   visit(&S::damping_constant_without_slip, WhereKnown{quantity::damping_constant_without_slip});
   visit(&S::relaxation_work, WhereKnown{quantity::relaxation_work});
   visit(&S::slip_work, WhereKnown{quantity::slip_work});
   visit(&S::error, Kept{"error", "numerical error of work_per_cycle by its causes"});
   visit(&S::error_without_slip,
-        Kept{"error_without_slip",
-             "numerical error of work_per_cycle_without_slip by its causes"});
+        Kept{"error_without_slip", "numerical error of work_per_cycle_without_slip by its causes"});
   visit(&S::damping_per_work, Kept{});
   visit(&S::work_per_cycle_error, WhereKnown{quantity::work_per_cycle_error});
   visit(&S::damping_constant_error, WhereKnown{quantity::damping_constant_error});

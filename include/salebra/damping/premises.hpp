@@ -2,8 +2,8 @@
 #pragma once
 
 #include <limits>
-#include <salebra/base/grid.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/grid.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/damper.hpp>

@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/progress.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <vector>

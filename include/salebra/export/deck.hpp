@@ -4,11 +4,11 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <salebra/analysis/contact.hpp>
 #include <salebra/base/describe.hpp>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/export/unit_system.hpp>
 #include <salebra/io/provenance.hpp>
-#include <salebra/analysis/contact.hpp>
 #include <string>
 #include <vector>
 
@@ -44,8 +44,8 @@ struct DeckContact {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::shared_ptr<const ContactLaw> law;
   double nominal_area = unknown;  ///< A, m²
-  double sample_area = unknown;   ///< area of the sample that the law was scaled from, m²; NaN: not
-                                  ///< scaled
+  double sample_area = unknown;  ///< area of the sample that the law was scaled from, m²; NaN: not
+                                 ///< scaled
   /// δ for the stick slope and Jenkins sliders, m; NaN: not given.
   double indentation = unknown;
   double lowest = unknown, highest = unknown;  ///< range of δ in decks, m; NaN: all that is known

@@ -25,9 +25,8 @@ struct ReadOptions {
   std::optional<double> size_x = {};  ///< m; overrides the file
   std::optional<double> size_y = {};  ///< m
   std::optional<std::pair<double, double>> pixel_size =
-      {};  ///< m, distance of the points along x and y, instead of sizes
-  std::string lateral_unit =
-      {};  ///< unit such as "um" for XYZ files that give none; empty: metres
+      {};                         ///< m, distance of the points along x and y, instead of sizes
+  std::string lateral_unit = {};  ///< unit such as "um" for XYZ files that give none; empty: metres
   std::optional<bool> periodic = {};   ///< overrides the file
   std::string height_unit = {};        ///< such as "nm", for files that give none; empty: metres
   std::optional<double> despike = {};  ///< threshold of find_spikes(); spikes become undefined
@@ -37,8 +36,8 @@ struct ReadOptions {
       {};  ///< number or name of one of several surfaces in GWY, HDF5 (dataset) and
            ///< imported files; empty: the first whose unit is a length
   bool known_formats = false;  ///< ignores the installed importer of other formats
-  bool profiles = false;  ///< reads a line profile as a surface of one row; otherwise it is
-                          ///< rejected
+  bool profiles = false;       ///< reads a line profile as a surface of one row; otherwise it is
+                               ///< rejected
   std::vector<std::string>* remarks =
       nullptr;  ///< receives warnings, "<file>: <what>", on likely mistakes and on processing; on a
                 ///< distributed surface all processes give it or none, and all receive the same

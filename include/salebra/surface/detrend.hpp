@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/grid.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/grid.hpp>
 
 namespace salebra {
 

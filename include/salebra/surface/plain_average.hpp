@@ -13,7 +13,7 @@ struct PlainSpectrum {
   std::vector<Index> bin;          ///< indices of the bins that contain a wave, counted from q =
                                    ///< 1/m
   std::vector<double> wavenumber;  ///< mean wave number in each bin, rad/m
-  std::vector<double> psd;   ///< mean C₁ in each bin, h_rms² = ∫C₁ dq over −∞ < q < ∞, m³
+  std::vector<double> psd;  ///< mean C₁ in each bin, h_rms² = ∫C₁ dq over −∞ < q < ∞, m³
   std::vector<Index> scans;  ///< number of scans with waves in each bin
 };
 

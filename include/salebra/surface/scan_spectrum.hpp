@@ -4,8 +4,8 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/grid.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/grid.hpp>
 #include <string>
 #include <vector>
 
@@ -91,9 +91,9 @@ struct ScanSpectrum {
   double weight = 1;
   std::string name;                ///< name of the scan, for messages
   std::vector<double> wavenumber;  ///< geometric middle of each bin, rad/m
-  std::vector<double> psd;         ///< mean periodogram in the bin: C, m⁴; for a profile C₁, m³
-  std::vector<Index> modes;        ///< number of modes of the full spectrum; 0 if drift removed all
-  std::vector<HeightBand> bands;   ///< from fine to coarse
+  std::vector<double> psd;        ///< mean periodogram in the bin: C, m⁴; for a profile C₁, m³
+  std::vector<Index> modes;       ///< number of modes of the full spectrum; 0 if drift removed all
+  std::vector<HeightBand> bands;  ///< from fine to coarse
 
   bool profile() const { return grid.ny == 1; }
 };

@@ -3,9 +3,9 @@
 
 #include <limits>
 #include <salebra/base/describe.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/share.hpp>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
 

@@ -4,8 +4,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
-#include <salebra/base/error.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/error.hpp>
 #include <string>
 #include <string_view>
 #include <utility>

@@ -39,7 +39,7 @@ inline void require_whole(const BoundSurface& surface, const std::string& purpos
 
 /// Gathers spectra and summits, of which each process holds those of its columns or rows.
 template <class Part>
-requires std::same_as<Part, PowerSpectrum> || std::same_as<Part, SummitList>
+  requires std::same_as<Part, PowerSpectrum> || std::same_as<Part, SummitList>
 void require_whole(const Part& part, const std::string& purpose) {
   if (!part.ranks.alone())
     throw InvalidInput(std::same_as<Part, SummitList> ? "summits" : "spectrum", "",

@@ -19,9 +19,7 @@ constexpr double acceptable_error = 0.2;
 // side.
 constexpr Index reach = 2;
 
-HaloView view(const HaloField<float>& field) {
-  return {field.row(0), field.stride(), field.ny()};
-}
+HaloView view(const HaloField<float>& field) { return {field.row(0), field.stride(), field.ny()}; }
 
 // The coarse cells I with |2I − x| <= 2: those that a spline takes cell x of the finer grid to, and
 // from.
@@ -65,10 +63,10 @@ std::array<float, size> whole_stencil(const MultilevelStencil& stencil) {
 }  // namespace
 
 std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D& grid,
-                                                                 const Share& rows,
-                                                                 const NormalSymbol& symbol,
-                                                                 double contact_modulus,
-                                                                 Boundary boundary) {
+                                                                   const Share& rows,
+                                                                   const NormalSymbol& symbol,
+                                                                   double contact_modulus,
+                                                                   Boundary boundary) {
   int depth = 0;
   for (Index x = symbol.period_x, y = symbol.period_y;
        x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= least_period && depth < max_levels;

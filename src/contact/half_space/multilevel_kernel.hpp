@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/convolution.hpp"
-#include "halo_field.hpp"
 #include "half_space.hpp"
+#include "halo_field.hpp"
 #include "multilevel_design.hpp"
 #include "multilevel_passes.hpp"
 #include "normal_symbol.hpp"
@@ -34,7 +34,7 @@ class MultilevelKernel {
   // What the multilevel kernels of equal grids have in common.
   struct Plan {
     Boundary boundary = Boundary::periodic;
-    Index nx = 0, ny = 0;                 // of the grid
+    Index nx = 0, ny = 0;                     // of the grid
     std::vector<MultilevelStencil> stencils;  // T1, T2, … in m/Pa
     double error = 0;
     QuarterSymbol left;  // C
@@ -48,8 +48,8 @@ class MultilevelKernel {
   };
   MultilevelKernel(const Plan& plan, const Share& rows);
   static std::optional<MultilevelKernel> make(const Grid2D& grid, const Share& rows,
-                                             const NormalSymbol& symbol, double contact_modulus,
-                                             Boundary boundary) {
+                                              const NormalSymbol& symbol, double contact_modulus,
+                                              Boundary boundary) {
     const auto plan = Plan::make(grid, rows, symbol, contact_modulus, boundary);
     if (!plan) return std::nullopt;
     return MultilevelKernel(*plan, rows);

@@ -54,8 +54,7 @@ Convolution2D<Real> NormalOperators::compliance() {
       return single_;
     else
       return exact_;
-  }
-  ();
+  }();
   if (!made) made = normal_compliance<Real>(grid_, symbol_, rows_);
   return *made;
 }

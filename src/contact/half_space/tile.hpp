@@ -10,7 +10,8 @@ namespace salebra::detail {
 // vector widths include it.
 
 inline constexpr int tile_width = 16;
-inline constexpr int halo = 3;  // cells around a field with a halo: the radius of the widest stencil
+inline constexpr int halo =
+    3;  // cells around a field with a halo: the radius of the widest stencil
 // The halo to the left and right is as wide as a tile, so that tiles of a field with a halo begin on
 // cache lines.
 inline constexpr int side_halo = tile_width;

@@ -118,14 +118,14 @@ Convolution2D<Real>& ActiveSetCg<Real>::dense_compliance() {
 template <class Real>
 CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, double t_mean) {
   const auto a = arrays(std::numeric_limits<double>::infinity());
-  return total_of(
-      by_blocks(rows_, displace<CurvatureSums>(
-                           [&](Index begin, Index end, Real* row) {
-                             kernels_.direct(a, begin, end, {z_mean, beta, t_mean}, row);
-                           },
-                           [&](Index begin, Index end, const Real* row) {
-                             return kernels_.take_image(a, begin, end, row);
-                           })));
+  return total_of(by_blocks(rows_, displace<CurvatureSums>(
+                                       [&](Index begin, Index end, Real* row) {
+                                         kernels_.direct(a, begin, end, {z_mean, beta, t_mean},
+                                                         row);
+                                       },
+                                       [&](Index begin, Index end, const Real* row) {
+                                         return kernels_.take_image(a, begin, end, row);
+                                       })));
 }
 
 // A row of the pressure for a transform. Only tiles in use carry load, and others are not read;

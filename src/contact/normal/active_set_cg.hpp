@@ -12,8 +12,8 @@
 
 #include "base/convolution.hpp"
 #include "base/memory.hpp"
-#include "contact/half_space/halo_field.hpp"
 #include "contact/half_space/half_space.hpp"
+#include "contact/half_space/halo_field.hpp"
 #include "contact/half_space/multilevel_kernel.hpp"
 #include "contact/half_space/normal_operators.hpp"
 #include "contact_residual.hpp"
@@ -242,10 +242,11 @@ class ActiveSetCg {
   std::array<Real, stencil_size> stencil_;
   const TileKernels<Real>& kernels_;
   std::optional<MultilevelKernel> multilevel_;  // made when it is first needed
-  bool operator_chosen_ = false;           // of this solve
-  MultilevelShare multilevel_share_;               // of the limits
-  bool spectrum_in_pool_ = false;          // that of compliance_
-  bool on_multilevel_ = false;  // the iterations apply the multilevel kernel in place of a transform
+  bool operator_chosen_ = false;                // of this solve
+  MultilevelShare multilevel_share_;            // of the limits
+  bool spectrum_in_pool_ = false;               // that of compliance_
+  bool on_multilevel_ =
+      false;  // the iterations apply the multilevel kernel in place of a transform
 
   Index tiles_per_row_;
   std::vector<Tile> tiles_;            // row by row

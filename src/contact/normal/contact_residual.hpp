@@ -81,8 +81,8 @@ struct ActiveSetOutcome {
   double level = 0;
   int iterations = 0;
   int fft_count = 0;
-  int exact_fft_count = 0;  // of them in double precision, where the inner loop is not
-  int multilevel_count = 0;     // applications of the multilevel kernel in place of a transform
+  int exact_fft_count = 0;   // of them in double precision, where the inner loop is not
+  int multilevel_count = 0;  // applications of the multilevel kernel in place of a transform
   // Profiles read these: seconds in transforms, of them in exact ones, on the multilevel kernel, and the cells
   // of the tiles summed over the iterations.
   double fft_seconds = 0, exact_fft_seconds = 0, multilevel_seconds = 0;

@@ -31,14 +31,14 @@ template <class Real>
 struct TileArrays {
   const Tile* tiles;
   std::ptrdiff_t tile_count;
-  std::ptrdiff_t ny;             // cells of a row
+  std::ptrdiff_t ny;           // cells of a row
   std::ptrdiff_t halo_stride;  // from one row of r to the next
-  Real* r;                       // with a halo: (g − level) on the free cells, zero elsewhere
-  double* p;                     // packed: pressure
-  double* g;                     // packed: Gp − h
-  Real* t;                       // packed: search direction
-  Real* w;                       // packed: Gt
-  Real* z;                       // packed: preconditioned residual, and what truncate() changes
+  Real* r;                     // with a halo: (g − level) on the free cells, zero elsewhere
+  double* p;                   // packed: pressure
+  double* g;                   // packed: Gp − h
+  Real* t;                     // packed: search direction
+  Real* w;                     // packed: Gt
+  Real* z;                     // packed: preconditioned residual, and what truncate() changes
   Real* m;  // packed: 1 on free cells, where g = level is wanted; 0 where p is held at a bound
   unsigned char*
       // of each tile: 1 where no cell is free or loaded, and then t is zero, and r from the next

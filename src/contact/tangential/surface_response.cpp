@@ -145,8 +145,8 @@ void StencilPreconditioner::apply(const double* in, double* out) {
   parallel::for_slabs(
       count,
       [&](Index begin, Index end) {
-        multilevel_passes().at_cells(field, field_.stride(), stencil_.weights(), held_.data(), begin,
-                                  end, out);
+        multilevel_passes().at_cells(field, field_.stride(), stencil_.weights(), held_.data(),
+                                     begin, end, out);
       },
       InverseStencil::width * InverseStencil::width * count);
 }

@@ -12,8 +12,8 @@
 
 #include "base/convolution.hpp"
 #include "contact/half_space/cell_window.hpp"
-#include "contact/half_space/halo_field.hpp"
 #include "contact/half_space/half_space.hpp"
+#include "contact/half_space/halo_field.hpp"
 #include "contact/normal/set_inverse.hpp"
 
 namespace salebra::detail {
@@ -39,7 +39,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b);
 struct PointList {
   std::vector<Index> cell;        ///< ix·ny + iy in the fields
   std::vector<Index> windowed;    ///< ix·ny + iy in the window
-  std::vector<Index> with_halo;      ///< in StencilPreconditioner's field
+  std::vector<Index> with_halo;   ///< in StencilPreconditioner's field
   std::vector<Index> row_begins;  ///< the first point of each row of the window, and their number
   Index size() const { return static_cast<Index>(cell.size()); }
 };

@@ -95,7 +95,8 @@ Eigen::MatrixXd relative_error(const std::vector<MultilevelRung>& levels, int de
   return stand_in - Eigen::MatrixXd::Identity(size, size);
 }
 
-double spectral_error(const std::vector<MultilevelRung>& levels, int depth, double dx, int samples) {
+double spectral_error(const std::vector<MultilevelRung>& levels, int depth, double dx,
+                      int samples) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(0.02, 0.98);
   double largest = 0;
@@ -176,7 +177,7 @@ Field exact_image(const Field& field, const Grid2D& grid, Boundary boundary) {
 
 std::optional<MultilevelKernel> multilevel_for(const Grid2D& grid, Boundary boundary) {
   return MultilevelKernel::make(grid, Share(grid.nx),
-                               normal_symbol(grid, 1, boundary, Share(grid.nx)), 1, boundary);
+                                normal_symbol(grid, 1, boundary, Share(grid.nx)), 1, boundary);
 }
 
 Grid2D cells(Index nx, Index ny, double dx = 1, double dy = 1) {
@@ -255,10 +256,12 @@ TEST_CASE("The multilevel kernel's kernels of every vector width do what the pla
         if (random() % 3 != 0) tiles.push_back({i, j});
     return tiles;
   };
-  std::vector<std::pair<const char*, MultilevelKernels>> tables{{"baseline", baseline::multilevel_table()}};
+  std::vector<std::pair<const char*, MultilevelKernels>> tables{
+      {"baseline", baseline::multilevel_table()}};
 #ifdef SALEBRA_X86_KERNELS
   if (vector_width() != VectorWidth::baseline) tables.push_back({"avx2", avx2::multilevel_table()});
-  if (vector_width() == VectorWidth::avx512) tables.push_back({"avx512", avx512::multilevel_table()});
+  if (vector_width() == VectorWidth::avx512)
+    tables.push_back({"avx512", avx512::multilevel_table()});
 #endif
   const MultilevelKernels plain = reference::multilevel_table();
   const auto same = [](const HaloField<float>& a, const HaloField<float>& b) {

@@ -121,7 +121,8 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
   CHECK(applications < 1.1 * transform_pairs);
 }
 
-TEST_CASE("The tolerance is met by an exact gap in double, however far the multilevel kernel is off") {
+TEST_CASE(
+    "The tolerance is met by an exact gap in double, however far the multilevel kernel is off") {
   const Surface surface = unit_cells(512, 512, 8);
   for (const double tolerance : {1e-3, 1e-6, 1e-11}) {
     const Solved multilevel = solve(surface, Boundary::periodic, pressed(0.02), tolerance, 1.0);
@@ -210,7 +211,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("A punch takes three exact transforms on the multilevel kernel and has the same stiffness") {
+TEST_CASE(
+    "A punch takes three exact transforms on the multilevel kernel and has the same stiffness") {
   for (const auto boundary : {Boundary::periodic, Boundary::free})
     for (const double load : {0.005, 0.1}) {
       const Index n = boundary == Boundary::free ? 256 : 512;
@@ -232,7 +234,8 @@ TEST_CASE("A punch takes three exact transforms on the multilevel kernel and has
     }
 }
 
-TEST_CASE("Where exact residuals in float gain no more, a punch leaves the multilevel kernel and ends") {
+TEST_CASE(
+    "Where exact residuals in float gain no more, a punch leaves the multilevel kernel and ends") {
   // Rounding of a float residual, 1e-7, leaves its square to gain, 1e-14. Asked for less, each
   // further round on the multilevel kernel gains as much as the one before. Without new residuals CG ends.
   const Surface surface = unit_cells(512, 512, 9);
@@ -249,7 +252,8 @@ TEST_CASE("Where exact residuals in float gain no more, a punch leaves the multi
 }
 
 TEST_CASE(
-    "Between exact residuals the multilevel kernel contracts the error of a punch as its spectral error "
+    "Between exact residuals the multilevel kernel contracts the error of a punch as its spectral "
+    "error "
     "says") {
   // The first round solves G~ q = 1 on the set. The error in the metric of G~ falls by eps/(1 −
   // eps) at least, and what is left to gain by its square. The metric of G differs from that of G~

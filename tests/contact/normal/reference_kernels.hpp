@@ -25,8 +25,7 @@ void for_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t e
     const Tile& tile = a.tiles[k];
     for (std::ptrdiff_t i = 0; i < tile_width && tile.column + i < a.ny; ++i)
       body(Cell{k, k * tile_width + i,
-                (tile.row + halo) * a.halo_stride + side_halo + tile.column + i,
-                tile.column + i});
+                (tile.row + halo) * a.halo_stride + side_halo + tile.column + i, tile.column + i});
   }
 }
 

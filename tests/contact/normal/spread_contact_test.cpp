@@ -194,7 +194,8 @@ TEST_CASE("The multilevel kernel over processes has the bits of one process", "[
     const Surface mine = spread(surface, all);
     Field my_p, my_g;
     const ActiveSetOutcome together = solve(mine, my_p, my_g);
-    if (alone.multilevel_count != together.multilevel_count || alone.fft_count != together.fft_count)
+    if (alone.multilevel_count != together.multilevel_count ||
+        alone.fft_count != together.fft_count)
       throw Error("another number of iterations");
     if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
       throw Error("other bits of a field");

@@ -303,8 +303,9 @@ TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") 
   }
 }
 
-TEST_CASE("The steps of a stick solve do not grow with the grid where it is on the multilevel kernel",
-          "[stick]") {
+TEST_CASE(
+    "The steps of a stick solve do not grow with the grid where it is on the multilevel kernel",
+    "[stick]") {
   // With the exact inverse of the normal response the condition number is 1/(1 − ν) = 1.43, each
   // step gains a factor of 11, and 1e-6 takes six. The inverse has an error of a tenth in the norm
   // of G, which costs up to half as many again. The stencil takes 13 at 128², which has no such kernel,

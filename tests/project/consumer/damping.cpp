@@ -12,8 +12,8 @@ int main() {
   problem.contact = salebra::ExponentialContact{
       .decay_length = decay_length, .modulus_ratio = 0.8, .normal_force = {1}};
   problem.motions = {salebra::Drag{.normal_amplitude = amplitude,
-                                    .drag_velocity = 1e-6,
-                                    .angular_frequency = 2 * std::numbers::pi * 20e3}};
+                                   .drag_velocity = 1e-6,
+                                   .angular_frequency = 2 * std::numbers::pi * 20e3}};
   const salebra::DampingSolution solution = salebra::solve(problem);
   std::printf("%.6g N s/m, over that of small amplitudes %.6f\n",
               solution.results.front().damping_constant, solution.ratio.front());

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <salebra/base/progress.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/generators/spectrum.hpp>
 
 namespace salebra {

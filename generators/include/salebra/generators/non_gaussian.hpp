@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <salebra/base/progress.hpp>
 #include <salebra/base/enum_names.hpp>
+#include <salebra/base/progress.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <string>
 #include <vector>

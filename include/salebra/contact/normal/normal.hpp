@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/describe.hpp>
+#include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/material.hpp>
 
@@ -68,7 +68,7 @@ struct NormalContactState {
   double elastic_energy = 0;         ///< ½∫p u dA with zero-mean u (periodic), J
   double residual = 0;               ///< e_c reached
   int iterations = 0;                ///< on the finest level
-  int fft_count = 0;     ///< forward-and-backward pairs of the finest level, both precisions
+  int fft_count = 0;         ///< forward-and-backward pairs of the finest level, both precisions
   int multilevel_count = 0;  ///< applications of the multilevel kernel there, each replacing a pair
   Termination termination = Termination::iteration_limit;
   Communicator ranks = {};  ///< processes that share the fields, as for the surface

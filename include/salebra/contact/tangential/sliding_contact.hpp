@@ -107,13 +107,13 @@ class SlidingContact {
   /// Candidate state after an increment, with its cost. Values cover `cells` only; their vectors
   /// are (components × cells), with the components x and, with hold_lateral, y.
   struct Increment {
-    std::vector<Index> cells;              ///< in contact before or after it: ix·ny + iy,
-                                           ///< increasing
-    std::vector<double> contact_pressure;  ///< (cells), Pa
-    std::vector<double> traction;          ///< Pa
-    std::vector<double> traction_halfway;  ///< traction that determined the displacement of
-                                           ///< entering cells, Pa
-    std::vector<double> displacement;      ///< displacement of the cells, m; includes `shift`
+    std::vector<Index> cells;                 ///< in contact before or after it: ix·ny + iy,
+                                              ///< increasing
+    std::vector<double> contact_pressure;     ///< (cells), Pa
+    std::vector<double> traction;             ///< Pa
+    std::vector<double> traction_halfway;     ///< traction that determined the displacement of
+                                              ///< entering cells, Pa
+    std::vector<double> displacement;         ///< displacement of the cells, m; includes `shift`
     std::vector<double> displacement_before;  ///< the same before the increment, m
     std::vector<double> slip;                 ///< slip of the body over the cells, m
     /// Displacement not caused by τ at the end, m; empty: unchanged.

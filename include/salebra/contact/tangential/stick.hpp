@@ -25,7 +25,7 @@ struct StickOptions {
 /// Report on a linear solve on a contact set. Unless it converged, its results must not be used.
 struct StickReport {
   int iterations = 0;
-  int fft_count = 0;     ///< forward-and-backward pairs of scalar fields
+  int fft_count = 0;         ///< forward-and-backward pairs of scalar fields
   int multilevel_count = 0;  ///< applications of the multilevel kernel, in the preconditioner
   double residual =
       0;  ///< rms of the displacement error over the contact set, in units of the scale
@@ -83,10 +83,10 @@ struct StickStiffness {
   double xx = 0;
   double yy = 0;
   double xy = 0;
-  int iterations = 0;    ///< total of both solves
-  int fft_count = 0;     ///< pairs of both solves
+  int iterations = 0;        ///< total of both solves
+  int fft_count = 0;         ///< pairs of both solves
   int multilevel_count = 0;  ///< total of both solves
-  double residual = 0;   ///< the larger of both
+  double residual = 0;       ///< the larger of both
   Termination termination = Termination::iteration_limit;
 
   bool converged() const { return termination == Termination::converged; }
