@@ -30,7 +30,7 @@ int main(int argc, char** argv) try {
   const double pressure = relative_pressure * contact_modulus * rms_slope;
 
   // 3. Press. A solver that gave up says so in its result; its numbers are then no answer.
-  const NormalContactState state = press(surface, contact_modulus, {.pressure = pressure});
+  const NormalContactState state = press(surface, contact_modulus, at_pressure(pressure));
   if (!state.converged()) {
     std::fprintf(stderr, "not converged: residual %.1e after %d iterations\n", state.residual,
                  state.iterations);
@@ -49,7 +49,7 @@ int main(int argc, char** argv) try {
               state.residual);
 
   // 4. The mean gap that the pressure gave, given back, must return that pressure.
-  const NormalContactState back = press(surface, contact_modulus, {.mean_gap = state.mean_gap});
+  const NormalContactState back = press(surface, contact_modulus, at_mean_gap(state.mean_gap));
   std::printf("pressure from that mean gap / pressure = %.7f\n", back.mean_pressure / pressure);
   return back.converged() ? 0 : 1;
 } catch (const Error& error) {

@@ -51,8 +51,8 @@ int main(int argc, char** argv) try {
     const double small = closed_form::damping_constant(
         closed_form::work_per_cycle_rough(material.modulus_ratio(), force, decay_length, motion),
         motion);
-    const DampingResult law = relaxation_damping(exponential, AtForce{force}, motion);
-    const DampingResult measured = relaxation_damping(tabulated, AtForce{force}, motion);
+    const DampingResult law = relaxation_damping(exponential, at_force(force), motion);
+    const DampingResult measured = relaxation_damping(tabulated, at_force(force), motion);
     std::printf("%8.2f %16.6g %16.6g %16.6g %20.4f %12.4f\n", k, small, law.damping_constant,
                 measured.damping_constant, small / law.damping_constant,
                 small / measured.damping_constant);

@@ -49,7 +49,7 @@ int main(int argc, char** argv) try {
   // 4. Eq. (12) knows only F'' at the mean indentation; the theorem knows the whole law.
   const double small = closed_form::work_per_cycle(material.modulus_ratio(),
                                                    law.force_curvature(indentation), motion);
-  const DampingResult exact = relaxation_damping(law, AtIndentation{indentation}, motion);
+  const DampingResult exact = relaxation_damping(law, at_indentation(indentation), motion);
   if (!exact.converged) return 1;
   std::printf("%s, u_z = %.2f δ\n", shape.c_str(), relative_amplitude);
   std::printf("springs     %.6e J\n", by_springs);

@@ -54,8 +54,8 @@ int main(int argc, char** argv) try {
     const ForceSample& solved = elements.samples[i];
     const ForceSample& summed = summits.samples[i];
     const DampingResult by_elements =
-        relaxation_damping(element_law, AtForce{solved.force}, motion);
-    const DampingResult by_summits = relaxation_damping(summit_law, AtForce{solved.force}, motion);
+        relaxation_damping(element_law, at_force(solved.force), motion);
+    const DampingResult by_summits = relaxation_damping(summit_law, at_force(solved.force), motion);
     if (!solved.converged || !by_elements.converged || !by_summits.converged) return 1;
     last = summed.normal_stiffness / solved.normal_stiffness;
     if (first == 0) first = last;

@@ -42,7 +42,7 @@ int main(int argc, char** argv) try {
 
   // 4. The same loss from the law of the paraboloid alone, and from Eq. (12).
   const IndenterLaw law(paraboloid_profile(radius), material);
-  const double exact = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+  const double exact = relaxation_damping(law, at_indentation(indentation), motion).work_per_cycle;
   const double small = closed_form::work_per_cycle(material.modulus_ratio(),
                                                    law.force_curvature(indentation), motion);
   std::printf("contact area          %.4g … %.4g mm²\n", cycle.contact_area_min * 1e6,

@@ -26,14 +26,14 @@ FlowFactors flow_of(const NormalContactState& state, const Grid2D& grid, const P
   return flow;
 }
 
-std::size_t ContactArguments::positions() const {
-  const std::vector<Standings> given = at.given();
-  for (const Standings& kind : given)
+std::size_t ContactArguments::count() const {
+  const std::vector<OperatingPoints> given = at.given();
+  for (const OperatingPoints& kind : given)
     for (const double value : kind.values)
-      if (!adhesive() || (cycle && kind.quantity != Standing::indentation))
-        require_positive(value, "--" + option_word(kind.quantity));
+      if (!adhesive() || (cycle && kind.control != ControlQuantity::indentation))
+        require_positive(value, "--" + option_word(kind.control));
   require(given.size() <= 1, "--pressure", given.size(),
-          "kinds of positions are given; give exactly one of --pressure, --normal-force, "
+          "kinds of operating points are given; give exactly one of --pressure, --normal-force, "
           "--mean-gap, --indentation");
   return given.empty() ? 0 : given.front().values.size();
 }
@@ -73,13 +73,12 @@ void check_residual(const ContactArguments& arguments, const Session& session) {
 }
 
 // Headings of the help, and what belongs together.
-const std::string boundary_elements = "Boundary elements", once = "One position",
-                  often = "Several positions", adhesion = "Adhesion", summits = "Summits",
+const std::string boundary_elements = "Boundary elements", once = "One operating point",
+                  often = "Several operating points", adhesion = "Adhesion", summits = "Summits",
                   parameters = "Summits without a surface";
 
 /// What adhesion does not go together with.
-void check_adhesion(const ContactArguments& arguments, std::size_t positions,
-                    const Session& session) {
+void check_adhesion(const ContactArguments& arguments, std::size_t points, const Session& session) {
   const bool adhesive = arguments.adhesive();
   for (const auto& [given, option] :
        {std::pair(arguments.adhesion_range.has_value(), "--adhesion-range"),
@@ -88,24 +87,24 @@ void check_adhesion(const ContactArguments& arguments, std::size_t positions,
     require_that(adhesive || !given, option, "given without --work-of-adhesion; give both");
   if (!adhesive) return;
   required(arguments.adhesion_range, "--adhesion-range", "--work-of-adhesion needs it");
-  require_that(!arguments.hardness || (positions <= 1 && !arguments.cycle), "--hardness",
+  require_that(!arguments.hardness || (points <= 1 && !arguments.cycle), "--hardness",
                "with adhesion is of a first loading; give one pressure or normal force");
   for (const auto& [given, option] : {std::pair(!arguments.initial.empty(), "--initial"),
                                       {!arguments.checkpoint.file.empty(), "--checkpoint"},
                                       {arguments.groups > 0, "--groups"}})
     require_that(!given, option, "is of contacts without adhesion; leave it out");
   if (!arguments.cycle) return;
-  require(positions > 1, "--cycle", positions,
-          "position is no cycle; give several, such as --mean-gap 10:100nm:20");
+  require(points > 1, "--cycle", points,
+          "operating point is no cycle; give several, such as --mean-gap 10:100nm:20");
   session.require_result_name();
 }
 
 /// What is missing, and what does not go together.
-void check(const ContactArguments& arguments, std::size_t positions, const Session& session) {
+void check(const ContactArguments& arguments, std::size_t points, const Session& session) {
   const Command& command = *arguments.command;
   const bool bem = arguments.model == "bem";
   std::vector<std::string> missing = arguments.material.missing(false);
-  if (positions == 0)
+  if (points == 0)
     missing.insert(missing.begin(), "--pressure (or --normal-force, --mean-gap, --indentation)");
   if (bem && !arguments.surface.given()) missing.insert(missing.begin(), "SURFACE (or --recipe)");
   require_options(missing, "a contact");
@@ -127,15 +126,17 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
                "are of a gap that repeats itself; leave out --boundary free");
   require_that(arguments.wants_stiffness() || !arguments.stick, "--stick",
                "given without --stiffness; give both");
-  check_adhesion(arguments, positions, session);
-  if (positions > 1) {
-    command.require_none_of(once, fmt::format("is of one position, and {} are given", positions));
+  check_adhesion(arguments, points, session);
+  if (points > 1) {
+    command.require_none_of(once,
+                            fmt::format("is for one operating point, and {} are given", points));
     require(arguments.adhesive() || !arguments.at.pressure.empty() || !arguments.at.force.empty(),
-            arguments.at.mean_gap.empty() ? "--indentation" : "--mean-gap", positions,
-            "values are given; several positions are pressures or normal forces");
+            arguments.at.mean_gap.empty() ? "--indentation" : "--mean-gap", points,
+            "values are given; several operating points are pressures or normal forces");
     return;
   }
-  command.require_none_of(often, "is of several positions; give --pressure more than one value");
+  command.require_none_of(often,
+                          "is for several operating points; give --pressure more than one value");
   session.require_result_name();
   check_residual(arguments, session);
   for (const auto& [given, option] : {std::pair(!arguments.fields.empty(), "--fields"),
@@ -145,16 +146,16 @@ void check(const ContactArguments& arguments, std::size_t positions, const Sessi
 }
 
 void run(const ContactArguments& arguments, Session& session) {
-  const std::size_t positions = arguments.positions();
-  check(arguments, positions, session);
+  const std::size_t points = arguments.count();
+  check(arguments, points, session);
   if (arguments.model != "bem") return press_summits(arguments, session);
   arguments.material.material();
   if (!arguments.wants_stiffness() && arguments.material.contact_modulus &&
       !arguments.material.poisson.empty())
     session.warn("--poisson: has no effect without --stiffness, which K_t needs");
   if (arguments.dry_run.dry_run) return estimate_contacts(arguments, session);
-  if (positions > 1 && arguments.adhesive()) return press_adhesively(arguments, session);
-  return positions > 1 ? press_often(arguments, session) : press_once(arguments, session);
+  if (points > 1 && arguments.adhesive()) return press_adhesively(arguments, session);
+  return points > 1 ? press_often(arguments, session) : press_once(arguments, session);
 }
 
 void add_boundary_elements(Command& command, ContactArguments& arguments) {
@@ -168,10 +169,11 @@ void add_boundary_elements(Command& command, ContactArguments& arguments) {
                    "also how a fluid passes the gap: whether the gap percolates, its pressure flow "
                    "factors, and the effective gap; null where nothing flows");
   add_choice<Boundary>(command, "--boundary", arguments.boundary, "default periodic");
-  add_quantity(command, "--hardness", arguments.hardness, Dimension::pressure,
-               "of the softer body: cells saturate there and sink in. One position ends the first "
-               "loading; of several, the largest is first loaded to, and the curve is that of "
-               "unloading; default none");
+  add_quantity(
+      command, "--hardness", arguments.hardness, Dimension::pressure,
+      "of the softer body: cells saturate there and sink in. One operating point ends the first "
+      "loading; of several, the largest is first loaded to, and the curve is that of "
+      "unloading; default none");
   add_quantity(command, "--tolerance", arguments.tolerance, Dimension::dimensionless,
                "of the complementarity residual; default 1e-10. With adhesion of the tension; "
                "default 1e-5");
@@ -186,14 +188,15 @@ void add_adhesion(Command& command, ContactArguments& arguments) {
   add_quantity(command, "--work-of-adhesion", arguments.work_of_adhesion,
                Dimension::energy_per_area,
                "w, the energy per area that parts the surfaces. One pressure or force may pull; of "
-               "several positions each contact follows from the one before");
+               "several operating points each contact follows from the one before");
   add_quantity(command, "--adhesion-range", arguments.adhesion_range, Dimension::length,
                "of the tension between surfaces with a gap");
   add_choice<AdhesionPotential>(command, "--adhesion", arguments.potential,
                                 "tension over the gap; default exponential");
-  command.add_flag("--cycle", arguments.cycle,
-                   "of several positions: in and out again, with the pull-off and, at mean gaps or "
-                   "indentations, the work that a cycle loses");
+  command.add_flag(
+      "--cycle", arguments.cycle,
+      "for several operating points: in and out again, with the pull-off and, at mean gaps or "
+      "indentations, the work that a cycle loses");
   command.add_flag("--force-coarse", arguments.force_coarse,
                    "compute where cells, not surfaces, decide what sticks");
 }
@@ -233,7 +236,8 @@ void add_contact_command(Program& program) {
        "salebra contact rough.h5 --pressure 1:100MPa:16 --contact-modulus 115GPa --poisson 0.3 "
        "--stiffness -o curve.h5"},
       [arguments](Session& session) { run(*arguments, session); },
-      "of one position maps of pressure and gap, of several pressure over gap, area, stiffness",
+      "of one operating point maps of pressure and gap, of several pressure over gap, area, "
+      "stiffness",
       OutputCheck::curve);
   arguments->command = &command;
   arguments->surface.add_to(command, false);
@@ -245,7 +249,7 @@ void add_contact_command(Program& program) {
   add_choice(command, "--model", arguments->model, models,
              "boundary elements, or Greenwood and Williamson's summits, as spectral moments tell "
              "of them or each by itself; default bem");
-  arguments->at.add_to(command, "Position (several pressures or forces give a curve)");
+  arguments->at.add_to(command, "Operating point (several pressures or forces give a curve)");
   arguments->material.add_to(command);
   add_conduction(command, arguments->conduction);
 

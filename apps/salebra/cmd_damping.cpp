@@ -115,7 +115,7 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
   require_that(!profile.has_side(), "--law",
                "of a flat face sticks with all of it, whatever the force; give another shape");
   require(body.at.values.size() == 1, "--normal-force", body.at.values.size(),
-          "positions are given; a contact at rest takes one");
+          "operating points are given; a contact at rest takes one");
   const auto shown = [](const AdhesivePoint& point) {
     Json json = json_of(point);
     if (!std::isfinite(point.zone_radius)) json.erase("zone_radius");
@@ -123,11 +123,11 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
   };
   const auto state = [&](const std::function<AdhesivePoint(double)>& contact,
                          const AdhesivePoint& pull_off) {
-    const AdhesivePoint point = adhesive_equilibrium(contact, pull_off,
-                                                     body.at.quantity == Standing::normal_force
-                                                         ? &AdhesivePoint::force
+    const AdhesivePoint point = adhesive_equilibrium(
+        contact, pull_off,
+        body.at.control == ControlQuantity::normal_force ? &AdhesivePoint::force
                                                          : &AdhesivePoint::indentation,
-                                                     body.at.values.front());
+        body.at.values.front());
     Json json = shown(point);
     json["pull_off"] = shown(pull_off);
     return json;
@@ -155,7 +155,7 @@ void answer_at_rest(const DampingArguments& arguments, Session& session) {
   const ContactSolution contact = solve(contact_of(arguments, session), session.context());
   session.warn(contact.doubts);
   const auto& law = static_cast<const IndenterLaw&>(*contact.law);
-  const double indentation = indentation_of(law, contact.positions.front());
+  const double indentation = indentation_of(law, contact.points.front());
   const Json object = json_of(state_of(law, indentation));
   write_tables(session, "damping", object, {});
   if (session.has_plot()) session.plot(contact_figure(law, indentation));

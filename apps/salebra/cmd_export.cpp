@@ -81,8 +81,8 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
   StudyFacts facts = facts_of(file);
   if (arguments.material.given()) facts.modulus_ratio = arguments.material.modulus_ratio();
   problem.remark = facts.remark;
-  const std::vector<Standings> at = arguments.law.at.given();
-  require(at.size() < 2, "--normal-force", "several positions", "are given; give one");
+  const std::vector<OperatingPoints> at = arguments.law.at.given();
+  require(at.size() < 2, "--normal-force", "several operating points", "are given; give one");
   std::vector<DeckContact> contacts;
   for (ForceCurve& curve : read_force_curves(file)) {
     require_that(curve.nominal_area > 0 || arguments.nominal_area || complete_forces(curve),
@@ -92,7 +92,7 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
       curve = curve_of_part(std::move(curve), *arguments.nominal_area, file);
     contacts.push_back(deck_contact(CurveContact{.curve = std::move(curve),
                                                  .modulus_ratio = facts.modulus_ratio,
-                                                 .at = at.empty() ? Standings{} : at.front(),
+                                                 .at = at.empty() ? OperatingPoints{} : at.front(),
                                                  .source = file},
                                     session.context()));
     if (sample_area > 0 && sample_area != contacts.back().nominal_area)

@@ -30,7 +30,7 @@ struct OscillateArguments {
   std::vector<std::string> shapes;
   std::string method = "both", boundary, lateral = "held";
   SurfaceOptions surface;
-  PositionOptions position;
+  OperatingPointOptions point;
   MaterialOptions material;
   MotionOptions motion;
   std::optional<int> points;
@@ -64,17 +64,18 @@ OscillatingBody file_of(const OscillateArguments& arguments, Session& session) {
   OscillatingBody body;
   body.surface = arguments.surface.read(session);
   body.boundary = body.surface.periodic ? Boundary::periodic : Boundary::free;
-  require_that(arguments.position.count() == 1, "--indentation",
-               "needed with --surface; give one position");
+  require_that(arguments.point.count() == 1, "--indentation",
+               "needed with --surface; give one operating point");
   return body;
 }
 
-Target position_of(const PositionOptions& options, const Grid2D& grid) {
+OperatingPoint point_of(const OperatingPointOptions& options, const OscillatingBody& body) {
   require_that(options.count() <= 1, "--indentation",
-               "given together with another position; give one");
-  return {.pressure = options.nominal_pressure(grid),
-          .mean_gap = options.mean_gap,
-          .indentation = options.indentation};
+               "given together with another operating point; give one");
+  if (options.mean_gap) return at_mean_gap(*options.mean_gap);
+  if (const auto pressure = options.nominal_pressure(body.surface.grid))
+    return at_pressure(*pressure);
+  return at_indentation(options.indentation.value_or(body.indentation));
 }
 
 Oscillation motion_of(MotionOptions motion, const OscillatingBody& body, double indentation) {
@@ -133,14 +134,15 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   OscillatingBody& body = contact.body;
   body.boundary = parse_enum<Boundary>(arguments.boundary).value_or(body.boundary);
   const double modulus = contact.material.contact_modulus;
-  const Target position = position_of(arguments.position, body.surface.grid);
-  if (position.pressure) session.doubt(doubt_of_pressure(*position.pressure, modulus));
-  contact.indentation = mean_indentation(body, modulus, position);
+  const OperatingPoint point = point_of(arguments.point, body);
+  if (point.control == ControlQuantity::pressure)
+    session.doubt(doubt_of_pressure(point.value, modulus));
+  contact.indentation = mean_indentation(body, modulus, point);
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
   arguments.friction.check(contact.motion, contact.indentation);
   const std::optional<double>& hardness = arguments.premises.hardness;
   if (!hardness) return contact;
-  load_plastically(contact, position, *hardness, session.progress());
+  load_plastically(contact, point, *hardness, session.progress());
   require(shape.empty() || !arguments.relative_error || !contact.first_loading->yielded(),
           "--hardness", format_quantity(*hardness, Dimension::pressure),
           "is reached, and a shape that flowed has no finer cells; leave out --relative-error");
@@ -180,7 +182,7 @@ CycleRecorder recorder_of(const OscillateArguments& arguments, const Oscillation
           {surface,
            [&surface, modulus = contact.material.contact_modulus,
             normal = NormalContactOptions{.boundary = contact.body.boundary}](double indentation) {
-             return press(surface, modulus, {.indentation = indentation}, normal);
+             return press(surface, modulus, at_indentation(indentation), normal);
            }},
           arguments.friction.cycles()};
 }
@@ -323,7 +325,7 @@ void add_oscillate_command(Program& program) {
   arguments->surface.add_to(command, false, "--surface");
   command.add_option("--points", arguments->points,
                      "cells along x of a shape; default 128, or 64 to begin --relative-error with");
-  arguments->position.add_to(command);
+  arguments->point.add_to(command);
   arguments->motion.add_to(command);
   add_quantity(command, "--direction", arguments->direction, Dimension::angle,
                "of the tangential motion against x; default 0");

@@ -197,7 +197,7 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
   require_tables(session, {"motion", "averaged_motion"});
   const SliderProblem problem = slider_of(arguments, session);
   const ContactSolution contact = contact_of(arguments, session);
-  const SliderSolution found = solve(problem, *contact.law, contact.positions.front());
+  const SliderSolution found = solve(problem, *contact.law, contact.points.front());
 
   Json answer = json_of(found.motion);
   answer["averaged"] = json_of(found.averaged);

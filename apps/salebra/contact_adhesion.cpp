@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `salebra contact --work-of-adhesion`: what adhesion asks of options, and several positions with it,
+// `salebra contact --work-of-adhesion`: what adhesion asks of options, and several operating points with it,
 // in and out.
 #include <fmt/format.h>
 
@@ -41,17 +41,13 @@ struct Branch {
   }
 };
 
-std::vector<Target> targets_of(const ContactArguments& arguments) {
-  Standings at = arguments.at.given().front();
+std::vector<OperatingPoint> points_of(const ContactArguments& arguments) {
+  OperatingPoints at = arguments.at.given().front();
   std::ranges::sort(at.values);
-  if (at.quantity == Standing::mean_gap) std::ranges::reverse(at.values);
-  std::vector<Target> targets;
-  for (const double value : at.values)
-    targets.push_back(at.quantity == Standing::mean_gap      ? Target{.mean_gap = value}
-                      : at.quantity == Standing::indentation ? Target{.indentation = value}
-                      : at.quantity == Standing::pressure    ? Target{.pressure = value}
-                                                             : Target{.force = value});
-  return targets;
+  if (at.control == ControlQuantity::mean_gap) std::ranges::reverse(at.values);
+  std::vector<OperatingPoint> points;
+  for (const double value : at.values) points.push_back({at.control, value});
+  return points;
 }
 
 void require_converged(const AdhesiveCycle& cycle) {
@@ -124,7 +120,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
       branch.flow.push_back(state.detached ? FlowFactors() : flow_of(state, surface.grid, {}));
   };
   const AdhesiveCycle cycle =
-      adhesive_cycle(surface, material.contact_modulus, targets_of(arguments), adhesion, options);
+      adhesive_cycle(surface, material.contact_modulus, points_of(arguments), adhesion, options);
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
   session.doubt(doubt_of_process_zone(adhesion, surface.grid, material.contact_modulus));
   require_converged(cycle);
@@ -134,7 +130,8 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
     answer.add(json_of(cycle));
     if (std::isnan(cycle.adhesion_work_per_cycle) && arguments.pressures_on(area).empty())
       session.warn(
-          "the branches of the cycle do not meet at its outermost position, and it has no work; "
+          "the branches of the cycle do not meet at its outermost operating point, and it has no "
+          "work; "
           "begin farther out");
   }
   answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));

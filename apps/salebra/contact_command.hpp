@@ -15,7 +15,7 @@
 #include "options.hpp"
 #include "results/columns.hpp"
 
-/// What `contact` was given, and its answers for one position, for several, and by the theory of
+/// What `contact` was given, and its answers for one operating point, for several, and by the theory of
 /// Greenwood and Williamson.
 namespace salebra::cli {
 
@@ -25,7 +25,7 @@ struct ContactArguments {
   MaterialOptions material;
   std::string model = "bem";
 
-  PositionsOptions at;
+  OperatingPointsOptions at;
 
   std::string boundary = "periodic", precision = "mixed";
   bool stiffness = false, stick = false;
@@ -46,9 +46,9 @@ struct ContactArguments {
   std::optional<double> summit_density, radius, summit_rms;
   std::string distribution = "gaussian";
 
-  /// The number of positions. Throws InvalidInput unless they are of one kind and, without adhesion, > 0.
-  std::size_t positions() const;
-  /// p, Pa, of pressures and forces, from the lowest; empty for other positions.
+  /// The number of operating points. Throws InvalidInput unless they are of one kind and, without adhesion, > 0.
+  std::size_t count() const;
+  /// p, Pa, of pressures and forces, from the lowest; empty for other operating points.
   std::vector<double> pressures_on(double area) const;
   NormalContactOptions contact_options(Session& session) const;
   bool adhesive() const { return work_of_adhesion.has_value(); }
@@ -59,11 +59,11 @@ struct ContactArguments {
   Conductances conductances_of(const ForceSample& sample, double nominal_area) const;
 };
 
-/// The state of the surface at one position, by boundary elements.
+/// The state of the surface at one operating point, by boundary elements.
 void press_once(const ContactArguments& arguments, Session& session);
 /// The force curve of the surface at several pressures, by boundary elements.
 void press_often(const ContactArguments& arguments, Session& session);
-/// Several positions with adhesion, each from the one before, and back.
+/// Several operating points with adhesion, each from the one before, and back.
 void press_adhesively(const ContactArguments& arguments, Session& session);
 /// The force curve of summits, those of the surface or of parameters.
 void press_summits(const ContactArguments& arguments, Session& session);
@@ -96,7 +96,7 @@ Json to_json(const ForceCurve& curve);
 
 /// Answers --dry-run.
 void estimate_contacts(const ContactArguments& arguments, Session& session);
-/// Groups of processes that share the loads of several positions. Collective.
+/// Groups of processes that share the loads of several operating points. Collective.
 int contact_groups(const ContactArguments& arguments, Session& session);
 
 }  // namespace salebra::cli

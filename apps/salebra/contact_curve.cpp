@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several positions of `salebra contact`: a force curve, the groups of processes that share it, and
+// Several operating points of `salebra contact`: a force curve, the groups of processes that share it, and
 // what contacts would cost.
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One position of `salebra contact` by boundary elements, without adhesion and with it.
+// One operating point of `salebra contact` by boundary elements, without adhesion and with it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,10 +24,10 @@
 namespace salebra::cli {
 namespace {
 
-Target target_of(const ContactArguments& arguments, const Surface& surface) {
-  if (!arguments.at.mean_gap.empty()) return {.mean_gap = arguments.at.mean_gap.front()};
-  if (!arguments.at.indentation.empty()) return {.indentation = arguments.at.indentation.front()};
-  return {.pressure = arguments.pressures_on(surface.grid.area()).front()};
+OperatingPoint point_of(const ContactArguments& arguments, const Surface& surface) {
+  if (!arguments.at.mean_gap.empty()) return at_mean_gap(arguments.at.mean_gap.front());
+  if (!arguments.at.indentation.empty()) return at_indentation(arguments.at.indentation.front());
+  return at_pressure(arguments.pressures_on(surface.grid.area()).front());
 }
 
 /// Whether the contact of any process reaches the edge.
@@ -89,10 +89,10 @@ Field read_initial(const std::string& file, const Share& share) {
   return reader.field(pressure, share);
 }
 
-/// The position from the surface to the answer, step by step.
-class OnePosition {
+/// The operating point from the surface to the answer, step by step.
+class OneContact {
  public:
-  OnePosition(const ContactArguments& arguments, Session& session)
+  OneContact(const ContactArguments& arguments, Session& session)
       : arguments_(arguments),
         session_(session),
         material_(arguments.material.material()),
@@ -109,13 +109,13 @@ class OnePosition {
     if (arguments_.adhesive()) {
       AdhesiveContactOptions options = arguments_.adhesive_options(session_);
       options.contact.hardness = options_.hardness;
-      state_ = press_adhesive(surface_, material_.contact_modulus, target_of(arguments_, surface_),
+      state_ = press_adhesive(surface_, material_.contact_modulus, point_of(arguments_, surface_),
                               arguments_.adhesion(), options);
       session_.doubt(
           doubt_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
     } else {
       static_cast<NormalContactState&>(state_) = salebra::press(
-          surface_, material_.contact_modulus, target_of(arguments_, surface_), options_);
+          surface_, material_.contact_modulus, point_of(arguments_, surface_), options_);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     seconds_ = elapsed.count();
@@ -257,9 +257,9 @@ class OnePosition {
 }  // namespace
 
 void press_once(const ContactArguments& arguments, Session& session) {
-  OnePosition position(arguments, session);
-  position.press();
-  position.answer();
+  OneContact contact(arguments, session);
+  contact.press();
+  contact.answer();
 }
 
 }  // namespace salebra::cli

@@ -84,7 +84,8 @@ constexpr std::array descriptions{
                 "docs/formats.md lists what each format keeps."},
     CommandHelp{
         "contact", contact, "--pressure --contact-modulus --young --poisson --stiffness --model",
-        "Presses a surface by boundary elements. One position gives area, gap, pressure, energy, "
+        "Presses a surface by boundary elements. One operating point gives area, gap, pressure, "
+        "energy, "
         "and the stiffness on request; several pressures give a force-gap curve, with K and K_t, "
         "which damping needs, on request. Periodic surfaces fill the plane; --boundary free takes "
         "a surface by itself. --model gw_moments and gw_deterministic are the fast theory of "

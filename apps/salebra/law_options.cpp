@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that give a contact law, or a force curve file, and the position on it.
+// Options that give a contact law, or a force curve file, and the operating point on it.
 #include "law_options.hpp"
 
 #include <fmt/format.h>
@@ -12,23 +12,24 @@
 namespace salebra::cli {
 namespace {
 
-std::string option_named(Standing standing) { return "--" + option_word(standing); }
+std::string option_named(ControlQuantity control) { return "--" + option_word(control); }
 
-/// The one position that was given, and its values.
-Standings position_of(const LawOptions& arguments, const std::vector<Standing>& allowed) {
-  const std::vector<Standings> given = arguments.at.given();
+/// The one operating point that was given, and its values.
+OperatingPoints operating_point_of(const LawOptions& arguments,
+                                   const std::vector<ControlQuantity>& allowed) {
+  const std::vector<OperatingPoints> given = arguments.at.given();
   std::vector<std::string> options;
-  for (const Standing standing : allowed) options.push_back(option_named(standing));
+  for (const ControlQuantity control : allowed) options.push_back(option_named(control));
   if (given.empty())
     throw InvalidInput(fmt::format("{}", fmt::join(options, ", ")),
                        options.size() == 1 ? "not given; give it" : "not given; give one of them");
-  const Standings& found = given.front();
+  const OperatingPoints& found = given.front();
   if (given.size() > 1)
     throw InvalidInput(
         option_named(given[1].quantity),
-        fmt::format("given together with {}; give one of them", option_named(found.quantity)));
-  require_that(std::ranges::find(allowed, found.quantity) != allowed.end(),
-               option_named(found.quantity),
+        fmt::format("given together with {}; give one of them", option_named(found.control)));
+  require_that(std::ranges::find(allowed, found.control) != allowed.end(),
+               option_named(found.control),
                fmt::format("given, but this contact stands at {}", fmt::join(options, " or ")));
   return found;
 }
@@ -55,31 +56,31 @@ void LawOptions::add_to(Command& command) {
       ->file(FileUse::input)
       ->group(group);
   surface.add_to(command, false, "--surface");
-  at.add_to(command, "Position (may be a range)");
+  at.add_to(command, "Operating point (may be a range)");
 }
 
-ContactProblem LawOptions::read(const MaterialOptions& material, bool with_positions) const {
-  using enum Standing;
-  const auto standing = [&](const std::vector<Standing>& allowed) {
-    return with_positions ? position_of(*this, allowed) : Standings{};
+ContactProblem LawOptions::read(const MaterialOptions& material, bool with_points) const {
+  using enum ControlQuantity;
+  const auto control = [&](const std::vector<ControlQuantity>& allowed) {
+    return with_points ? operating_point_of(*this, allowed) : OperatingPoints{};
   };
   require_one(!indenter.law.empty(), "--law", !curve.empty(), "--curve");
   require_own_parameters();
   if (!curve.empty())
     return CurveContact{.curve = read_force_curve(curve),
                         .modulus_ratio = material.modulus_ratio(),
-                        .at = standing({normal_force, Standing::indentation, Standing::pressure,
-                                        Standing::mean_gap}),
+                        .at = control({normal_force, ControlQuantity::indentation,
+                                       ControlQuantity::pressure, ControlQuantity::mean_gap}),
                         .source = curve};
   if (indenter.law == "exponential") {
-    standing({normal_force});
+    control({normal_force});
     const double length = required(decay_length, "--decay-length", "--law exponential needs it");
     require_that(!at.force.empty(), "--normal-force", "not given, but --law exponential needs it");
     return ExponentialContact{length, material.modulus_ratio(), at.force};
   }
   return IndenterContact{.profile = indenter.indenter(),
                          .material = material.material_with_tangential_modulus(),
-                         .at = standing({normal_force, Standing::indentation})};
+                         .at = control({normal_force, ControlQuantity::indentation})};
 }
 
 ContactProblem LawOptions::problem(const MaterialOptions& material, Session& session,
@@ -88,7 +89,7 @@ ContactProblem LawOptions::problem(const MaterialOptions& material, Session& ses
   require(indenter.law.empty() && curve.empty(), "--surface", surface.file,
           "is given together with --law or --curve; give one of them");
   require_own_parameters();
-  std::vector<double> values = position_of(*this, {Standing::pressure}).values;
+  std::vector<double> values = operating_point_of(*this, {ControlQuantity::pressure}).values;
   return SurfaceContact{.surface = surface.read(session),
                         .material = material.material_with_tangential_modulus(),
                         .pressure = std::move(values),

@@ -17,7 +17,7 @@ struct LawOptions {
   IndenterOptions indenter;  ///< --law, exponential beside the shapes
   std::string curve;
   SurfaceOptions surface;
-  PositionsOptions at;
+  OperatingPointsOptions at;
   std::optional<double> decay_length;
 
   void add_to(Command& command);
@@ -27,7 +27,7 @@ struct LawOptions {
   /// The answer, whose doubts are told.
   ContactSolution contact(const MaterialOptions& material, Session& session,
                           const std::optional<double>& hardness, double normal_amplitude) const;
-  /// Without positions, for a motion that brings its own indentations. The exponential law's
+  /// Without operating points, for a motion that brings its own indentations. The exponential law's
   /// --normal-force is F at indentation 0.
   ContactProblem problem_of_law(const MaterialOptions& material) const;
   bool of_indenter() const {
@@ -38,8 +38,8 @@ struct LawOptions {
  private:
   /// Throws InvalidInput for a parameter of another law than the one that was chosen.
   void require_own_parameters() const;
-  /// The problem; without positions, where they are not needed, of what was given as one.
-  ContactProblem read(const MaterialOptions& material, bool positions) const;
+  /// The problem; without operating points, where they are not needed, of what was given as one.
+  ContactProblem read(const MaterialOptions& material, bool points) const;
 };
 
 }  // namespace salebra::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options that several commands share: quantities, material, surface, position, motion.
+// Options that several commands share: quantities, material, surface, operating point, motion.
 #include "options.hpp"
 
 #include <fmt/format.h>
@@ -335,7 +335,7 @@ void DryRunOptions::add_to(Command& command, bool of_processes) {
   command.add_option("--nodes", nodes, "with --dry-run: on so many machines")->range(1, 1 << 20);
 }
 
-void PositionsOptions::add_to(Command& app, const std::string& heading) {
+void OperatingPointsOptions::add_to(Command& app, const std::string& heading) {
   const Heading under(app, heading);
   add_values(app, "--normal-force", force, Dimension::force, "normal force");
   add_values(app, "--indentation", indentation, Dimension::length, "from first touch");
@@ -345,16 +345,16 @@ void PositionsOptions::add_to(Command& app, const std::string& heading) {
              "mean gap, of a surface or a curve; of summits, that of the undeformed surfaces");
 }
 
-std::vector<Standings> PositionsOptions::given() const {
-  std::vector<Standings> kinds{{Standing::normal_force, force},
-                               {Standing::indentation, indentation},
-                               {Standing::mean_gap, mean_gap},
-                               {Standing::pressure, pressure}};
-  std::erase_if(kinds, [](const Standings& kind) { return kind.values.empty(); });
+std::vector<OperatingPoints> OperatingPointsOptions::given() const {
+  std::vector<OperatingPoints> kinds{{ControlQuantity::normal_force, force},
+                                     {ControlQuantity::indentation, indentation},
+                                     {ControlQuantity::mean_gap, mean_gap},
+                                     {ControlQuantity::pressure, pressure}};
+  std::erase_if(kinds, [](const OperatingPoints& kind) { return kind.values.empty(); });
   return kinds;
 }
 
-void PositionsOptions::require_one(std::string_view demand) const {
+void OperatingPointsOptions::require_one(std::string_view demand) const {
   for (const auto& [quantity, values] : given())
     require(values.size() == 1, "--" + option_word(quantity), values.size(),
             "values given; " + std::string(demand));
@@ -371,19 +371,19 @@ void BodyOptions::add_to(Command& app, const std::string& largest) {
                "u_z up to which stable sliding is looked for; default " + largest);
 }
 
-void PositionOptions::add_to(Command& app) {
-  const Heading under(app, "Position");
+void OperatingPointOptions::add_to(Command& app) {
+  const Heading under(app, "Operating point");
   add_quantity(app, "--pressure", pressure, Dimension::pressure, "nominal pressure");
   add_quantity(app, "--mean-gap", mean_gap, Dimension::length, "mean gap of the deformed surfaces");
   add_quantity(app, "--normal-force", force, Dimension::force, "normal force");
   add_quantity(app, "--indentation", indentation, Dimension::length, "from first touch");
 }
 
-int PositionOptions::count() const {
+int OperatingPointOptions::count() const {
   return mean_gap.has_value() + pressure.has_value() + indentation.has_value() + force.has_value();
 }
 
-std::optional<double> PositionOptions::nominal_pressure(const Grid2D& grid) const {
+std::optional<double> OperatingPointOptions::nominal_pressure(const Grid2D& grid) const {
   if (force) return *force / grid.area();
   return pressure;
 }

@@ -19,7 +19,7 @@
 namespace salebra {
 struct Conduction;
 struct FirstLoading;
-struct Standings;
+struct OperatingPoints;
 }  // namespace salebra
 
 /// Option groups that several commands share. Each is a plain struct that must outlive the parsing;
@@ -153,20 +153,20 @@ struct DryRunOptions {
   void add_to(Command& command, bool of_processes = true);
 };
 
-/// Where contacts stand: one kind of position is given, with one value or several.
-struct PositionsOptions {
+/// Operating points of contacts: one control quantity is given, with one value or several.
+struct OperatingPointsOptions {
   std::vector<double> force, indentation, mean_gap, pressure;
 
   void add_to(Command& app, const std::string& heading);
   /// The kinds that were given.
-  std::vector<Standings> given() const;
-  /// Throws InvalidInput where several positions are given, "--pressure: 3 values given; sliding
+  std::vector<OperatingPoints> given() const;
+  /// Throws InvalidInput where several values are given, "--pressure: 3 values given; sliding
   /// takes one", before any contact is computed.
   void require_one(std::string_view demand) const;
 };
 
-constexpr void describe(auto&& visit, std::type_identity<PositionsOptions>) {
-  using S = PositionsOptions;
+constexpr void describe(auto&& visit, std::type_identity<OperatingPointsOptions>) {
+  using S = OperatingPointsOptions;
   visit(&S::force, quantity::force);
   visit(&S::indentation, quantity::indentation);
   visit(&S::pressure, Quantity{"pressure", Dimension::pressure, "nominal pressure"});
@@ -174,11 +174,11 @@ constexpr void describe(auto&& visit, std::type_identity<PositionsOptions>) {
 }
 
 /// Where a contact stands. At most one is given.
-struct PositionOptions {
+struct OperatingPointOptions {
   std::optional<double> mean_gap, pressure, indentation, force;
 
   void add_to(Command& app);
-  /// Number of positions given.
+  /// Number of control quantities given.
   int count() const;
   /// Pa, where it or the force was given.
   std::optional<double> nominal_pressure(const Grid2D& grid) const;

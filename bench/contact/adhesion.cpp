@@ -52,7 +52,7 @@ void draw_sphere_off(double tabor, Index points) {
   for (const double a : {1.6, 1.3, 1.15, 1.0}) {
     const AdhesivePoint expected = model.contact(a * off.contact_radius);
     const AdhesiveContactState state =
-        press_adhesive(sphere, 1, {.indentation = expected.indentation}, adhesion, options);
+        press_adhesive(sphere, 1, at_indentation(expected.indentation), adhesion, options);
     if (!state.converged()) force_error = NAN;
     const double found = std::sqrt(state.contact_area_fraction * side * side / pi);
     force_error = std::max(force_error, std::abs(state.force - expected.force));
@@ -98,7 +98,7 @@ int main(int argc, char** argv) {
         const double range = potential == AdhesionPotential::van_der_waals ? 2.66 : 1.33;
         const double before = bench::cpu_seconds();
         const AdhesiveContactState state =
-            press_adhesive(surface, 1, {.pressure = pressure}, {potential, 0.32, range});
+            press_adhesive(surface, 1, at_pressure(pressure), {potential, 0.32, range});
         const double spent = bench::cpu_seconds() - before;
         std::printf("%ld²,%s,%g,%.4f,%d,%d,%d,%.2f,%s\n", static_cast<long>(n),
                     std::string(name).c_str(), pressure, state.contact_area_fraction,

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     for (const double pressure : {0.01, 0.05, 0.1, 0.15, 0.2}) {
       const double before = bench::cpu_seconds();
       const NormalContactState state =
-          press(surface, 1, {.pressure = pressure}, {.tolerance = 1e-8});
+          press(surface, 1, at_pressure(pressure), {.tolerance = 1e-8});
       const double between = bench::cpu_seconds();
       const FlowFactors flow = flow_factors(state, surface.grid);
       const double after = bench::cpu_seconds();

@@ -49,8 +49,8 @@ struct Solved {
 Solved solve(const Surface& surface, const Case& c, MultilevelShare share) {
   const double start = bench::cpu_seconds();
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
-  const detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, 0.1 * c.load,
-                                     0.1 * c.hardness};
+  const detail::ScaledOperatingPoint target{ControlQuantity::pressure, 0.1 * c.load,
+                                            0.1 * c.hardness};
   const auto levels = detail::multigrid_levels(surface.grid, surface.share(),
                                                {surface.heights.data(), surface.heights.maxCoeff()},
                                                c.boundary, std::numeric_limits<int>::max());

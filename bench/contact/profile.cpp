@@ -75,7 +75,7 @@ void profile(const Surface& surface, double load) {
   const Grid2D grid{physical.nx, physical.ny, side, side};
   const double highest = surface.heights.maxCoeff();
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
-  const detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, load * 0.1 * cell};
+  const detail::ScaledOperatingPoint target{ControlQuantity::pressure, load * 0.1 * cell};
 
   Share coarse, fine;
   double start = now();

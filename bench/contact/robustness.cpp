@@ -94,7 +94,7 @@ void press(Outcomes& table, const std::string& family, const test::AwkwardContac
     const auto again = [&](const NormalContactState& state) {
       return test::independent_residual(state.contact_pressure, surface, 1, boundary);
     };
-    const auto state = press(surface, 1, {.pressure = contact.pressure}, options);
+    const auto state = press(surface, 1, at_pressure(contact.pressure), options);
     table.add(family + ", by pressure", precision, contact.name, state, again(state),
               std::abs(state.contact_pressure.mean() / contact.pressure - 1), 1e-10);
     const double first_touch = surface.heights.maxCoeff() - surface.heights.mean();
@@ -103,8 +103,8 @@ void press(Outcomes& table, const std::string& family, const test::AwkwardContac
     if (periodic &&
         !(state.mean_gap > 1e-6 * first_touch && state.mean_gap < (1 - 1e-9) * first_touch))
       continue;
-    const auto back = periodic ? press(surface, 1, {.mean_gap = state.mean_gap}, options)
-                               : press(surface, 1, {.indentation = state.indentation}, options);
+    const auto back = periodic ? press(surface, 1, at_mean_gap(state.mean_gap), options)
+                               : press(surface, 1, at_indentation(state.indentation), options);
     // e_c is an energy; pressures differ by its root.
     table.add(family + (periodic ? ", by mean gap" : ", by indentation"), precision, contact.name,
               back, again(back), std::abs(back.mean_pressure / contact.pressure - 1),
@@ -126,7 +126,7 @@ void press_sinusoids(Outcomes& table) {
       NormalContactOptions options;
       options.precision = precision;
       options.tolerance = tolerance_of(precision);
-      const auto state = press(surface, 1, {.pressure = load * full}, options);
+      const auto state = press(surface, 1, at_pressure(load * full), options);
       const double gap = load < 1 ? amplitude * (1 - load * (1 - std::log(load))) : 0;
       const double area = load < 1 ? 2 / pi * std::asin(std::sqrt(load)) : 1;
       const double residual = test::independent_residual(state.contact_pressure, surface, 1);
@@ -159,12 +159,12 @@ int main(int argc, char** argv) {
         NormalContactOptions options;
         options.precision = precision;
         options.tolerance = tolerance_of(precision);
-        const auto state = press(*flat, 1, {.pressure = pressure}, options);
+        const auto state = press(*flat, 1, at_pressure(pressure), options);
         table.add("constant height, periodic", precision, "pressure " + std::to_string(pressure),
                   state, state.gap.abs().maxCoeff(),
                   std::abs(state.contact_pressure.mean() / pressure - 1), 1e-10);
         options.boundary = Boundary::free;
-        const auto alone = press(*flat, 1, {.pressure = pressure}, options);
+        const auto alone = press(*flat, 1, at_pressure(pressure), options);
         table.add("constant height, free", precision, "pressure " + std::to_string(pressure), alone,
                   alone.residual, std::abs(alone.contact_pressure.mean() / pressure - 1), 1e-10);
       }

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   const double cpu = bench::cpu_seconds();
   const auto start = std::chrono::steady_clock::now();
   const auto state =
-      press(surface, 1.0, {.pressure = std::atof(argv[3])}, {.tolerance = std::atof(argv[4])});
+      press(surface, 1.0, at_pressure(std::atof(argv[3])), {.tolerance = std::atof(argv[4])});
   const double wall = seconds_since(start);
   const double spent = bench::cpu_seconds() - cpu;
   const long bytes_more = bench::peak_bytes() - before;

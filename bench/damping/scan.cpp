@@ -33,12 +33,12 @@ class WarmLevels {
           (last_ + (indentation - last_at_) / (last_at_ - before_at_) * (last_ - before_)).max(0.0);
     NormalContactOptions options;
     if (start.size() > 0) options.initial_pressure = &start;
-    return take(press(surface_, contact_modulus_, {.indentation = indentation}, options));
+    return take(press(surface_, contact_modulus_, at_indentation(indentation), options));
   }
   double indentation_at(double pressure) {
     NormalContactOptions options;
     if (last_.size() > 0) options.initial_pressure = &last_;
-    take(press(surface_, contact_modulus_, {.pressure = pressure}, options));
+    take(press(surface_, contact_modulus_, at_pressure(pressure), options));
     return last_at_;
   }
 

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     velocities.push_back(critical * std::pow(10, -4 + 4.5 * i / states));
   double sum = 0;
   for (const SteadySliding& one :
-       steady_sliding(law, AtIndentation{5e-7}, {amplitude, omega}, velocities, friction))
+       steady_sliding(law, at_indentation(5e-7), {amplitude, omega}, velocities, friction))
     sum += one.friction_coefficient;
   std::printf("%d states of sliding, law of %d samples: %.3f s, mean friction %.6f\n", states,
               samples, seconds_since(start), sum / states);
@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
   const double force = pressure * surface.grid.area();
   double work = 0;
   for (int i = 1; i <= 30; ++i)
-    work += joint_loss(of_surface, AtForce{force},
+    work += joint_loss(of_surface, at_force(force),
                        TangentialForce{friction * force * 0.95 * i / 30}, friction)
                 .work_per_cycle;
   const double curve_seconds = seconds_since(start);

@@ -58,7 +58,7 @@ int main(int count, char** arguments) {
       std::printf("| %g nm | %.1f | %.3g | %.1f %% | %.1f %% | ", excursion / 1e-9, friction,
                   stated.mean, 100 * stated.error / stated.mean, 100 * answer.slip_share[k]);
       std::fflush(stdout);
-      const NormalContactState state = press(surface, modulus, {.pressure = result.pressures[k]});
+      const NormalContactState state = press(surface, modulus, at_pressure(result.pressures[k]));
       // The turning points lie a quarter of a normal cycle after its least indentation.
       const Trajectory path{[&](double t) {
                               return state.indentation -

@@ -181,7 +181,7 @@ int main(int count, char** words) {
         surface_sliding(surface, material, curve, 0, {normal, velocities, friction})[0];
     const auto [law, center] = law_by_contacts(fine, material, pressure, amplitude, 32);
     const SteadySliding converged =
-        steady_sliding(*law, AtIndentation{center}, normal, velocities, friction)[0];
+        steady_sliding(*law, at_indentation(center), normal, velocities, friction)[0];
     std::printf("%zu %.4f %.4f ", kind, load, amplitude / rms);
     for (std::size_t k = 0; k < names.size(); ++k) {
       const auto [number, off] = sliding_errors[k];
@@ -200,7 +200,7 @@ int main(int count, char** words) {
     const TabulatedLaw through(sweep_pressures(surface, material, pressures, sweep),
                                material.modulus_ratio());
     const JointLoss joint =
-        surface_joint_loss(surface, material, through, AtForce{pressure * surface.grid.area()},
+        surface_joint_loss(surface, material, through, at_force(pressure * surface.grid.area()),
                            {TangentialForce{force}}, friction)[0];
     const double work = joint_work_by_contacts(fine, material, pressure, force, friction);
     joints_by_kind[kind].add(joint.work_per_cycle, joint.work_error, work);

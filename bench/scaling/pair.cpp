@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
                                         .rms_slope = 0.1};
   const Surface surface = filtered_noise(grid, SelfAffineSpectrum(parameters), 1, {}, ranks);
   const auto contact =
-      seconds_of(ranks, std::max(1, repeats / 3), [&] { press(surface, 1, {.pressure = 1e-3}); });
+      seconds_of(ranks, std::max(1, repeats / 3), [&] { press(surface, 1, at_pressure(1e-3)); });
   if (ranks.is_root())
     std::printf("%ld %d %d %.2f %.2f %.3f %.3f\n", long(n), ranks.ranks(), parallel::threads(),
                 1e3 * pair[pair.size() / 2], 1e3 * pair.front(), contact[contact.size() / 2],

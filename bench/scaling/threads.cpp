@@ -117,11 +117,11 @@ int main(int argc, char** argv) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) small.push_back(surface_of(n / 4, seed));
   const Material material = Material::of_contact_modulus(1);
   const Material sliding = Material::of_contact_modulus(1, 0.3);
-  const double indentation = press(small[0], 1, {.pressure = 2e-3}).indentation;
+  const double indentation = press(small[0], 1, at_pressure(2e-3)).indentation;
   // Parts of the contact modulus times the slope of 0.1.
   const std::vector<double> pressures{1e-4, 3e-4, 1e-3, 3e-3, 1e-2};
   const std::vector<std::pair<const char*, std::function<void()>>> jobs{
-      {"contact", [&] { press(surface, 1, {.pressure = 2e-3}); }},
+      {"contact", [&] { press(surface, 1, at_pressure(2e-3)); }},
       {"sweeps of 8 surfaces",
        [&] {
          detail::TaskLoop loop({});

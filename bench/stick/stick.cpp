@@ -47,7 +47,7 @@ void solve(Index n) {
   const Surface surface = rough(n);
   const Material material = Material::of_contact_modulus(1.0, 0.3);
   for (const double pressure : {0.005, 0.02, 0.1, 0.5, 1.2}) {
-    const ContactSet contact = contact_set(press(surface, 1.0, {.pressure = pressure * slope}));
+    const ContactSet contact = contact_set(press(surface, 1.0, at_pressure(pressure * slope)));
     const Stopwatch watch;
     const StickStiffness stiffness = stick_stiffness(contact, surface.grid, material, {}, true);
     std::printf(
@@ -65,7 +65,7 @@ struct RoughContact {
   double indentation = 0, amplitude = 0;
 
   explicit RoughContact(Index n) : surface(rough(n)) {
-    indentation = press(surface, 1.0, {.pressure = 0.02 * slope}).indentation;
+    indentation = press(surface, 1.0, at_pressure(0.02 * slope)).indentation;
     amplitude = 0.2 * std::sqrt(surface.heights.square().mean());
     levels = boundary_element_levels(surface, 1.0);
   }

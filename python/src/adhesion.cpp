@@ -101,9 +101,9 @@ void bind_press(nb::module_& m) {
             progress,
             [&](Progress told) {
               options.contact.on_progress = std::move(told);
-              auto state =
-                  press_adhesive(surface.surface, contact_modulus,
-                                 {pressure, mean_gap, indentation, force}, adhesion, options);
+              auto state = press_adhesive(
+                  surface.surface, contact_modulus,
+                  operating_point_of(pressure, mean_gap, indentation, force), adhesion, options);
               return new BoundAdhesiveContact{
                   {std::move(static_cast<NormalContactState&>(state)), surface.surface.grid,
                    contact_modulus, options.contact.boundary},
@@ -163,20 +163,16 @@ AdhesiveContactState
          int max_outer_iterations, const Choice<Boundary>& boundary, bool force_coarse,
          const ProgressArgument& progress) {
         require_that(pressures.has_value() + mean_gaps.has_value() + indentations.has_value() == 1,
-                     "positions",
+                     "operating points",
                      "exactly one of `pressures`, `mean_gaps` and `indentations` must be given");
-        std::vector<Target> positions;
-        const auto add = [&](const std::optional<Values>& values, auto member) {
+        std::vector<OperatingPoint> points;
+        const auto add = [&](const std::optional<Values>& values, ControlQuantity control) {
           if (values)
-            for (const double value : values->values) {
-              Target target;
-              target.*member = value;
-              positions.push_back(target);
-            }
+            for (const double value : values->values) points.push_back({control, value});
         };
-        add(pressures, &Target::pressure);
-        add(mean_gaps, &Target::mean_gap);
-        add(indentations, &Target::indentation);
+        add(pressures, ControlQuantity::pressure);
+        add(mean_gaps, ControlQuantity::mean_gap);
+        add(indentations, ControlQuantity::indentation);
         const Material of_bodies = material.material();
         AdhesiveCycleOptions options{
             .contact = {.tolerance = tolerance,
@@ -189,7 +185,7 @@ AdhesiveContactState
             [&](Progress told) {
               options.contact.contact.on_progress = std::move(told);
               const AdhesiveCycle cycle = adhesive_cycle(surface.surface, of_bodies.contact_modulus,
-                                                         positions, adhesion, options);
+                                                         points, adhesion, options);
               const auto curve_of = [&](const std::vector<AdhesiveContactState>& branch) {
                 ForceCurve curve;
                 curve.model = "bem";

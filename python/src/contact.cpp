@@ -134,9 +134,10 @@ void bind_presses(nb::module_& m) {
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
-              return new BoundContact{press(surface.surface, contact_modulus,
-                                            {pressure, mean_gap, indentation, force}, options),
-                                      surface.surface.grid, contact_modulus, options.boundary};
+              return new BoundContact{
+                  press(surface.surface, contact_modulus,
+                        operating_point_of(pressure, mean_gap, indentation, force), options),
+                  surface.surface.grid, contact_modulus, options.boundary};
             },
             surface.surface.ranks);
       },

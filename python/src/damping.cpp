@@ -66,16 +66,14 @@ void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results)
   if (const auto doubt = detail::doubt_of_held_indentation(hold, results)) warn_user(*doubt);
 }
 
-/// The quantity that changes from case to case, and its values: of the position, or one of the
+/// The quantity that changes from case to case, and its values: of the operating point, or one of the
 /// motion's; otherwise the number of the case.
 BoundDampingCurve over(const std::vector<DampingCase>& cases, bool force) {
   BoundDampingCurve curve{force ? "force" : "indentation", {}, {}};
   const auto changes = [](const std::vector<double>& values) {
     return std::ranges::any_of(values, [&](double one) { return one != values.front(); });
   };
-  for (const DampingCase& one : cases)
-    curve.values.push_back(force ? std::get<AtForce>(one.position).force
-                                 : std::get<AtIndentation>(one.position).indentation);
+  for (const DampingCase& one : cases) curve.values.push_back(one.point.value);
   if (changes(curve.values) || cases.size() < 2) return curve;
   const auto of_motion = [&]<class Kind>(std::type_identity<Kind>) {
     if (!std::ranges::all_of(
@@ -198,11 +196,11 @@ void bind_theorem(nb::module_& m) {
          std::optional<double> force, const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
          double tolerance, const ContactFacts* facts, const ForceCurve* curve) {
         cite({"popov2015"});
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
         const DampingResult result = unlocked([&] {
           DampingResult found = with_motion(motion, [&](const auto& one) {
-            return relaxation_damping(law, position, one, options);
+            return relaxation_damping(law, point, one, options);
           });
           add_slip(found, law, motion, known(facts));
           return found;
@@ -271,13 +269,13 @@ InvalidInput
         require((places.size() == count || places.size() == 1) &&
                     (motions.size() == count || motions.size() == 1),
                 "motions", motions.size(),
-                "motions for another number of positions; give one, or as many");
+                "motions for another number of operating points; give one, or as many");
         std::vector<DampingCase> cases;
         cases.reserve(count);
         std::vector<Motion> described;
         for (std::size_t i = 0; i < count; ++i) {
           const double place = places[places.size() == 1 ? 0 : i];
-          cases.push_back({force ? Position(AtForce{place}) : Position(AtIndentation{place}),
+          cases.push_back({force ? at_force(place) : at_indentation(place),
                            motions[motions.size() == 1 ? 0 : i]});
           described.push_back(motion_of(cases[i].motion));
         }
@@ -307,7 +305,7 @@ InvalidInput
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
       nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("facts") = nb::none(),
       nb::arg("curve") = nb::none(), nb::arg("premises") = true, nb::arg("progress") = false,
-      R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of positions, or both of one length.
+      R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of operating points, or both of one length.
 
 `premises=False` leaves the premises out. Otherwise each result judges its own when they are read first.
 
@@ -363,7 +361,7 @@ void bind_damper(nb::module_& m) {
          double spring_stiffness, std::optional<double> indentation, std::optional<double> force,
          const Choice<Hold>& hold, double tolerance) {
         const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
-        return oscillator_decay(law, position_of(indentation, force),
+        return oscillator_decay(law, operating_point_of(indentation, force),
                                 {normal_amplitude, angular_frequency}, {mass, spring_stiffness},
                                 options);
       },
@@ -381,9 +379,9 @@ void bind_damper(nb::module_& m) {
          std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
          double tolerance) {
         const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         return unlocked([&] {
-          return damper_map(law, position, normal_amplitudes.values, angular_frequencies.values,
+          return damper_map(law, point, normal_amplitudes.values, angular_frequencies.values,
                             options);
         });
       },
@@ -397,7 +395,7 @@ void bind_damper(nb::module_& m) {
          double largest_amplitude, std::optional<double> indentation, std::optional<double> force,
          const Choice<Hold>& hold, double tolerance) {
         const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
-        return stabilising_amplitude(law, position_of(indentation, force), angular_frequency,
+        return stabilising_amplitude(law, operating_point_of(indentation, force), angular_frequency,
                                      falling_slope, largest_amplitude, options);
       },
       nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),

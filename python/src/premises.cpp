@@ -76,9 +76,9 @@ void bind_premise_classes(nb::module_& m) {
       "premises_of",
       [](const ContactLaw& law, const Motion& motion, std::optional<double> indentation,
          std::optional<double> force, const ContactFacts* facts, const ForceCurve* curve) {
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         return unlocked([&] {
-          const double mean = indentation_of(law, position);
+          const double mean = indentation_of(law, point);
           const auto judged = [&](const auto& one) {
             return premises_of(
                 law, mean, one,
@@ -159,9 +159,9 @@ void bind_steady_sliding(nb::module_& m) {
       [](const ContactLaw& law, const Drag& motion, double friction_coefficient,
          std::optional<double> indentation, std::optional<double> force) {
         cite({"popov2015"});
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         const SteadySliding sliding =
-            unlocked([&] { return steady_sliding(law, position, motion, friction_coefficient); });
+            unlocked([&] { return steady_sliding(law, point, motion, friction_coefficient); });
         warn_of_held_indentation(law, sliding.indentation, sliding.mean_force);
         return sliding;
       },
@@ -183,14 +183,14 @@ void bind_joint(nb::module_& m) {
          double phase, int steps) {
         require_one(tangential_amplitude.has_value(), "tangential_amplitude",
                     tangential_force.has_value(), "tangential_force");
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         const TangentialOscillation motion =
             tangential_force ? TangentialOscillation(TangentialForce{*tangential_force})
                              : TangentialOscillation(TangentialAmplitude{*tangential_amplitude});
         if (normal_amplitude == 0)
-          return unlocked([&] { return joint_loss(law, position, motion, friction_coefficient); });
+          return unlocked([&] { return joint_loss(law, point, motion, friction_coefficient); });
         const JointLoss loss = unlocked([&] {
-          return joint_loss(law, position, {motion, normal_amplitude, phase}, friction_coefficient,
+          return joint_loss(law, point, {motion, normal_amplitude, phase}, friction_coefficient,
                             steps);
         });
         warn_of_held_indentation(law, loss.indentation,

@@ -60,7 +60,7 @@ void bind_functions(nb::module_& m) {
          const Choice<SliderStart>& start, int steps, double tolerance, int most_cycles,
          const ProgressArgument& progress) {
         cite({"popov2015"});
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         SliderOptions options{.hold = hold.value("hold"),
                               .start = start.value("start"),
                               .steps = steps,
@@ -70,9 +70,9 @@ void bind_functions(nb::module_& m) {
           options.on_progress = told;
           const NormalOscillation normal{normal_amplitude, angular_frequency};
           return averaged
-                     ? averaged_slider_motion(law, position, normal, slider, friction_coefficient,
+                     ? averaged_slider_motion(law, point, normal, slider, friction_coefficient,
                                               options)
-                     : slider_motion(law, position, normal, slider, friction_coefficient, options);
+                     : slider_motion(law, point, normal, slider, friction_coefficient, options);
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
@@ -113,10 +113,10 @@ progress : bool or callable
       [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
          double normal_amplitude, double angular_frequency, std::optional<double> indentation,
          std::optional<double> force, const Choice<Hold>& hold, int steps) {
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return slider_stability(law, position, {normal_amplitude, angular_frequency}, slider,
+          return slider_stability(law, point, {normal_amplitude, angular_frequency}, slider,
                                   friction_coefficient, options);
         });
       },
@@ -131,10 +131,10 @@ progress : bool or callable
       [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
          double angular_frequency, double largest_amplitude, std::optional<double> indentation,
          std::optional<double> force, const Choice<Hold>& hold, int steps) {
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return threshold_amplitude(law, position, {largest_amplitude, angular_frequency}, slider,
+          return threshold_amplitude(law, point, {largest_amplitude, angular_frequency}, slider,
                                      friction_coefficient, options);
         });
       },
@@ -150,10 +150,10 @@ progress : bool or callable
          double normal_amplitude, double largest_angular_frequency,
          std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
          int steps) {
-        const Position position = position_of(indentation, force);
+        const OperatingPoint point = operating_point_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return threshold_angular_frequency(law, position,
+          return threshold_angular_frequency(law, point,
                                              {normal_amplitude, largest_angular_frequency}, slider,
                                              friction_coefficient, options);
         });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The law of a contact and its positions, from what the caller knows.
+// The law of a contact and its operating points, from what the caller knows.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,76 +18,76 @@
 namespace salebra {
 namespace {
 
-Dimension dimension_of(Standing standing) {
-  switch (standing) {
-    case Standing::normal_force:
+Dimension dimension_of(ControlQuantity control) {
+  switch (control) {
+    case ControlQuantity::normal_force:
       return Dimension::force;
-    case Standing::pressure:
+    case ControlQuantity::pressure:
       return Dimension::pressure;
     default:
       return Dimension::length;
   }
 }
 
-double ForceSample::*column_of(Standing standing) {
-  switch (standing) {
-    case Standing::normal_force:
+double ForceSample::*column_of(ControlQuantity control) {
+  switch (control) {
+    case ControlQuantity::normal_force:
       return &ForceSample::force;
-    case Standing::indentation:
+    case ControlQuantity::indentation:
       return &ForceSample::indentation;
-    case Standing::pressure:
+    case ControlQuantity::pressure:
       return &ForceSample::pressure;
     default:
       return &ForceSample::mean_gap;
   }
 }
 
-std::vector<Position> at_forces(const std::vector<double>& values) {
-  std::vector<Position> positions;
+std::vector<OperatingPoint> at_forces(const std::vector<double>& values) {
+  std::vector<OperatingPoint> points;
   for (const double value : values) {
-    require_positive(value, name_of(Standing::normal_force));
-    positions.emplace_back(AtForce{value});
+    require_positive(value, name_of(ControlQuantity::normal_force));
+    points.push_back(at_force(value));
   }
-  return positions;
+  return points;
 }
 
-std::vector<Position> at_indentations(const std::vector<double>& values) {
-  std::vector<Position> positions;
-  for (const double value : values) positions.emplace_back(AtIndentation{value});
-  return positions;
+std::vector<OperatingPoint> at_indentations(const std::vector<double>& values) {
+  std::vector<OperatingPoint> points;
+  for (const double value : values) points.push_back(at_indentation(value));
+  return points;
 }
 
 /// Throws InvalidInput in the quantity that was given, before it becomes the force or the
 /// indentation that the law knows.
-void require_on_curve(const Standings& at, const ForceCurve& curve) {
-  const Dimension dimension = dimension_of(at.quantity);
-  const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.quantity)));
+void require_on_curve(const OperatingPoints& at, const ForceCurve& curve) {
+  const Dimension dimension = dimension_of(at.control);
+  const auto [low, high] = std::ranges::minmax(curve.column(column_of(at.control)));
   for (const double value : at.values)
-    require(!(value < low || value > high), name_of(at.quantity), format_quantity(value, dimension),
+    require(!(value < low || value > high), name_of(at.control), format_quantity(value, dimension),
             fmt::format("lies outside the curve's range, {} to {}; choose one within it or extend "
                         "the curve",
                         format_quantity(low, dimension), format_quantity(high, dimension)));
 }
 
-std::vector<Position> positions_on(const ForceCurve& curve, const Standings& at,
-                                   const std::string& source) {
+std::vector<OperatingPoint> points_on(const ForceCurve& curve, const OperatingPoints& at,
+                                      const std::string& source) {
   require_on_curve(at, curve);
   std::vector<double> values = at.values;
-  switch (at.quantity) {
-    case Standing::normal_force:
+  switch (at.control) {
+    case ControlQuantity::normal_force:
       return at_forces(values);
-    case Standing::indentation:
+    case ControlQuantity::indentation:
       return at_indentations(values);
-    case Standing::pressure:
+    case ControlQuantity::pressure:
       require_positive(curve.nominal_area, "nominal_area of " + source);
       for (double& value : values) value *= curve.nominal_area;
       return at_forces(values);
-    case Standing::mean_gap:
+    case ControlQuantity::mean_gap:
       break;
   }
   const ForceSample& any = curve.samples.front();
-  require(!std::isnan(any.mean_gap), name_of(at.quantity), source,
-          "has no mean gap; give another position");
+  require(!std::isnan(any.mean_gap), name_of(at.control), source,
+          "has no mean gap; give another operating point");
   const double origin = std::isnan(any.indentation) ? 0 : any.indentation + any.mean_gap;
   for (double& value : values) value = origin - value;
   return at_indentations(values);
@@ -173,17 +173,16 @@ ContactSolution solution(ExponentialContact body, const Context& context) {
 
 ContactSolution solution(IndenterContact body, const Context& context) {
   auto force_law = law(body, context);
-  const auto& [quantity, values] = body.at;
-  require_that(quantity == Standing::normal_force || quantity == Standing::indentation,
-               name_of(quantity),
-               "given, but an indenter stands at `normal_force` or `indentation`");
-  for (const double value : values) require_positive(value, name_of(quantity));
-  const bool by_force = quantity == Standing::normal_force;
+  const auto& [control, values] = body.at;
+  require_that(control == ControlQuantity::normal_force || control == ControlQuantity::indentation,
+               name_of(control), "given, but an indenter takes `normal_force` or `indentation`");
+  for (const double value : values) require_positive(value, name_of(control));
+  const bool by_force = control == ControlQuantity::normal_force;
   ContactSolution solution{std::move(force_law),
                            by_force ? at_forces(values) : at_indentations(values)};
   const auto& indenter = static_cast<const IndenterLaw&>(*solution.law);
-  for (const Position& position : solution.positions) {
-    const double radius = indenter.contact_radius(indentation_of(indenter, position));
+  for (const OperatingPoint& point : solution.points) {
+    const double radius = indenter.contact_radius(indentation_of(indenter, point));
     solution.doubts = doubts_of_profile(*body.profile, radius);
     if (!solution.doubts.empty()) break;
   }
@@ -193,8 +192,8 @@ ContactSolution solution(IndenterContact body, const Context& context) {
 ContactSolution solution(CurveContact body, const Context& context) {
   std::vector<std::string> doubts = doubts_of_moduli(body.curve, body.modulus_ratio);
   auto table = law(body, context);
-  auto positions = positions_on(body.curve, body.at, body.source);
-  return {std::move(table), std::move(positions), std::move(body.curve), {}, {}, std::move(doubts)};
+  auto points = points_on(body.curve, body.at, body.source);
+  return {std::move(table), std::move(points), std::move(body.curve), {}, {}, std::move(doubts)};
 }
 
 ContactSolution solution(SurfaceContact body, const Context& context) {
@@ -208,17 +207,17 @@ ContactSolution solution(SurfaceContact body, const Context& context) {
                  {.on_progress = context.on_progress}, body.normal_amplitude);
   CurveContact swept{.curve = curve_of_surface(body, context),
                      .modulus_ratio = body.material.modulus_ratio(),
-                     .at = {Standing::pressure, body.pressure}};
+                     .at = {ControlQuantity::pressure, body.pressure}};
   auto table = law(swept, context);
-  auto positions = positions_on(swept.curve, swept.at, "surface");
-  return {std::move(table),        std::move(positions), std::move(swept.curve),
-          std::move(body.surface), first_loading,        std::move(doubts)};
+  auto points = points_on(swept.curve, swept.at, "surface");
+  return {std::move(table),        std::move(points), std::move(swept.curve),
+          std::move(body.surface), first_loading,     std::move(doubts)};
 }
 
 }  // namespace
 
 std::size_t ContactSolution::load() const {
-  const double force = law->force(indentation_of(*law, positions.front()));
+  const double force = law->force(indentation_of(*law, points.front()));
   const auto nearest = std::ranges::min_element(
       curve->samples, {}, [&](const ForceSample& one) { return std::abs(one.force - force); });
   return std::size_t(nearest - curve->samples.begin());

@@ -20,7 +20,7 @@ constexpr double not_known = ContactFacts::unknown;
 
 /// One of the cases.
 struct Case {
-  Position position;
+  OperatingPoint point;
   Motion motion;
   std::optional<double> force_amplitude;
 };
@@ -30,16 +30,17 @@ const T& at(const std::vector<T>& all, std::size_t i) {
   return all[all.size() == 1 ? 0 : i];
 }
 
-std::vector<Case> cases_of(const std::vector<Position>& positions, const DampingProblem& problem) {
+std::vector<Case> cases_of(const std::vector<OperatingPoint>& points,
+                           const DampingProblem& problem) {
   const auto& forces = problem.force_amplitude;
-  const std::size_t count = std::max({positions.size(), problem.motions.size(), forces.size()});
+  const std::size_t count = std::max({points.size(), problem.motions.size(), forces.size()});
   for (const std::size_t size :
-       {positions.size(), problem.motions.size(), std::max<std::size_t>(1, forces.size())})
+       {points.size(), problem.motions.size(), std::max<std::size_t>(1, forces.size())})
     require(size == 1 || size == count, "motions", problem.motions.size(),
             fmt::format("must be one, or one for each of {} cases", count));
   std::vector<Case> cases;
   for (std::size_t i = 0; i < count; ++i) {
-    cases.push_back({at(positions, i), at(problem.motions, i), {}});
+    cases.push_back({at(points, i), at(problem.motions, i), {}});
     if (!forces.empty()) cases.back().force_amplitude = at(forces, i);
   }
   return cases;
@@ -48,15 +49,14 @@ std::vector<Case> cases_of(const std::vector<Position>& positions, const Damping
 DampingResult result_of(const ContactLaw& law, const Case& one, const DampingOptions& options) {
   if (!one.force_amplitude)
     return std::visit(
-        [&](const auto& motion) { return relaxation_damping(law, one.position, motion, options); },
+        [&](const auto& motion) { return relaxation_damping(law, one.point, motion, options); },
         one.motion);
-  const auto* force = std::get_if<AtForce>(&one.position);
-  require(force != nullptr, "force_amplitude", *one.force_amplitude,
+  require(one.point.load_given(), "force_amplitude", *one.force_amplitude,
           "goes with a mean force; give `normal_force` or `pressure`");
   return std::visit(
       [&](const auto& motion) {
-        return relaxation_damping_force_controlled(law, force->force, *one.force_amplitude, motion,
-                                                   options);
+        return relaxation_damping_force_controlled(law, one.point.value, *one.force_amplitude,
+                                                   motion, options);
       },
       one.motion);
 }
@@ -254,7 +254,7 @@ class SurfaceDamper {
     if (!std::isfinite(by_law)) return lost();
     const Loss there = at(by_law, 1);
     const double constant = there.damping_constant, error = there.damping_constant_error();
-    const Field about = damper_map(*solution_.contact.law, solution_.contact.positions.front(),
+    const Field about = damper_map(*solution_.contact.law, solution_.contact.points.front(),
                                    {by_law, 1.05 * by_law}, {angular_frequency},
                                    {.hold = problem_.hold, .amplitude = problem_.amplitude})
                             .damping_constant;
@@ -325,7 +325,7 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   DampingSolution solution{solve(std::move(problem.contact), context)};
   const ContactLaw& law = *solution.contact.law;
   const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
-  const std::vector<Case> cases = cases_of(solution.contact.positions, problem);
+  const std::vector<Case> cases = cases_of(solution.contact.points, problem);
   solution.results = results_of(law, cases, options, context);
   if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, solution.results))
     solution.doubts.push_back(*doubt);
@@ -461,10 +461,10 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   }
   DamperSolution solution{solve(std::move(problem.contact), context)};
   const ContactLaw& law = *solution.contact.law;
-  require(solution.contact.positions.size() == 1, "normal_force",
-          fmt::format("{} positions", solution.contact.positions.size()),
+  require(solution.contact.points.size() == 1, "normal_force",
+          fmt::format("{} operating points", solution.contact.points.size()),
           "are given; a damper takes one");
-  const Position& position = solution.contact.positions.front();
+  const OperatingPoint& point = solution.contact.points.front();
   const DampingOptions options{
       .hold = problem.hold, .amplitude = problem.amplitude, .on_progress = context.on_progress};
   const bool one = amplitudes.size() == 1 && omega.size() == 1;
@@ -472,7 +472,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   std::vector<DampingResult> rested;
   for (const double amplitude : amplitudes) {
     Drag motion{amplitude, 0, std::ranges::max(omega)};
-    rested.push_back(relaxation_damping(law, position, motion, options));
+    rested.push_back(relaxation_damping(law, point, motion, options));
     indentations.push_back(rested.back().indentation);
     motion.drag_velocity = problem.drag_velocity;
     solution.premises.push_back(
@@ -485,7 +485,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   std::optional<SurfaceDamper> of_surface;
   if (solution.contact.surface) of_surface.emplace(problem, material, context, solution);
   if (!amplitudes.empty())
-    solution.map = damper_map(law, position, amplitudes, omega, options);
+    solution.map = damper_map(law, point, amplitudes, omega, options);
   else
     require_that(problem.falling_slope.has_value(), "normal_amplitude",
                  "missing; give it, or `falling_slope` to have it computed");
@@ -503,7 +503,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   require_positive(*problem.falling_slope, "falling_slope");
   for (const double frequency : omega) {
     solution.stabilising_amplitude.push_back(stabilising_amplitude(
-        law, position, frequency, *problem.falling_slope, problem.largest_amplitude, options));
+        law, point, frequency, *problem.falling_slope, problem.largest_amplitude, options));
     if (of_surface) of_surface->stabilise(frequency);
   }
   return solution;

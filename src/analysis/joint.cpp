@@ -68,7 +68,7 @@ std::vector<TangentialOscillation> of_sample(std::vector<TangentialOscillation> 
 
 /// By the springs of the law.
 std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactLaw& law,
-                                     const Position& position, const Context& context) {
+                                     const OperatingPoint& point, const Context& context) {
   const double friction = problem.facts.friction_coefficient;
   std::vector<JointLoss> losses;
   const auto of_all = [&](ProgressReport report) {
@@ -77,10 +77,9 @@ std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactL
   };
   for (const TangentialOscillation& motion : problem.motions)
     losses.push_back(problem.normal_amplitude != 0
-                         ? joint_loss(law, position,
-                                      {motion, problem.normal_amplitude, problem.phase}, friction,
-                                      problem.steps, of_all)
-                         : joint_loss(law, position, motion, friction));
+                         ? joint_loss(law, point, {motion, problem.normal_amplitude, problem.phase},
+                                      friction, problem.steps, of_all)
+                         : joint_loss(law, point, motion, friction));
   return losses;
 }
 
@@ -109,33 +108,33 @@ JointSolution solve(JointProblem problem, const Context& context) {
     if (sample > 0 && sample != area) remark = remark_on_area(area, sample);
   }
   JointSolution solution{solve(std::move(problem.contact), context)};
-  require(solution.contact.positions.size() == 1, "normal_force",
-          fmt::format("{} positions", solution.contact.positions.size()),
+  require(solution.contact.points.size() == 1, "normal_force",
+          fmt::format("{} operating points", solution.contact.points.size()),
           "are given; a joint takes one, and several tangential forces or amplitudes");
   if (!remark.empty()) solution.remarks.push_back(remark);
   const double friction = problem.facts.friction_coefficient;
-  const Position of_body = solution.contact.positions.front();
+  const OperatingPoint of_body = solution.contact.points.front();
   std::shared_ptr<const ContactLaw> sample;  // where the surface is not the part
   if (ratio != 1) {
     sample = std::move(solution.contact.law);
     solution.contact.law = law_of_part(sample, ratio);
     solution.contact.curve = curve_of_part(*solution.contact.curve, area, "surface");
-    if (auto* force = std::get_if<AtForce>(&solution.contact.positions.front()))
-      force->force *= ratio;
+    OperatingPoint& point = solution.contact.points.front();
+    if (point.load_given()) point.value *= ratio;
   }
-  const Position& position = solution.contact.positions.front();
+  const OperatingPoint& point = solution.contact.points.front();
   const ContactLaw& law = *solution.contact.law;
   if (surface && !oscillates) {
     // What the part cannot bear is refused in its own forces.
     if (sample)
       for (const TangentialOscillation& motion : problem.motions)
-        joint_loss(law, position, motion, friction);
+        joint_loss(law, point, motion, friction);
     solution.losses = of_part(
         surface_joint_loss(*solution.contact.surface, material, sample ? *sample : law, of_body,
                            of_sample(problem.motions, ratio), friction, context.on_progress),
         ratio);
   } else {
-    solution.losses = losses_of_law(problem, law, position, context);
+    solution.losses = losses_of_law(problem, law, point, context);
   }
   require_converged(solution.losses, "integrals did not reach the tolerance");
   if (surface && oscillates)

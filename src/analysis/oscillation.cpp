@@ -57,7 +57,7 @@ ContactLevels levels_of(const OscillatingBody& body, const Material& material) {
                                  {.boundary = body.boundary});
 }
 
-NormalContactState contact_at(const Target& position, const OscillatingBody& body,
+NormalContactState contact_at(const OperatingPoint& position, const OscillatingBody& body,
                               double contact_modulus, const NormalContactOptions& options) {
   NormalContactState state = press(body.surface, contact_modulus, position, options);
   if (!state.converged())
@@ -160,25 +160,20 @@ double OscillationOutcome::balance(const CycleResult& one) const {
 }
 
 double mean_indentation(const OscillatingBody& body, double contact_modulus,
-                        const Target& position) {
-  if (position.indentation) return *position.indentation;
-  if (!position.mean_gap && !position.pressure && !position.force) return body.indentation;
-  return contact_at(position, body, contact_modulus, {.boundary = body.boundary}).indentation;
+                        const OperatingPoint& point) {
+  if (point.control == ControlQuantity::indentation) return point.value;
+  return contact_at(point, body, contact_modulus, {.boundary = body.boundary}).indentation;
 }
 
-void load_plastically(OscillationCase& contact, const Target& position, double hardness,
+void load_plastically(OscillationCase& contact, const OperatingPoint& point, double hardness,
                       const Progress& on_progress) {
   const double modulus = contact.material.contact_modulus;
   const NormalContactOptions elastic{.boundary = contact.body.boundary, .on_progress = on_progress};
   NormalContactOptions plastic = elastic;
   plastic.hardness = hardness;
-  const double pressure = position.pressure
-                              ? *position.pressure
-                              : contact_at(position.mean_gap || position.force
-                                               ? position
-                                               : Target{.indentation = contact.indentation},
-                                           contact.body, modulus, plastic)
-                                    .mean_pressure;
+  const double pressure = point.control == ControlQuantity::pressure
+                              ? point.value
+                              : contact_at(point, contact.body, modulus, plastic).mean_pressure;
   OscillatingBody residual = contact.body;
   contact.first_loading = load_first(
       residual.surface, hardness, modulus, pressure, elastic,
@@ -186,7 +181,7 @@ void load_plastically(OscillationCase& contact, const Target& position, double h
   if (!contact.first_loading->yielded()) return;
   contact.body = std::move(residual);
   contact.indentation =
-      contact_at({.pressure = pressure}, contact.body, modulus, elastic).indentation;
+      contact_at(at_pressure(pressure), contact.body, modulus, elastic).indentation;
 }
 
 OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationRoutes& routes) {
@@ -285,7 +280,7 @@ ExponentialLoss exponential_loss(const OscillationOutcome& outcome, double decay
       },
       outcome.run.motion);
   const ExponentialLaw law(force, decay_length, modulus_ratio);
-  const double finite = relaxation_damping(law, AtForce{force}, outcome.run.motion).work_per_cycle;
+  const double finite = relaxation_damping(law, at_force(force), outcome.run.motion).work_per_cycle;
   return {.decay_length = decay_length,
           .predicted_exponential = small,
           .ratio_exponential = outcome.over(small),

@@ -16,12 +16,12 @@ namespace salebra {
 namespace {
 
 std::vector<SlidingPoint> points_at(const SlidingProblem& problem, double amplitude,
-                                    const ContactLaw& law, const Position& position) {
+                                    const ContactLaw& law, const OperatingPoint& point) {
   DampingOptions options;
   options.hold = problem.hold;
   const NormalOscillation normal{amplitude, problem.angular_frequency};
   const auto states = [&](const std::vector<double>& velocities) {
-    return steady_sliding(law, position, normal, velocities, problem.friction_coefficient, options);
+    return steady_sliding(law, point, normal, velocities, problem.friction_coefficient, options);
   };
   std::vector<double> velocities = problem.velocities;
   if (!problem.velocity_ratios.empty()) {
@@ -53,7 +53,7 @@ SliderThreshold in_hertz(SliderThreshold threshold) {
 }
 
 SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& law,
-                               const Position& position, double indentation) {
+                               const OperatingPoint& point, double indentation) {
   const Slider& slider = problem.slider;
   const auto [amplitude, omega] = problem.normal;
   if (!(slider.falling_slope > slider.support_damping) || !(omega > 0)) return {};
@@ -62,10 +62,10 @@ SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& l
                        (friction * law.normal_stiffness(indentation));
   const double largest = problem.largest_amplitude.value_or(
       std::min(10 * std::max(amplitude, start), covered_amplitude(law, indentation)));
-  SliderThresholds found{.amplitude = threshold_amplitude(law, position, {largest, omega}, slider,
+  SliderThresholds found{.amplitude = threshold_amplitude(law, point, {largest, omega}, slider,
                                                           friction, problem.options)};
   if (amplitude > 0)
-    found.frequency = in_hertz(threshold_angular_frequency(law, position, {amplitude, 10 * omega},
+    found.frequency = in_hertz(threshold_angular_frequency(law, point, {amplitude, 10 * omega},
                                                            slider, friction, problem.options));
   return found;
 }
@@ -73,12 +73,12 @@ SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& l
 }  // namespace
 
 SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
-                      const Position& position) {
+                      const OperatingPoint& point) {
   SlidingSolution solution;
   std::vector<SlidingPoint>& points = solution.points;
   std::vector<DampingResult> means;
   for (const double amplitude : problem.normal_amplitude) {
-    const std::vector<SlidingPoint> found = points_at(problem, amplitude, law, position);
+    const std::vector<SlidingPoint> found = points_at(problem, amplitude, law, point);
     points.insert(points.end(), found.begin(), found.end());
     const SteadySliding& state = found.front().state;
     DampingResult& mean = means.emplace_back();
@@ -105,7 +105,7 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
 
 SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& contact,
                       const Material& material, const Context& context) {
-  SlidingSolution solution = solve(problem, *contact.law, contact.positions.front());
+  SlidingSolution solution = solve(problem, *contact.law, contact.points.front());
   if (!contact.surface) return solution;
   const std::size_t velocities = solution.points.size() / problem.normal_amplitude.size();
   for (std::size_t first = 0; first < solution.points.size(); first += velocities) {
@@ -129,31 +129,31 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& cont
 }
 
 SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
-                     const Position& position) {
+                     const OperatingPoint& point) {
   const auto& [slider, normal, friction, largest_amplitude, options] = problem;
   SliderSolution solution;
-  solution.stability = slider_stability(law, position, normal, slider, friction, options);
+  solution.stability = slider_stability(law, point, normal, slider, friction, options);
   const bool oscillates = normal.normal_amplitude > 0;
   DampingOptions averages;
   averages.hold = options.hold;
   solution.judged = {
       normal.normal_amplitude, slider.velocity,
       oscillates ? normal.angular_frequency : std::sqrt(slider.spring_stiffness / slider.mass)};
-  solution.sliding = steady_sliding(law, position, solution.judged, friction, averages);
+  solution.sliding = steady_sliding(law, point, solution.judged, friction, averages);
   const double indentation = solution.sliding.indentation;
   // No oscillation is the limit of small ones.
   if (!oscillates)
     solution.judged.normal_amplitude =
         1e-6 * law.force(indentation) / law.normal_stiffness(indentation);
-  solution.motion = slider_motion(law, position, normal, slider, friction, options);
-  solution.averaged = averaged_slider_motion(law, position, normal, slider, friction, options);
+  solution.motion = slider_motion(law, point, normal, slider, friction, options);
+  solution.averaged = averaged_slider_motion(law, point, normal, slider, friction, options);
   if (!solution.motion.converged || !solution.averaged.converged)
     throw NotConverged(
         fmt::format("slider: the {} does not repeat to the `tolerance` within `most_cycles`; near "
                     "the threshold "
                     "disturbances grow or decay slowly, and then both must be raised",
                     solution.motion.converged ? "averaged motion" : "motion"));
-  solution.thresholds = thresholds_of(problem, law, position, indentation);
+  solution.thresholds = thresholds_of(problem, law, point, indentation);
   return solution;
 }
 

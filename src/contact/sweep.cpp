@@ -156,7 +156,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   loop.run(loads, [&](Index turn) {
     const std::size_t k = mine[static_cast<std::size_t>(turn)];
     const auto state =
-        press(surface, material.contact_modulus, {.pressure = pressures[k]}, inner.contact);
+        press(surface, material.contact_modulus, at_pressure(pressures[k]), inner.contact);
     if (state.termination == Termination::interrupted) return loop.stop();
     const ForceSample sample = force_sample(state, surface, material, inner);
     // A stiffness solve that was stopped half-way is not a load that failed.

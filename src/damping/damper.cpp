@@ -14,9 +14,9 @@ namespace salebra {
 namespace {
 
 // γ does not depend on the drag velocity.
-DampingResult damper_at(const ContactLaw& law, const Position& position, double amplitude,
+DampingResult damper_at(const ContactLaw& law, const OperatingPoint& point, double amplitude,
                         double angular_frequency, const DampingOptions& options) {
-  const DampingResult result = relaxation_damping(law, position,
+  const DampingResult result = relaxation_damping(law, point,
                                                   Drag{.normal_amplitude = amplitude,
                                                        .drag_velocity = 0,
                                                        .angular_frequency = angular_frequency},
@@ -28,12 +28,12 @@ DampingResult damper_at(const ContactLaw& law, const Position& position, double 
 
 }  // namespace
 
-OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
+OscillatorDecay oscillator_decay(const ContactLaw& law, const OperatingPoint& point,
                                  const NormalOscillation& normal,
                                  const TangentialOscillator& oscillator,
                                  const DampingOptions& options) {
   const DampingResult damper =
-      damper_at(law, position, normal.normal_amplitude, normal.angular_frequency, options);
+      damper_at(law, point, normal.normal_amplitude, normal.angular_frequency, options);
   return oscillator_decay(damper.damping_constant,
                           law.tangential_stiffness(damper.indentation - normal.normal_amplitude),
                           normal.angular_frequency, oscillator);
@@ -64,15 +64,14 @@ OscillatorDecay oscillator_decay(double damping_constant, double contact_stiffne
   return decay;
 }
 
-DamperMap damper_map(const ContactLaw& law, const Position& position,
+DamperMap damper_map(const ContactLaw& law, const OperatingPoint& point,
                      const std::vector<double>& normal_amplitudes,
                      const std::vector<double>& angular_frequencies,
                      const DampingOptions& options) {
   for (const double frequency : angular_frequencies)
     require_positive(frequency, "angular_frequency");
   std::vector<DampingCase> cases;
-  for (const double amplitude : normal_amplitudes)
-    cases.push_back({position, Drag{amplitude, 0, 1}});
+  for (const double amplitude : normal_amplitudes) cases.push_back({point, Drag{amplitude, 0, 1}});
   const std::vector<DampingResult> results = relaxation_damping(law, cases, options);
   DamperMap map{normal_amplitudes, angular_frequencies,
                 Field(static_cast<Index>(normal_amplitudes.size()),
@@ -84,16 +83,16 @@ DamperMap damper_map(const ContactLaw& law, const Position& position,
   return map;
 }
 
-double stabilising_amplitude(const ContactLaw& law, const Position& position,
+double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
                              double angular_frequency, double falling_slope,
                              double largest_amplitude, const DampingOptions& options) {
   require_positive(falling_slope, "falling_slope");
   require_positive(largest_amplitude, "largest_amplitude");
   if (options.hold == Hold::indentation)
     largest_amplitude =
-        std::min(largest_amplitude, detail::possible_amplitude(law, indentation_of(law, position)));
+        std::min(largest_amplitude, detail::possible_amplitude(law, indentation_of(law, point)));
   auto excess = [&](double amplitude) {
-    return damper_at(law, position, amplitude, angular_frequency, options).damping_constant -
+    return damper_at(law, point, amplitude, angular_frequency, options).damping_constant -
            falling_slope;
   };
   // γ starts in proportion to u_z and may have a maximum: the first of fine steps that is enough
@@ -104,7 +103,7 @@ double stabilising_amplitude(const ContactLaw& law, const Position& position,
   small.amplitude = Amplitude::small;
   const double proportional =
       largest_amplitude * falling_slope /
-      damper_at(law, position, largest_amplitude, angular_frequency, small).damping_constant;
+      damper_at(law, point, largest_amplitude, angular_frequency, small).damping_constant;
   const double lowest = std::min(proportional / 16, largest_amplitude / 256);
   constexpr int steps_per_octave = 4;
   const int steps =

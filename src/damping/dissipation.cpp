@@ -208,12 +208,12 @@ double small_amplitude_factor(const ContactLaw& law, double curvature, const Ker
   return law.modulus_ratio() * curvature * kernel.normal_amplitude * kernel.small_amplitude;
 }
 
-double settled_indentation(const ContactLaw& law, const Position& position) {
-  if (const auto* at = std::get_if<AtIndentation>(&position))
-    require_finite(at->indentation, "indentation");
-  else
-    require_positive(std::get<AtForce>(position).force, "force");
-  return indentation_of(law, position);
+double settled_indentation(const ContactLaw& law, const OperatingPoint& point) {
+  if (point.control == ControlQuantity::indentation)
+    require_finite(point.value, "indentation");
+  else if (point.control == ControlQuantity::normal_force)
+    require_positive(point.value, "force");
+  return indentation_of(law, point);
 }
 
 // The loss about a mean indentation at a finite amplitude.
@@ -231,11 +231,11 @@ void set_finite(DampingResult& result, const ContactLaw& law, double middle, con
   set_work(result, work_factor(cycle, kernel, tolerance), kernel);
 }
 
-DampingResult damping_of(const ContactLaw& law, const Position& position, const Kernel& kernel,
+DampingResult damping_of(const ContactLaw& law, const OperatingPoint& point, const Kernel& kernel,
                          const DampingOptions& options) {
   check(options);
   const double amplitude = kernel.normal_amplitude;
-  const double settled = settled_indentation(law, position);
+  const double settled = settled_indentation(law, point);
   const double small_factor = small_amplitude_factor(law, law.force_curvature(settled), kernel);
   DampingResult result;
   if (options.amplitude == Amplitude::small) {
@@ -247,8 +247,8 @@ DampingResult damping_of(const ContactLaw& law, const Position& position, const 
     const bool mean_force = options.hold == Hold::force;
     const auto middle_at = [&](double one) {
       if (!mean_force) return settled;
-      const auto* at = std::get_if<AtForce>(&position);
-      return indentation_at_mean_force(law, at ? at->force : law.force(settled), one);
+      return indentation_at_mean_force(law, point.load_given() ? point.value : law.force(settled),
+                                       one);
     };
     detail::require_possible(law, settled, amplitude, middle_at, options.hold);
     set_finite(result, law, middle_at(amplitude), kernel, options.tolerance);
@@ -312,9 +312,11 @@ DampingResult detail::damping_about(const ContactLaw& law, double mean_indentati
   return result;
 }
 
-double indentation_of(const ContactLaw& law, const Position& position) {
-  if (const auto* at = std::get_if<AtIndentation>(&position)) return at->indentation;
-  return law.indentation_of(std::get<AtForce>(position).force);
+double indentation_of(const ContactLaw& law, const OperatingPoint& point) {
+  if (point.control == ControlQuantity::indentation) return point.value;
+  require(point.control == ControlQuantity::normal_force, name_of(point.control), point.value,
+          "means nothing to a contact law; give a force or an indentation");
+  return law.indentation_of(point.value);
 }
 
 double mean_force_of_cycle(const ContactLaw& law, double mean_indentation, double amplitude) {
@@ -344,14 +346,14 @@ double indentation_at_mean_force(const ContactLaw& law, double mean_force, doubl
   return indentation;
 }
 
-DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
+DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const Oscillation& motion, const DampingOptions& options) {
-  return damping_of(law, position, kernel_of(motion), options);
+  return damping_of(law, point, kernel_of(motion), options);
 }
 
-DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
+DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const TwoFrequencies& motion, const DampingOptions& options) {
-  return damping_of(law, position, kernel_of(motion), options);
+  return damping_of(law, point, kernel_of(motion), options);
 }
 
 std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
@@ -365,7 +367,7 @@ std::vector<DampingResult> relaxation_damping(const ContactLaw& law,
     parallel::for_slabs(static_cast<Index>(count), [&](Index begin, Index end) {
       for (Index i = begin; i < end; ++i) {
         const std::size_t at = first + static_cast<std::size_t>(i);
-        results[at] = relaxation_damping(law, cases[at].position, cases[at].motion, options);
+        results[at] = relaxation_damping(law, cases[at].point, cases[at].motion, options);
       }
     });
     const double done = static_cast<double>(first + count);

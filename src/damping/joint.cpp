@@ -262,11 +262,11 @@ struct Swing {
 
 }  // namespace
 
-JointLoss joint_loss(const ContactLaw& law, const Position& position,
+JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options) {
   check(motion, friction_coefficient);
-  const double high = indentation_of(law, position);
+  const double high = indentation_of(law, point);
   detail::require_possible(law, high, 0, [&](double) { return high; });
   const double limit = friction_coefficient / law.stiffness_ratio(high);  // stretch over depth
   const auto* by_force = std::get_if<TangentialForce>(&motion);
@@ -304,13 +304,13 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 }
 
 std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
-                                          const ContactLaw& law, const Position& position,
+                                          const ContactLaw& law, const OperatingPoint& point,
                                           const std::vector<TangentialOscillation>& motions,
                                           double friction_coefficient,
                                           const Progress& on_progress) {
   std::vector<JointLoss> losses;
   for (const TangentialOscillation& motion : motions)
-    losses.push_back(joint_loss(law, position, motion, friction_coefficient));
+    losses.push_back(joint_loss(law, point, motion, friction_coefficient));
   if (losses.empty()) return losses;
   const Surface fine = refined(surface, 2);
   const double area = surface.grid.area();
@@ -318,14 +318,14 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   contact.on_progress = on_progress;
   // c is the difference of two indentations, of which it may be a hundredth.
   contact.tolerance = 1e-10;
-  const auto at_force = [&](double force) {
-    return solved(press(fine, material.contact_modulus, {.pressure = force / area}, contact));
+  const auto under = [&](double force) {
+    return solved(press(fine, material.contact_modulus, at_pressure(force / area), contact));
   };
-  const auto at_indentation = [&](double level) {
-    return solved(press(fine, material.contact_modulus, {.indentation = level}, contact));
+  const auto pressed_to = [&](double level) {
+    return solved(press(fine, material.contact_modulus, at_indentation(level), contact));
   };
   const double level = losses.front().indentation;
-  const NormalContactState high = at_force(law.force(level));
+  const NormalContactState high = under(law.force(level));
   // K_t/K hardly changes where a joint slips. The law interpolates both stiffnesses.
   const ForceSample stuck =
       stuck_at(high.force / area, surface, material, on_progress).samples.front();
@@ -337,14 +337,14 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
     if (std::holds_alternative<TangentialForce>(motions[k])) {
       const double force = high.force - loss.tangential_force / friction_coefficient;
       check_below_sliding(loss.tangential_force, friction_coefficient * high.force, "");
-      const double by_law = std::exchange(depth, high.indentation - at_force(force).indentation);
+      const double by_law = std::exchange(depth, high.indentation - under(force).indentation);
       change = (depth / by_law - 1) / 3;
       loss.tangential_amplitude = limit * depth;
     } else {
       loss.tangential_force =
-          friction_coefficient * (high.force - at_indentation(high.indentation - depth).force);
+          friction_coefficient * (high.force - pressed_to(high.indentation - depth).force);
     }
-    const double pressure = at_indentation(high.indentation - depth / 2).force / area;
+    const double pressure = pressed_to(high.indentation - depth / 2).force / area;
     const EqualFrequency as_normal{.normal_amplitude = depth / 2,
                                    .tangential_amplitude = loss.tangential_amplitude,
                                    .phase = pi / 2};
@@ -360,14 +360,14 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   return losses;
 }
 
-JointLoss joint_loss(const ContactLaw& law, const Position& position, const JointMotion& motion,
+JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const JointMotion& motion,
                      double friction_coefficient, int steps, const Progress& on_progress) {
   check(motion.tangential, friction_coefficient);
   require(std::isfinite(motion.normal_amplitude) && motion.normal_amplitude >= 0,
           "normal_amplitude", motion.normal_amplitude, "must be >= 0");
   require(std::isfinite(motion.phase), "phase", motion.phase, "must be finite");
   require(steps >= 16, "steps", steps, "must be >= 16");
-  const double mean = indentation_of(law, position);
+  const double mean = indentation_of(law, point);
   detail::require_possible(law, mean, motion.normal_amplitude, [&](double) { return mean; });
   const auto at = [&](double factor) {
     JointMotion scaled = motion;

@@ -85,7 +85,7 @@ struct Case {
   SteadySliding sliding;
   double spring_offset;  // x − Vt of steady sliding by the averaged equation, m
 
-  Case(const ContactLaw& law, const Position& position, const NormalOscillation& normal,
+  Case(const ContactLaw& law, const OperatingPoint& point, const NormalOscillation& normal,
        const Slider& slider, double friction_coefficient, const SliderOptions& options)
       : contact{law, 0, normal.normal_amplitude, normal.angular_frequency, friction_coefficient} {
     check(normal, slider, friction_coefficient, options);
@@ -93,7 +93,7 @@ struct Case {
     DampingOptions averages;
     averages.hold = options.hold;
     sliding = steady_sliding(
-        law, position, Drag{contact.normal_amplitude, slider.velocity, contact.angular_frequency},
+        law, point, Drag{contact.normal_amplitude, slider.velocity, contact.angular_frequency},
         friction_coefficient, averages);
     contact.indentation = sliding.indentation;
     spring_offset = (slider.falling_slope * slider.velocity - sliding.mean_tangential_force) /
@@ -443,7 +443,7 @@ double first_reached(const std::function<double(double)>& excess, double low, do
 // A slider on a contact, without the oscillation that should steady it.
 struct SlidingPair {
   const ContactLaw& law;
-  const Position& position;
+  const OperatingPoint& point;
   const Slider& slider;
   double friction_coefficient;
   const SliderOptions& options;
@@ -453,7 +453,7 @@ struct SlidingPair {
 SliderThreshold threshold(const SlidingPair& pair, double low, double high,
                           const std::function<NormalOscillation(double)>& normal_of) {
   const ContactLaw& law = pair.law;
-  const Position& position = pair.position;
+  const OperatingPoint& point = pair.point;
   const Slider& slider = pair.slider;
   const double friction_coefficient = pair.friction_coefficient;
   const SliderOptions& options = pair.options;
@@ -463,7 +463,7 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
   const auto estimate = [&](double errors) {
     return first_reached(
         [&](double place) {
-          const Case at(law, position, normal_of(place), slider, friction_coefficient, options);
+          const Case at(law, point, normal_of(place), slider, friction_coefficient, options);
           const double error = errors != 0 ? damping_error(at, slider, friction_coefficient) : 0;
           // An unknown error bounds nothing: upwards all is possible, downwards nothing is sure.
           if (std::isnan(error)) return errors * needed;
@@ -478,8 +478,8 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
       std::isnan(nearer) ? SliderThreshold::unknown : std::max(further, nearer);
   threshold.value = first_reached(
       [&](double place) {
-        const SliderStability one = slider_stability(law, position, normal_of(place), slider,
-                                                     friction_coefficient, options);
+        const SliderStability one =
+            slider_stability(law, point, normal_of(place), slider, friction_coefficient, options);
         return one.converged ? -one.growth_rate : -needed;
       },
       low, high);
@@ -492,17 +492,17 @@ void check_falling(const Slider& slider) {
 }
 
 // v_c = (μK/K_t)u_z ω, over u_z ω.
-double limit_of_slope(const ContactLaw& law, const Position& position,
+double limit_of_slope(const ContactLaw& law, const OperatingPoint& point,
                       double friction_coefficient) {
-  return friction_coefficient / law.stiffness_ratio(indentation_of(law, position));
+  return friction_coefficient / law.stiffness_ratio(indentation_of(law, point));
 }
 
 }  // namespace
 
-SliderMotion slider_motion(const ContactLaw& law, const Position& position,
+SliderMotion slider_motion(const ContactLaw& law, const OperatingPoint& point,
                            const NormalOscillation& normal, const Slider& slider,
                            double friction_coefficient, const SliderOptions& options) {
-  const Case at(law, position, normal, slider, friction_coefficient, options);
+  const Case at(law, point, normal, slider, friction_coefficient, options);
   at.check_cost(SliderEquation::steps_of_period(at.contact, slider, options.steps),
                 SliderEquation::period_of(at.contact, slider), slider);
   const auto motion_with = [&](int steps) {
@@ -526,20 +526,20 @@ SliderMotion slider_motion(const ContactLaw& law, const Position& position,
   }
 }
 
-SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& position,
+SliderMotion averaged_slider_motion(const ContactLaw& law, const OperatingPoint& point,
                                     const NormalOscillation& normal, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options) {
-  const Case at(law, position, normal, slider, friction_coefficient, options);
+  const Case at(law, point, normal, slider, friction_coefficient, options);
   constexpr double parts = 256;  // of a slow period, in which it advances
   at.check_cost(parts, 2 * pi / natural_frequency(slider), slider);
   AveragedSlider equation(at.contact, at.sliding, friction_coefficient, slider);
   return follow(equation, at, slider, options);
 }
 
-SliderStability slider_stability(const ContactLaw& law, const Position& position,
+SliderStability slider_stability(const ContactLaw& law, const OperatingPoint& point,
                                  const NormalOscillation& normal, const Slider& slider,
                                  double friction_coefficient, const SliderOptions& options) {
-  const Case at(law, position, normal, slider, friction_coefficient, options);
+  const Case at(law, point, normal, slider, friction_coefficient, options);
   SliderStability result;
   result.sliding_damping = at.sliding.sliding_damping;
   result.sliding_damping_error = damping_error(at, slider, friction_coefficient);
@@ -577,19 +577,19 @@ SliderStability slider_stability(const ContactLaw& law, const Position& position
   return result;
 }
 
-SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& position,
+SliderThreshold threshold_amplitude(const ContactLaw& law, const OperatingPoint& point,
                                     const NormalOscillation& last, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options) {
   check(last, slider, friction_coefficient, options);
   check_falling(slider);
-  const double low = slider.velocity / last.angular_frequency /
-                     limit_of_slope(law, position, friction_coefficient);
+  const double low =
+      slider.velocity / last.angular_frequency / limit_of_slope(law, point, friction_coefficient);
   return threshold(
-      {law, position, slider, friction_coefficient, options}, low, last.normal_amplitude,
+      {law, point, slider, friction_coefficient, options}, low, last.normal_amplitude,
       [&](double amplitude) { return NormalOscillation{amplitude, last.angular_frequency}; });
 }
 
-SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
+SliderThreshold threshold_angular_frequency(const ContactLaw& law, const OperatingPoint& point,
                                             const NormalOscillation& last, const Slider& slider,
                                             double friction_coefficient,
                                             const SliderOptions& options) {
@@ -597,11 +597,11 @@ SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Positio
   check(last, slider, friction_coefficient, options);
   check_falling(slider);
   const double touch =
-      slider.velocity / last.normal_amplitude / limit_of_slope(law, position, friction_coefficient);
+      slider.velocity / last.normal_amplitude / limit_of_slope(law, point, friction_coefficient);
   // Slower oscillations do not average.
   const double low = std::max(touch, 4.01 * natural_frequency(slider));
   return threshold(
-      {law, position, slider, friction_coefficient, options}, low, last.angular_frequency,
+      {law, point, slider, friction_coefficient, options}, low, last.angular_frequency,
       [&](double frequency) { return NormalOscillation{last.normal_amplitude, frequency}; });
 }
 

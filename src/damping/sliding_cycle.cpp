@@ -268,7 +268,7 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
     if (indentation <= 0)
       return PressureAt{.contact_pressure = Field::Zero(surface.grid.nx, surface.grid.ny)};
     NormalContactState state =
-        press(surface, contact_modulus, {.indentation = indentation}, options);
+        press(surface, contact_modulus, at_indentation(indentation), options);
     return PressureAt{std::move(state.contact_pressure), state.force, state.converged()};
   };
 }

@@ -305,7 +305,7 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
 
 double detail::mean_rise(double velocity_ratio) { return Period(velocity_ratio).mean_rise(); }
 
-std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
+std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const OperatingPoint& point,
                                           const NormalOscillation& normal,
                                           std::span<const double> velocities,
                                           double friction_coefficient,
@@ -315,7 +315,7 @@ std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position&
   DampingOptions exact = options;
   exact.amplitude = Amplitude::finite;
   const DampingResult stuck = relaxation_damping(
-      law, position, Drag{normal.normal_amplitude, velocities.front(), normal.angular_frequency},
+      law, point, Drag{normal.normal_amplitude, velocities.front(), normal.angular_frequency},
       exact);
   return sliding_of(stuck, law, normal, velocities, friction_coefficient, options.tolerance);
 }
@@ -333,10 +333,10 @@ std::vector<SteadySliding> detail::steady_sliding_about(const ContactLaw& law,
   return sliding_of(stuck, law, normal, velocities, friction_coefficient, tolerance);
 }
 
-SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
+SteadySliding steady_sliding(const ContactLaw& law, const OperatingPoint& point, const Drag& motion,
                              double friction_coefficient, const DampingOptions& options) {
   const double velocities[] = {motion.drag_velocity};
-  return steady_sliding(law, position,
+  return steady_sliding(law, point,
                         NormalOscillation{motion.normal_amplitude, motion.angular_frequency},
                         velocities, friction_coefficient, options)
       .front();

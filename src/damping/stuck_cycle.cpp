@@ -250,7 +250,7 @@ ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
     if (indentation <= 0)
       return ContactSetAt{ContactSet::Constant(surface.grid.nx, surface.grid.ny, false)};
     const NormalContactState state =
-        press(surface, contact_modulus, {.indentation = indentation}, options);
+        press(surface, contact_modulus, at_indentation(indentation), options);
     return ContactSetAt{contact_set(state), state.force, state.converged()};
   };
 }

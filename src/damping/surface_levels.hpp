@@ -135,7 +135,7 @@ class Levels {
   /// The indentation under a pressure.
   double indentation_at(double pressure) {
     NormalContactState state =
-        salebra::press(surface_, contact_modulus_, {.pressure = pressure}, options_);
+        salebra::press(surface_, contact_modulus_, at_pressure(pressure), options_);
     take(state);
     return last_at_;
   }
@@ -227,7 +227,7 @@ class Levels {
     const std::optional<Field> start = extrapolated(indentation);
     if (start) options.initial_pressure = &*start;
     NormalContactState state =
-        salebra::press(surface_, contact_modulus_, {.indentation = indentation}, options);
+        salebra::press(surface_, contact_modulus_, at_indentation(indentation), options);
     // The key is what was asked for, to the last bit.
     state.indentation = indentation;
     take(state);

@@ -172,10 +172,10 @@ class SurfaceSlidingRun {
   std::vector<SteadySliding> states_of(const VectorXd& places, const VectorXd& stiffness,
                                        const StiffnessRatio& ratio) const {
     const StiffnessLaw law(places, stiffness, load_.force, ratio, material_.modulus_ratio());
-    const Position position = motion_.hold == Hold::indentation
-                                  ? Position(AtIndentation{places(places.size() / 2)})
-                                  : Position(AtForce{load_.force});
-    return steady_sliding(law, position, motion_.normal, motion_.velocities,
+    const OperatingPoint point = motion_.hold == Hold::indentation
+                                     ? at_indentation(places(places.size() / 2))
+                                     : at_force(load_.force);
+    return steady_sliding(law, point, motion_.normal, motion_.velocities,
                           motion_.friction_coefficient, {.hold = motion_.hold, .tolerance = 1e-7});
   }
 

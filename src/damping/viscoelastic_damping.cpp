@@ -322,7 +322,7 @@ ViscoelasticLoss viscoelastic_loss(const IndenterLaw& law, const PronySeries& pr
   const std::complex<double> modulus = prony.complex_modulus(loss.angular_frequency);
   loss.storage_modulus = modulus.real();
   loss.loss_modulus = modulus.imag();
-  loss.elastic_work = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+  loss.elastic_work = relaxation_damping(law, at_indentation(indentation), motion).work_per_cycle;
   loss.damping = viscoelastic_damping(law, prony, sample(motion, indentation, options.steps),
                                       options.springs, options.on_progress);
   return loss;

@@ -461,11 +461,10 @@ DeckContact deck_contact(ContactProblem problem, const Context& context) {
     clearance_from = "where the normal force is that of the position";
   }
   ContactSolution answer = solve(std::move(problem), context);
-  require(answer.positions.size() < 2, "contacts",
-          fmt::format("{} positions", answer.positions.size()), "are given; a deck takes one");
+  require(answer.points.size() < 2, "contacts",
+          fmt::format("{} operating points", answer.points.size()), "are given; a deck takes one");
   std::optional<double> indentation;
-  if (!answer.positions.empty())
-    indentation = indentation_of(*answer.law, answer.positions.front());
+  if (!answer.points.empty()) indentation = indentation_of(*answer.law, answer.points.front());
   DeckContact contact = deck_contact(std::move(answer.law), indentation);
   contact.knows_tangential_stiffness = knows_tangential_stiffness;
   contact.decay_length = decay_length;

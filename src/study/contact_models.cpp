@@ -54,8 +54,8 @@ ModelResult no_curve(const ModelWork& work) {
 /// Mean gap by mean gap in and out.
 AdhesionOfSurface cycle_of(const ModelWork& work, const AdhesiveContactOptions& contact) {
   const AdhesionPlan& plan = *work.configuration.adhesion;
-  std::vector<Target> gaps;
-  for (const double gap : plan.cycle) gaps.push_back({.mean_gap = gap});
+  std::vector<OperatingPoint> gaps;
+  for (const double gap : plan.cycle) gaps.push_back(at_mean_gap(gap));
   const AdhesiveCycle cycle =
       adhesive_cycle(work.surface, work.configuration.material.contact_modulus, gaps, plan.adhesion,
                      {.contact = contact, .unload = true});
@@ -85,8 +85,8 @@ ModelResult adhesive_elements(ModelWork& work, const SweepOptions& sweep) {
     curve.samples[k] = force_sample(state, work.surface, work.configuration.material, sweep);
     sweep.on_state(k++, state);
   };
-  std::vector<Target> loads;
-  for (const double pressure : work.pressures) loads.push_back({.pressure = pressure});
+  std::vector<OperatingPoint> loads;
+  for (const double pressure : work.pressures) loads.push_back(at_pressure(pressure));
   adhesive_cycle(work.surface, work.configuration.material.contact_modulus, loads, plan.adhesion,
                  options);
   if (!plan.cycle.empty()) work.realisation.adhesion = cycle_of(work, options.contact);

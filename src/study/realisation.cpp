@@ -119,20 +119,20 @@ std::vector<DampingPoint> damping_curve(const ModelResult& model,
     point.force = sample.force;
     points.push_back(point);
     if (adhesive || !sample.converged || !(sample.force > 0)) continue;
-    const AtForce position{sample.force};
+    const OperatingPoint point = at_force(sample.force);
     if (fitted_law) {
-      const auto by_law = relaxation_damping(*fitted_law, position, configuration.motion, small);
+      const auto by_law = relaxation_damping(*fitted_law, point, configuration.motion, small);
       point.work_per_cycle_closed_form = by_law.work_per_cycle;
       point.damping_constant_closed_form = by_law.damping_constant;
     }
     if (curve_law) {
       try {
         const auto by_curvature =
-            relaxation_damping(*curve_law, position, configuration.motion, small);
+            relaxation_damping(*curve_law, point, configuration.motion, small);
         point.small_amplitude_work = by_curvature.work_per_cycle;
         point.small_amplitude_damping_constant = by_curvature.damping_constant;
         auto by_curve =
-            relaxation_damping(*curve_law, position, configuration.motion, configuration.damping);
+            relaxation_damping(*curve_law, point, configuration.motion, configuration.damping);
         if (by_curve.converged) {
           // Slip may reach below the curve: the loss without slip stays.
           static_cast<Loss&>(point) = by_curve;

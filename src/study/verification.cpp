@@ -56,7 +56,7 @@ void check_hertz_by_boundary_elements(Checks& checks) {
     }
   }
   const double force = 4.0 / 3.0 * modulus * std::pow(contact_radius, 3) / radius;
-  const auto state = press(sphere, modulus, {.pressure = force / sphere.grid.area()},
+  const auto state = press(sphere, modulus, at_pressure(force / sphere.grid.area()),
                            {.tolerance = 1e-8, .boundary = Boundary::free});
   // 26 cells to the radius: the indentation is of second order in the cell, the peak follows the
   // centre's place in its cell.
@@ -78,7 +78,7 @@ void check_westergaard(Checks& checks) {
   wave.heights.resize(n, n);
   for (Index i = 0; i < n; ++i)
     wave.heights.row(i) = amplitude * std::cos(2 * pi * double(i) / double(n));
-  const auto state = press(wave, modulus, {.pressure = 1.01 * full}, {.tolerance = 1e-12});
+  const auto state = press(wave, modulus, at_pressure(1.01 * full), {.tolerance = 1e-12});
   // One Fourier mode, so no error of the grid: what the solver leaves.
   checks.push_back({"Westergaard full contact: area fraction", state.contact_area_fraction, 1, 0});
   checks.push_back({"Westergaard full contact: peak pressure",
@@ -94,7 +94,7 @@ void check_greenwood_williamson(Checks& checks) {
   const GreenwoodWilliamsonLaw law(ensemble, steel, 1e-8);
   const double force = law.force(-3 * ensemble.summit_rms);
   const auto result =
-      relaxation_damping(law, AtForce{force}, drag, {.amplitude = Amplitude::small});
+      relaxation_damping(law, at_force(force), drag, {.amplitude = Amplitude::small});
   // Closed forms on both sides.
   checks.push_back(
       {"exponential summits obey Eq. (16) with l = sigma", result.work_per_cycle,
@@ -118,7 +118,7 @@ void check_theorem(Checks& checks) {
   // Quadrature to 1e-10 against closed forms.
   const auto compare = [&](const char* name, const ContactLaw& law, double at,
                            const Oscillation& motion, double expected) {
-    const auto result = relaxation_damping(law, AtIndentation{at}, motion);
+    const auto result = relaxation_damping(law, at_indentation(at), motion);
     checks.push_back(
         {name, result.converged ? result.work_per_cycle : ForceSample::unknown, expected, 1e-9});
   };

@@ -29,12 +29,12 @@ ForceCurve power_curve() {
   return curve;
 }
 
-ContactSolution on_curve(Standing quantity, double value) {
+ContactSolution on_curve(ControlQuantity quantity, double value) {
   return solve(CurveContact{power_curve(), body.modulus_ratio(), {quantity, {value}}, "curve.h5"});
 }
 
 double indentation_of(const ContactSolution& contact) {
-  return salebra::indentation_of(*contact.law, contact.positions.at(0));
+  return salebra::indentation_of(*contact.law, contact.points.at(0));
 }
 
 std::string refusal(auto&& action) {
@@ -53,31 +53,32 @@ TEST_CASE("Force, pressure, indentation and mean gap name the same state of a cu
   const ForceCurve curve = power_curve();
   const ForceSample& sample = curve.samples[20];
   // The spline passes through its samples; the inverse is found to some 1e-12.
-  for (const auto& [quantity, value] : {std::pair{Standing::normal_force, sample.force},
-                                        {Standing::indentation, sample.indentation},
-                                        {Standing::pressure, sample.pressure},
-                                        {Standing::mean_gap, sample.mean_gap}})
+  for (const auto& [quantity, value] : {std::pair{ControlQuantity::normal_force, sample.force},
+                                        {ControlQuantity::indentation, sample.indentation},
+                                        {ControlQuantity::pressure, sample.pressure},
+                                        {ControlQuantity::mean_gap, sample.mean_gap}})
     CHECK(indentation_of(on_curve(quantity, value)) == Approx(sample.indentation).epsilon(1e-9));
-  CHECK(on_curve(Standing::pressure, sample.pressure).nominal_area() == 1e-6);
+  CHECK(on_curve(ControlQuantity::pressure, sample.pressure).nominal_area() == 1e-6);
 }
 
 TEST_CASE("A position beyond a curve is refused in the quantity that was given", "[analysis]") {
-  CHECK_THAT(refusal([] { on_curve(Standing::pressure, 1e12); }),
+  CHECK_THAT(refusal([] { on_curve(ControlQuantity::pressure, 1e12); }),
              Catch::StartsWith("pressure: 1 TPa lies outside the curve's range"));
-  CHECK_THAT(refusal([] { on_curve(Standing::mean_gap, 6e-6); }),
+  CHECK_THAT(refusal([] { on_curve(ControlQuantity::mean_gap, 6e-6); }),
              Catch::StartsWith("mean_gap: 6 µm lies outside"));
-  CHECK_THAT(refusal([] {
-               solve(IndenterContact{paraboloid_profile(1e-2), body, {Standing::pressure, {1e6}}});
-             }),
-             Catch::StartsWith("pressure: given"));
+  CHECK_THAT(
+      refusal([] {
+        solve(IndenterContact{paraboloid_profile(1e-2), body, {ControlQuantity::pressure, {1e6}}});
+      }),
+      Catch::StartsWith("pressure: given"));
   CHECK_THAT(refusal([] { solve(ExponentialContact{1e-7, 1, {1, -1}}); }),
              Catch::StartsWith("normal_force: -1"));
 }
 
 TEST_CASE("A curve and moduli that do not fit it are doubted", "[analysis]") {
-  CHECK(on_curve(Standing::indentation, 1e-7).doubts.empty());
+  CHECK(on_curve(ControlQuantity::indentation, 1e-7).doubts.empty());
   const auto other =
-      solve(CurveContact{power_curve(), 1, {Standing::indentation, {1e-7}}, "curve.h5"});
+      solve(CurveContact{power_curve(), 1, {ControlQuantity::indentation, {1e-7}}, "curve.h5"});
   REQUIRE(other.doubts.size() == 1);
   CHECK_THAT(other.doubts[0], Catch::StartsWith("G*/E* = 1 of `poisson`"));
 }
@@ -91,7 +92,7 @@ TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[analy
   // Thirteen contacts stand about the pressure, which is one of them.
   CHECK(cells.curve->samples.size() == 13);
   const auto hertz = solve(IndenterContact{
-      paraboloid_profile(1e-2), body, {Standing::normal_force, {1e3 * grid.area()}}});
+      paraboloid_profile(1e-2), body, {ControlQuantity::normal_force, {1e3 * grid.area()}}});
   const double stiffness = hertz.law->normal_stiffness(indentation_of(hertz));
   // The radius of contact is a = 20 µm. Contacts that repeat at L = 1 mm are stiffer by some 2.8 a/L
   // = 6 %, and a is known to a fraction of its 2.5 cells.

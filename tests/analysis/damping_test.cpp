@@ -92,7 +92,7 @@ TEST_CASE("A joint is that of its law, and what a surface alone has is refused o
   const ExponentialLaw law(1, 1e-7, ratio);
   for (std::size_t i = 0; i < 2; ++i)
     CHECK(constant.losses.at(i).work_per_cycle ==
-          joint_loss(law, AtForce{1}, problem.motions[i], 0.3).work_per_cycle);
+          joint_loss(law, at_force(1), problem.motions[i], 0.3).work_per_cycle);
   CHECK(constant.state.normal_stiffness == Approx(1e7));  // F/l
   // The larger of the two motions is the one that is judged.
   CHECK(constant.largest.tangential_amplitude ==
@@ -101,14 +101,14 @@ TEST_CASE("A joint is that of its law, and what a surface alone has is refused o
   problem.phase = pi / 2;
   const JointSolution shaken = solve(problem);
   CHECK(shaken.losses.at(0).work_per_cycle ==
-        joint_loss(law, AtForce{1}, {problem.motions[0], 2e-8, pi / 2}, 0.3).work_per_cycle);
+        joint_loss(law, at_force(1), {problem.motions[0], 2e-8, pi / 2}, 0.3).work_per_cycle);
   CHECK(shaken.simulated.empty());
 
   problem.direct_steps = 16;
   CHECK_THROWS_WITH(solve(problem), Catch::Contains("direct_steps"));
   problem.direct_steps = {};
   problem.contact = ExponentialContact{1e-7, ratio, {1, 2}};
-  CHECK_THROWS_WITH(solve(problem), Catch::Contains("2 positions"));
+  CHECK_THROWS_WITH(solve(problem), Catch::Contains("2 operating points"));
 }
 
 TEST_CASE("An solution has what is there: estimates as members, words as lists, structs as objects",

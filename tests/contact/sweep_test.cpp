@@ -25,7 +25,7 @@ TEST_CASE("A sweep is the curve of its single contacts, whatever the number of l
   for (std::size_t k = 0; k < 4; ++k) {
     const ForceSample& sample = curve.samples[k];
     const auto state =
-        press(surface, material.contact_modulus, {.pressure = pressures[k]}, options.contact);
+        press(surface, material.contact_modulus, at_pressure(pressures[k]), options.contact);
     CHECK(sample.converged);
     CHECK(sample.mean_gap == state.mean_gap);
     CHECK(sample.force == Approx(pressures[k] * 1e-6).epsilon(1e-12));

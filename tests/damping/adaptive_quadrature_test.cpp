@@ -95,7 +95,7 @@ TEST_CASE("A requested error is reached and holds against the exact loss of roun
     const AdaptiveQuadratureResult result =
         adaptive_level_quadrature(levels, coarsest, material, motion, depth, to_error(0.01));
     const double exact =
-        relaxation_damping(cone ? cone_law : sphere_law, AtIndentation{depth}, motion)
+        relaxation_damping(cone ? cone_law : sphere_law, at_indentation(depth), motion)
             .work_per_cycle;
     CHECK(result.reached);
     CHECK(result.error_estimate <= 0.01 * exact * 1.01);
@@ -132,7 +132,7 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
         return elliptic_paraboloid_surface(grid, radius_x, radius_y, off_grid_center(grid));
       }),
       coarsest, material, motion, 0.25e-6, options);
-  const double exact = relaxation_damping(law, AtIndentation{0.25e-6}, motion).work_per_cycle;
+  const double exact = relaxation_damping(law, at_indentation(0.25e-6), motion).work_per_cycle;
   CHECK(result.reached);
   CHECK(std::abs(result.quadrature.work_per_cycle - exact) <= result.error_estimate);
   CHECK(result.quadrature.stiffness_ratio ==

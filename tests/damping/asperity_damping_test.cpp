@@ -47,7 +47,7 @@ TEST_CASE("Springs of all summits lose what the force law of all summits loses, 
       const AsperityDamping springs =
           asperity_damping(summits, soft, separation, motion, SummitShape::elliptical);
       const DampingResult whole =
-          relaxation_damping(law, AtIndentation{model->indentation(separation)}, motion);
+          relaxation_damping(law, at_indentation(model->indentation(separation)), motion);
       REQUIRE(whole.converged);
       CHECK(springs.work_per_cycle == Approx(whole.work_per_cycle).epsilon(1e-9));
       CHECK(springs.power == Approx(whole.power).epsilon(1e-9));

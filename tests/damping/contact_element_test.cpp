@@ -189,7 +189,7 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
     for (const double part : {0.3, 0.8}) {
       const double x = part * friction / law.stiffness_ratio(middle) * decay;
       const JointLoss joint =
-          joint_loss(law, AtIndentation{middle}, TangentialAmplitude{x}, friction);
+          joint_loss(law, at_indentation(middle), TangentialAmplitude{x}, friction);
       double peak = 0;
       const double work = loop({.tangential_amplitude = x}, friction, peak);
       CHECK(peak == Approx(joint.tangential_force).epsilon(ratios));
@@ -198,7 +198,7 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
     // In full stick nothing but the law is left, and K_t falls nowhere but by scatter.
     const EqualFrequency motion{
         .normal_amplitude = 0.5 * decay, .tangential_amplitude = 0.01 * decay, .phase = pi / 2};
-    const DampingResult damping = relaxation_damping(law, AtIndentation{middle}, motion);
+    const DampingResult damping = relaxation_damping(law, at_indentation(middle), motion);
     double peak = 0;
     CHECK(loop(motion, INFINITY, peak) ==
           Approx(damping.work_per_cycle).epsilon(0.005 + table.scatter));
@@ -244,7 +244,7 @@ TEST_CASE("On noisy curves of a sphere an element and a joint differ by less tha
       before = next, force = now;
     }
     const double joint =
-        joint_loss(law, AtIndentation{middle}, TangentialAmplitude{x}, friction).work_per_cycle;
+        joint_loss(law, at_indentation(middle), TangentialAmplitude{x}, friction).work_per_cycle;
     element_square += std::pow(work / exact - 1, 2) / curves;
     joint_square += std::pow(joint / exact - 1, 2) / curves;
     difference_square += std::pow((work - joint) / exact, 2) / curves;

@@ -26,7 +26,7 @@ TEST_CASE("A tangential oscillator decays by γ under fast normal oscillation", 
   const int per_cycle = 64, fast = 200;  // normal cycles in one tangential cycle
   const NormalOscillation normal{amplitude, fast * slow};
   const TangentialOscillator oscillator{.mass = 3 * kept, .spring_stiffness = 2 * kept};
-  const OscillatorDecay decay = oscillator_decay(law, AtIndentation{mean}, normal, oscillator);
+  const OscillatorDecay decay = oscillator_decay(law, at_indentation(mean), normal, oscillator);
   CHECK(decay.natural_frequency == Approx(slow).epsilon(1e-12));
   CHECK(decay.contact_stiffness == Approx(kept).epsilon(1e-14));
   CHECK(decay.frequency_ratio == Approx(1.0 / fast).epsilon(1e-12));
@@ -57,22 +57,22 @@ TEST_CASE("Decay numbers agree among each other, overdamped too", "[damper]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const NormalOscillation normal{5e-8, 1e3};
   const OscillatorDecay light =
-      oscillator_decay(law, AtForce{1}, normal, {.mass = 1000, .spring_stiffness = 1});
+      oscillator_decay(law, at_force(1), normal, {.mass = 1000, .spring_stiffness = 1});
   CHECK(light.damping_ratio < 1);
   CHECK(light.quality_factor == Approx(0.5 / light.damping_ratio));
   CHECK(light.decay_time ==
         Approx(1 / (light.damping_ratio * light.natural_frequency)).epsilon(1e-12));
   CHECK(light.logarithmic_decrement == Approx(2 * pi * light.damping_ratio).epsilon(0.5));
   const OscillatorDecay heavy =
-      oscillator_decay(law, AtForce{1}, normal, {.mass = 1e-9, .spring_stiffness = 0});
+      oscillator_decay(law, at_force(1), normal, {.mass = 1e-9, .spring_stiffness = 0});
   CHECK(heavy.damping_ratio > 1);
   CHECK(std::isnan(heavy.logarithmic_decrement));
   // Overdamped for good: the mass does not matter, x decays with γ/k.
   CHECK(heavy.decay_time == Approx(heavy.damping_constant / heavy.contact_stiffness).epsilon(1e-3));
-  CHECK_THROWS_WITH(oscillator_decay(law, AtForce{1}, normal, {.mass = 0}),
+  CHECK_THROWS_WITH(oscillator_decay(law, at_force(1), normal, {.mass = 0}),
                     Catch::Contains("mass"));
   const PowerLaw cone(1e9, 2, ratio);
-  CHECK_THROWS_WITH(oscillator_decay(cone, AtIndentation{1e-8}, normal, {.mass = 1}),
+  CHECK_THROWS_WITH(oscillator_decay(cone, at_indentation(1e-8), normal, {.mass = 1}),
                     Catch::Contains("opens"));
 }
 
@@ -80,24 +80,24 @@ TEST_CASE("The stabilising amplitude is where γ meets the falling slope", "[dam
   const double decay_length = 1e-7, omega = 1e5;
   const ExponentialLaw law(1, decay_length, ratio);
   const double wanted = 0.3 * decay_length;
-  const DampingResult at = relaxation_damping(law, AtForce{2}, Drag{wanted, 1, omega});
-  CHECK(stabilising_amplitude(law, AtForce{2}, omega, at.damping_constant, 1e-6) ==
+  const DampingResult at = relaxation_damping(law, at_force(2), Drag{wanted, 1, omega});
+  CHECK(stabilising_amplitude(law, at_force(2), omega, at.damping_constant, 1e-6) ==
         Approx(wanted).epsilon(1e-9));
   // Small amplitude, Eq. (16): u_z = πωl²b/((π² − 4)(G*/E*)F).
   const double slope = 1e-4 * at.damping_constant;
-  CHECK(stabilising_amplitude(law, AtForce{2}, omega, slope, 1e-6) ==
+  CHECK(stabilising_amplitude(law, at_force(2), omega, slope, 1e-6) ==
         Approx(pi * omega * decay_length * decay_length * slope / ((pi * pi - 4) * ratio * 2))
             .epsilon(1e-4));
   // Under a dead weight γ has a maximum over u_z; beyond it no amplitude helps.
   const DampingOptions weight{.hold = Hold::force};
   double most = 0;
   for (double k = 0.5; k < 20; k += 0.1)
-    most =
-        std::max(most, relaxation_damping(law, AtForce{2}, Drag{k * decay_length, 1, omega}, weight)
-                           .damping_constant);
-  CHECK(std::isnan(stabilising_amplitude(law, AtForce{2}, omega, 1.01 * most, 2e-6, weight)));
-  CHECK(stabilising_amplitude(law, AtForce{2}, omega, 0.9 * most, 2e-6, weight) > 0);
-  CHECK_THROWS_AS(stabilising_amplitude(law, AtForce{2}, omega, 0, 1e-6), InvalidInput);
+    most = std::max(most,
+                    relaxation_damping(law, at_force(2), Drag{k * decay_length, 1, omega}, weight)
+                        .damping_constant);
+  CHECK(std::isnan(stabilising_amplitude(law, at_force(2), omega, 1.01 * most, 2e-6, weight)));
+  CHECK(stabilising_amplitude(law, at_force(2), omega, 0.9 * most, 2e-6, weight) > 0);
+  CHECK_THROWS_AS(stabilising_amplitude(law, at_force(2), omega, 0, 1e-6), InvalidInput);
 }
 
 TEST_CASE("The stabilising amplitude of a measured curve is that of the law behind it",
@@ -115,21 +115,21 @@ TEST_CASE("The stabilising amplitude of a measured curve is that of the law behi
   const TabulatedLaw table(curve, ratio);
   const ExponentialLaw law(1, decay_length, ratio);
   for (const double slope : {1e-3, 1e-1, 1.0})
-    CHECK(stabilising_amplitude(table, AtForce{1e-2}, omega, slope, 4e-8) ==
-          Approx(stabilising_amplitude(law, AtForce{1e-2}, omega, slope, 4e-8)).epsilon(1e-6));
+    CHECK(stabilising_amplitude(table, at_force(1e-2), omega, slope, 4e-8) ==
+          Approx(stabilising_amplitude(law, at_force(1e-2), omega, slope, 4e-8)).epsilon(1e-6));
 }
 
 TEST_CASE("The damper map is γ of each amplitude over each frequency", "[damper]") {
   const ExponentialLaw law(1, 1e-7, ratio);
-  const DamperMap map = damper_map(law, AtForce{1}, {1e-9, 1e-8, 1e-7}, {1e3, 1e5});
+  const DamperMap map = damper_map(law, at_force(1), {1e-9, 1e-8, 1e-7}, {1e3, 1e5});
   for (Index i = 0; i < 3; ++i)
     for (Index j = 0; j < 2; ++j) {
       const Drag motion{map.normal_amplitude[static_cast<std::size_t>(i)], 1,
                         map.angular_frequency[static_cast<std::size_t>(j)]};
       CHECK(map.damping_constant(i, j) ==
-            Approx(relaxation_damping(law, AtForce{1}, motion).damping_constant).epsilon(1e-12));
+            Approx(relaxation_damping(law, at_force(1), motion).damping_constant).epsilon(1e-12));
     }
-  CHECK_THROWS_AS(damper_map(law, AtForce{1}, {1e-9}, {0}), InvalidInput);
+  CHECK_THROWS_AS(damper_map(law, at_force(1), {1e-9}, {0}), InvalidInput);
 }
 
 TEST_CASE("The friction map tends to the paper's result for large M and to none for small",

@@ -66,9 +66,9 @@ TEST_CASE("Eqs (12), (15) are exact at every amplitude for the cone", "[dissipat
   const auto equal = equal_frequency(amplitude, 0.7);
   const auto drag = slow_drag(amplitude);
   // The difference of two stiffnesses costs 3 digits at u_z/δ = 1e-3.
-  CHECK(relaxation_damping(cone, AtIndentation{indentation}, equal).work_per_cycle ==
+  CHECK(relaxation_damping(cone, at_indentation(indentation), equal).work_per_cycle ==
         Approx(cf::work_per_cycle(ratio, 1e10, equal)).epsilon(1e-11));
-  const DampingResult result = relaxation_damping(cone, AtIndentation{indentation}, drag);
+  const DampingResult result = relaxation_damping(cone, at_indentation(indentation), drag);
   const double exact = cf::work_per_cycle(ratio, 1e10, drag);
   CHECK(result.converged);
   CHECK(result.work_per_cycle == Approx(exact).epsilon(1e-11));
@@ -83,7 +83,7 @@ TEST_CASE("Eq (16) is the small-amplitude result of the exponential law", "[diss
   const ExponentialLaw law(3, decay_length, ratio);
   const auto drag = slow_drag(amplitude);
   const DampingResult small =
-      relaxation_damping(law, AtForce{force}, drag, {.amplitude = Amplitude::small});
+      relaxation_damping(law, at_force(force), drag, {.amplitude = Amplitude::small});
   CHECK(small.work_per_cycle ==
         Approx(cf::work_per_cycle_rough(ratio, force, decay_length, drag)).epsilon(1e-12));
   CHECK(small.damping_constant ==
@@ -100,14 +100,14 @@ TEST_CASE("The theorem meets the exponential law's closed forms at finite amplit
   for (const Oscillation& motion : {Oscillation(equal_frequency(k * decay_length, 0.3)),
                                     Oscillation(slow_drag(k * decay_length))}) {
     CAPTURE(k, motion.index());
-    const DampingResult held = relaxation_damping(law, AtForce{force}, motion);
+    const DampingResult held = relaxation_damping(law, at_force(force), motion);
     CHECK(
         held.work_per_cycle ==
         Approx(cf::work_per_cycle_exponential(ratio, force, decay_length, motion)).epsilon(1e-10));
     CHECK(held.mean_force ==
           Approx(force * std::exp(k) * cf::mean_force_ratio_scaled(k)).epsilon(1e-11));
     const DampingResult weight =
-        relaxation_damping(law, AtForce{force}, motion, {.hold = Hold::force});
+        relaxation_damping(law, at_force(force), motion, {.hold = Hold::force});
     CHECK(weight.work_per_cycle ==
           Approx(cf::work_per_cycle_exponential_held_force(ratio, force, decay_length, motion))
               .epsilon(1e-10));
@@ -128,9 +128,9 @@ TEST_CASE("An oscillation ends where no contact has the pressure of the law", "[
     const bool possible = motion.normal_amplitude <= most;
     for (const double force : {10.0, 2e3})
       if (possible)
-        CHECK(relaxation_damping(law, AtForce{force}, motion).damping_constant > 0);
+        CHECK(relaxation_damping(law, at_force(force), motion).damping_constant > 0);
       else
-        CHECK_THROWS_WITH(relaxation_damping(law, AtForce{force}, motion),
+        CHECK_THROWS_WITH(relaxation_damping(law, at_force(force), motion),
                           Catch::Contains("at most 249 nm"));
     if (possible)
       CHECK(cf::work_per_cycle_exponential(ratio, 10, decay_length, motion) > 0);
@@ -139,25 +139,25 @@ TEST_CASE("An oscillation ends where no contact has the pressure of the law", "[
                         Catch::Contains("at most 249 nm"));
   }
   // A mean force that is held has a finite largest one, √(2πu_z/l) = 15 times as large.
-  CHECK(
-      relaxation_damping(law, AtForce{10}, slow_drag(1e-6), {.hold = Hold::force}).work_per_cycle ==
-      Approx(cf::work_per_cycle_exponential_held_force(ratio, 10, decay_length, slow_drag(1e-6)))
-          .epsilon(1e-9));
+  CHECK(relaxation_damping(law, at_force(10), slow_drag(1e-6), {.hold = Hold::force})
+            .work_per_cycle ==
+        Approx(cf::work_per_cycle_exponential_held_force(ratio, 10, decay_length, slow_drag(1e-6)))
+            .epsilon(1e-9));
 
   // A paraboloid has the mean pressure 4E*a/(3πR), a² = Rδ, which is E* at δ = (3π/4)² R.
   const double radius = 1e-3;
   const IndenterLaw ball(paraboloid_profile(radius), Material::of_contact_modulus(1e9, 0.3));
   const double deepest = std::pow(3 * pi / 4, 2) * radius;
-  CHECK_NOTHROW(relaxation_damping(ball, AtIndentation{1e-6}, slow_drag(0.999 * deepest - 1e-6)));
-  CHECK_THROWS_WITH(relaxation_damping(ball, AtIndentation{1e-6}, slow_drag(1)),
+  CHECK_NOTHROW(relaxation_damping(ball, at_indentation(1e-6), slow_drag(0.999 * deepest - 1e-6)));
+  CHECK_THROWS_WITH(relaxation_damping(ball, at_indentation(1e-6), slow_drag(1)),
                     Catch::Contains("at most 5.55 mm"));
   // A cone has its pressure at every load, whatever the amplitude.
   const IndenterLaw cone(cone_profile(0.1), Material::of_contact_modulus(1e9, 0.3));
-  CHECK_NOTHROW(relaxation_damping(cone, AtIndentation{1e-6}, slow_drag(1)));
+  CHECK_NOTHROW(relaxation_damping(cone, at_indentation(1e-6), slow_drag(1)));
   // A loss that no number holds is refused.
   Drag fast = slow_drag(1e-9);
   fast.drag_velocity = 1e200;
-  CHECK_THROWS_AS(relaxation_damping(law, AtForce{10}, fast), InvalidInput);
+  CHECK_THROWS_AS(relaxation_damping(law, at_force(10), fast), InvalidInput);
 }
 
 TEST_CASE("Each function of a law and a motion refuses one beyond any contact", "[dissipation]") {
@@ -213,7 +213,7 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
                     Catch::Contains("contact modulus"));
   // A contact that rests there already, whatever the amplitude.
   for (const Amplitude amplitude : {Amplitude::small, Amplitude::finite})
-    CHECK_THROWS_WITH(relaxation_damping(ball, AtIndentation{1.001 * deepest}, slow_drag(1e-12),
+    CHECK_THROWS_WITH(relaxation_damping(ball, at_indentation(1.001 * deepest), slow_drag(1e-12),
                                          {.amplitude = amplitude}),
                       Catch::Contains("reduce the load"));
 }
@@ -236,7 +236,7 @@ TEST_CASE("A force-controlled exponential contact follows Eqs (12), (15) at ever
 TEST_CASE("A flat punch that keeps touching loses nothing (Fig. 3, first row)", "[dissipation]") {
   // The scale is the energy ½K_t(v/ω)² of the stretched core.
   const double scale = 0.5 * ratio * 1e6 * std::pow(1e-4 / 300, 2);
-  CHECK(relaxation_damping(flat_punch, AtIndentation{1e-6}, slow_drag(5e-7)).work_per_cycle ==
+  CHECK(relaxation_damping(flat_punch, at_indentation(1e-6), slow_drag(5e-7)).work_per_cycle ==
         Approx(0).margin(1e-13 * scale));
   CHECK(relaxation_damping_force_controlled(flat_punch, 1, 1, slow_drag(0)).work_per_cycle ==
         Approx(0).margin(1e-13 * scale));
@@ -246,11 +246,11 @@ TEST_CASE("A flat punch that lifts off releases all its springs at one level", "
   const double indentation = 2e-7, amplitude = 5e-7, stiffness = ratio * 1e6;
   const auto drag = slow_drag(amplitude);
   const double dragged = cf::released_distance(-indentation, drag);
-  CHECK(relaxation_damping(flat_punch, AtIndentation{indentation}, drag).work_per_cycle ==
+  CHECK(relaxation_damping(flat_punch, at_indentation(indentation), drag).work_per_cycle ==
         Approx(0.5 * stiffness * dragged * dragged).epsilon(1e-9));
   const auto equal = equal_frequency(amplitude, 0.7);
   const double moved = cf::released_distance(-indentation, equal);
-  CHECK(relaxation_damping(flat_punch, AtIndentation{indentation}, equal).work_per_cycle ==
+  CHECK(relaxation_damping(flat_punch, at_indentation(indentation), equal).work_per_cycle ==
         Approx(0.5 * stiffness * moved * moved).epsilon(1e-9));
 }
 
@@ -263,7 +263,8 @@ TEST_CASE("Power laws at finite amplitude are what the springs lose, open contac
   for (const Oscillation& motion :
        {Oscillation(equal_frequency(amplitude, 0.7)), Oscillation(slow_drag(amplitude))}) {
     CAPTURE(exponent, relative, motion.index());
-    const double exact = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+    const double exact =
+        relaxation_damping(law, at_indentation(indentation), motion).work_per_cycle;
     auto error = [&](int levels) {
       return std::abs(work_of_springs(law, indentation, motion, levels, 4 * levels) / exact - 1);
     };
@@ -291,7 +292,7 @@ TEST_CASE("The force form of the theorem needs no stiffness at all", "[dissipati
   const double expected =
       4 * ratio * stroke * stroke *
       (amplitude * (law.force(high) + law.force(low)) - (primitive(high) - primitive(low)));
-  CHECK(relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle ==
+  CHECK(relaxation_damping(law, at_indentation(indentation), motion).work_per_cycle ==
         Approx(expected).epsilon(1e-10));
 }
 
@@ -312,18 +313,19 @@ TEST_CASE("A dead weight keeps its mean force while the contact opens", "[dissip
 
 TEST_CASE("A contact that never touches loses nothing, and one at rest neither", "[dissipation]") {
   const PowerLaw paraboloid(1e9, 1.5, ratio);
-  const DampingResult above = relaxation_damping(paraboloid, AtIndentation{-2e-6}, slow_drag(1e-6));
+  const DampingResult above =
+      relaxation_damping(paraboloid, at_indentation(-2e-6), slow_drag(1e-6));
   CHECK(above.work_per_cycle == 0);
   CHECK(above.mean_force == 0);
   CHECK(above.converged);
-  CHECK(relaxation_damping(paraboloid, AtIndentation{1e-6}, slow_drag(0)).work_per_cycle == 0);
+  CHECK(relaxation_damping(paraboloid, at_indentation(1e-6), slow_drag(0)).work_per_cycle == 0);
   Drag still = slow_drag(1e-7);
   still.drag_velocity = 0;
-  const DampingResult result = relaxation_damping(paraboloid, AtIndentation{1e-6}, still);
+  const DampingResult result = relaxation_damping(paraboloid, at_indentation(1e-6), still);
   CHECK(result.work_per_cycle == 0);
   // γ is a property of the normal motion and exists without any drag.
   CHECK(result.damping_constant ==
-        relaxation_damping(paraboloid, AtIndentation{1e-6}, slow_drag(1e-7)).damping_constant);
+        relaxation_damping(paraboloid, at_indentation(1e-6), slow_drag(1e-7)).damping_constant);
 }
 
 TEST_CASE("A tabulated law gives the damping of the curve behind it", "[dissipation]") {
@@ -337,21 +339,21 @@ TEST_CASE("A tabulated law gives the damping of the curve behind it", "[dissipat
   for (const Oscillation& motion :
        {Oscillation(equal_frequency(1e-7)), Oscillation(slow_drag(1e-7))})
     // ln F is a straight line, which the table holds to round-off.
-    CHECK(relaxation_damping(law, AtForce{1}, motion).work_per_cycle ==
-          Approx(relaxation_damping(exact, AtForce{1}, motion).work_per_cycle).epsilon(1e-9));
-  CHECK_THROWS_WITH(relaxation_damping(law, AtIndentation{3.5e-7}, slow_drag(1e-7)),
+    CHECK(relaxation_damping(law, at_force(1), motion).work_per_cycle ==
+          Approx(relaxation_damping(exact, at_force(1), motion).work_per_cycle).epsilon(1e-9));
+  CHECK_THROWS_WITH(relaxation_damping(law, at_indentation(3.5e-7), slow_drag(1e-7)),
                     Catch::Contains("normal_amplitude") && Catch::Contains("range"));
-  CHECK_THROWS_AS(relaxation_damping(law, AtForce{1000}, slow_drag(1e-7)), InvalidInput);
+  CHECK_THROWS_AS(relaxation_damping(law, at_force(1000), slow_drag(1e-7)), InvalidInput);
   const double near_the_end = exact.force(-3.9e-7);
   CHECK_THROWS_AS(
-      relaxation_damping(law, AtForce{near_the_end}, slow_drag(1e-7), {.hold = Hold::force}),
+      relaxation_damping(law, at_force(near_the_end), slow_drag(1e-7), {.hold = Hold::force}),
       InvalidInput);
 }
 
 TEST_CASE("A damping curve is its cases one by one", "[dissipation]") {
   const ExponentialLaw law(3, 1e-7, ratio);
   std::vector<DampingCase> cases;
-  for (int i = 1; i <= 150; ++i) cases.push_back({AtForce{0.1 * i}, slow_drag(1e-9 * i)});
+  for (int i = 1; i <= 150; ++i) cases.push_back({at_force(0.1 * i), slow_drag(1e-9 * i)});
   int reports = 0;
   auto count = [&](const ProgressReport&) { return ++reports > 0; };
   const auto results = relaxation_damping(law, cases, {.on_progress = count});
@@ -366,7 +368,7 @@ TEST_CASE("A damping curve is its cases one by one", "[dissipation]") {
 
 TEST_CASE("Nonsense motion is refused with its name", "[dissipation]") {
   const PowerLaw law(1e9, 1.5, ratio);
-  const Position position = AtIndentation{1e-6};
+  const OperatingPoint position = at_indentation(1e-6);
   auto refuse = [&](const Oscillation& motion, const std::string& field) {
     CHECK_THROWS_WITH(relaxation_damping(law, position, motion), Catch::Contains(field));
   };
@@ -378,8 +380,8 @@ TEST_CASE("Nonsense motion is refused with its name", "[dissipation]") {
   refuse(EqualFrequency{1e-7, 1e-7, INFINITY, 0}, "phase");
   refuse(EqualFrequency{1e-7, 1e-7, 0, -1}, "angular_frequency");
   const Drag drag = slow_drag(1e-7);
-  CHECK_THROWS_AS(relaxation_damping(law, AtForce{0}, drag), InvalidInput);
-  CHECK_THROWS_AS(relaxation_damping(law, AtIndentation{std::nan("")}, drag), InvalidInput);
+  CHECK_THROWS_AS(relaxation_damping(law, at_force(0), drag), InvalidInput);
+  CHECK_THROWS_AS(relaxation_damping(law, at_indentation(std::nan("")), drag), InvalidInput);
   CHECK_THROWS_AS(relaxation_damping_force_controlled(law, 1, 1.1, drag), InvalidInput);
   CHECK_THROWS_AS(relaxation_damping(law, position, drag, {.tolerance = 0}), InvalidInput);
 }

@@ -125,8 +125,8 @@ TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[fr
                            free_boundary(friction, 32));
   const JointLoss springs =
       normal_amplitude > 0
-          ? joint_loss(law, AtForce{force}, {motion, normal_amplitude, phase}, friction, 400)
-          : joint_loss(law, AtForce{force}, motion, friction);
+          ? joint_loss(law, at_force(force), {motion, normal_amplitude, phase}, friction, 400)
+          : joint_loss(law, at_force(force), motion, friction);
   REQUIRE(simulated.converged);
   CHECK(simulated.tangential_force == motion.amplitude);
   CHECK(simulated.tangential_amplitude == Approx(springs.tangential_amplitude).epsilon(2e-3));
@@ -347,7 +347,7 @@ TEST_CASE("An attempt at nearly the same pressures begins from what slipped in t
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Grid2D grid{48, 48, 1e-3, 1e-3};
   const Field pressure = press(paraboloid_surface(grid, 8e-3), contact_modulus,
-                               {.indentation = 1.2e-5}, {.boundary = Boundary::free})
+                               at_indentation(1.2e-5), {.boundary = Boundary::free})
                              .contact_pressure;
   SlidingContact contact(grid, material,
                          {.friction_coefficient = 0.3,
@@ -466,7 +466,7 @@ TEST_CASE("A sliding rough surface has the mean friction of the springs of its o
   sweep.stick = true;
   const ForceCurve curve = sweep_pressures(surface, material, pressures, sweep);
   const SteadySliding springs = steady_sliding(TabulatedLaw(curve, material.modulus_ratio()),
-                                               AtForce{middle * grid.area()}, motion, friction);
+                                               at_force(middle * grid.area()), motion, friction);
   REQUIRE(springs.converged);
   const CycleResult cycle = simulate_frictional_cycle(
       boundary_element_pressures(surface, contact_modulus), grid, material,

@@ -43,7 +43,7 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
   for (const auto& [amplitude, work] : given) {
     CAPTURE(amplitude);
     const JointLoss loss =
-        joint_loss(sphere, AtForce{force}, TangentialAmplitude{amplitude}, friction);
+        joint_loss(sphere, at_force(force), TangentialAmplitude{amplitude}, friction);
     CHECK(loss.converged);
     // An eighth digit of x moves W by 1e-7 of it.
     CHECK(loss.work_per_cycle == Approx(work).epsilon(3e-7));
@@ -54,11 +54,11 @@ TEST_CASE("A sphere in partial slip loses what Mindlin and Deresiewicz say", "[j
         loss.work_per_cycle ==
         Approx(mindlin_loss(loss.tangential_force, force, radius, shear, friction)).epsilon(1e-9));
     const JointLoss by_force =
-        joint_loss(sphere, AtForce{force}, TangentialForce{loss.tangential_force}, friction);
+        joint_loss(sphere, at_force(force), TangentialForce{loss.tangential_force}, friction);
     CHECK(by_force.tangential_amplitude == Approx(amplitude).epsilon(1e-9));
     CHECK(by_force.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-8));
   }
-  CHECK_THROWS_WITH(joint_loss(sphere, AtForce{force}, TangentialForce{3.0}, friction),
+  CHECK_THROWS_WITH(joint_loss(sphere, at_force(force), TangentialForce{3.0}, friction),
                     Catch::Contains("must be below 3 N, at which the contact slides"));
 }
 
@@ -76,7 +76,7 @@ TEST_CASE(
                                              {58.629524e-9, 1.4483657e-8}};
   for (const auto& [amplitude, work] : given) {
     CAPTURE(amplitude);
-    const JointLoss loss = joint_loss(law, AtForce{1}, TangentialAmplitude{amplitude}, friction);
+    const JointLoss loss = joint_loss(law, at_force(1), TangentialAmplitude{amplitude}, friction);
     CHECK(loss.work_per_cycle == Approx(work).epsilon(2e-6));  // of the digits of x, three times
     const double q = loss.tangential_force / friction;
     CHECK(loss.work_per_cycle == Approx(8 * friction * friction / modulus_ratio * length *
@@ -89,7 +89,7 @@ TEST_CASE(
   }
   // ∝ T³, and what is left of it ∝ T: q/2 of W.
   for (const double q : {1e-2, 1e-4, 1e-6}) {
-    const JointLoss loss = joint_loss(law, AtForce{1}, TangentialForce{q * friction}, friction);
+    const JointLoss loss = joint_loss(law, at_force(1), TangentialForce{q * friction}, friction);
     const double cube = 2. / 3 * length / modulus_ratio * std::pow(q, 3) * friction * friction;
     // Beside the next term, what round-off of K_t leaves of a part q² of it.
     CHECK(loss.work_per_cycle == Approx(cube * (1 + q)).epsilon(q * q + 1e-14 / q));
@@ -103,9 +103,9 @@ TEST_CASE("Storage and loss of a joint are the first harmonic of its loop", "[jo
   const PowerLaw cone(1e9, 1.5, ratio);
   const double friction = 0.4, amplitude = 2e-7;
   const JointLoss loss =
-      joint_loss(cone, AtIndentation{1e-6}, TangentialAmplitude{amplitude}, friction);
+      joint_loss(cone, at_indentation(1e-6), TangentialAmplitude{amplitude}, friction);
   // Sums over the steps of a smooth half loop have no error of any power of the step.
-  const JointLoss followed = joint_loss(cone, AtIndentation{1e-6},
+  const JointLoss followed = joint_loss(cone, at_indentation(1e-6),
                                         JointMotion{TangentialAmplitude{amplitude}}, friction, 200);
   CHECK(followed.work_per_cycle == Approx(loss.work_per_cycle).epsilon(1e-9));
   CHECK(followed.tangential_force == Approx(loss.tangential_force).epsilon(1e-9));
@@ -123,7 +123,7 @@ TEST_CASE("A joint of a contact that may open: whole sliding, and beyond", "[joi
   const double force = constant * depth * depth, last = friction / ratio * depth;
   for (const double factor : {1.0, 1.5, 4.0}) {
     const double x = factor * last;
-    const JointLoss loss = joint_loss(cone, AtForce{force}, TangentialAmplitude{x}, friction);
+    const JointLoss loss = joint_loss(cone, at_force(force), TangentialAmplitude{x}, friction);
     CHECK(loss.tangential_force == Approx(friction * force).epsilon(1e-9));
     // ∫4 s (x − s) dK_t with s = (μ/g)u, dK_t = 2gC du, u to δ.
     const double work = 8 * friction * constant *
@@ -137,7 +137,7 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   const ExponentialLaw law(2, 2e-7, ratio);
   const double u_z = 5e-8, u_x = 2e-8;
   const auto at = [&](double friction, double phase) {
-    return joint_loss(law, AtForce{2}, {TangentialAmplitude{u_x}, u_z, phase}, friction);
+    return joint_loss(law, at_force(2), {TangentialAmplitude{u_x}, u_z, phase}, friction);
   };
   // In phase nothing slips above μ = g u_x/u_z; out of phase and without slip the loss is
   // relaxation damping's, to the steps' second order.
@@ -145,7 +145,7 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   CHECK(at(1.01 * critical, 0).work_per_cycle == Approx(0).margin(1e-12 * u_x * u_x * 1e7));
   CHECK(at(0.8 * critical, 0).work_per_cycle > 1e-3 * u_x * u_x * 1e7);
   const EqualFrequency motion{u_z, u_x, pi / 2, 0};
-  const double stuck = relaxation_damping(law, AtForce{2}, motion).work_per_cycle;
+  const double stuck = relaxation_damping(law, at_force(2), motion).work_per_cycle;
   const JointLoss stiff = at(1e4, pi / 2);
   CHECK(stiff.work_per_cycle == Approx(stuck).epsilon(1e-5));
   CHECK(stiff.slip_work == Approx(0).margin(1e-9 * stuck));
@@ -153,9 +153,9 @@ TEST_CASE("A joint whose normal force oscillates loses by slip and by relaxation
   // Both ways of control have one loop where the other's is harmonic: at small amplitude.
   const double small = 1e-11;
   const JointLoss moved =
-      joint_loss(law, AtForce{2}, {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
+      joint_loss(law, at_force(2), {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
   const JointLoss again =
-      joint_loss(law, AtForce{2}, {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
+      joint_loss(law, at_force(2), {TangentialAmplitude{small}, u_z, pi / 2}, 0.3, 1000);
   CHECK(moved.work_per_cycle == again.work_per_cycle);
 }
 
@@ -164,34 +164,35 @@ TEST_CASE("A joint under a tangential force is the one under the displacement it
   const ExponentialLaw law(2, 2e-7, ratio);
   const double friction = 0.3;
   // Without a normal oscillation both are known in closed form.
-  const JointLoss exact = joint_loss(law, AtForce{2}, TangentialForce{0.3}, friction);
+  const JointLoss exact = joint_loss(law, at_force(2), TangentialForce{0.3}, friction);
   const JointLoss followed =
-      joint_loss(law, AtForce{2}, JointMotion{TangentialForce{0.3}}, friction, 400);
+      joint_loss(law, at_force(2), JointMotion{TangentialForce{0.3}}, friction, 400);
   CHECK(followed.work_per_cycle == Approx(exact.work_per_cycle).epsilon(1e-8));
   CHECK(followed.tangential_amplitude == Approx(exact.tangential_amplitude).epsilon(1e-8));
   // With one the force is met at every step, and the balance of energy closes: W = ∮T dx.
   const JointLoss both =
-      joint_loss(law, AtForce{2}, {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 400);
+      joint_loss(law, at_force(2), {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 400);
   CHECK(both.tangential_force == Approx(0.2).epsilon(1e-12));
   const JointLoss finer =
-      joint_loss(law, AtForce{2}, {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 1600);
+      joint_loss(law, at_force(2), {TangentialForce{0.2}, 3e-8, pi / 3}, friction, 1600);
   CHECK(finer.work_per_cycle == Approx(both.work_per_cycle).epsilon(1e-2));
   CHECK_THROWS_WITH(
-      joint_loss(law, AtForce{2}, {TangentialForce{0.55}, 1e-7, pi}, friction, 400),
+      joint_loss(law, at_force(2), {TangentialForce{0.55}, 1e-7, pi}, friction, 400),
       Catch::Contains("at which the contact slides in the course of the normal oscillation"));
 }
 
 TEST_CASE("Joints that cannot be are refused", "[joint]") {
   const ExponentialLaw law(2, 2e-7, ratio);
   const auto at = [&](const TangentialOscillation& motion, double friction) {
-    return joint_loss(law, AtForce{2}, motion, friction);
+    return joint_loss(law, at_force(2), motion, friction);
   };
   CHECK_THROWS_WITH(at(TangentialAmplitude{0}, 0.3), Catch::Contains("tangential_amplitude"));
   CHECK_THROWS_WITH(at(TangentialForce{-1}, 0.3), Catch::Contains("tangential_force"));
   CHECK_THROWS_WITH(at(TangentialForce{0.1}, 0), Catch::Contains("friction_coefficient"));
-  CHECK_THROWS_AS(joint_loss(law, AtForce{2}, {TangentialForce{0.1}, -1e-9, 0}, 0.3), InvalidInput);
+  CHECK_THROWS_AS(joint_loss(law, at_force(2), {TangentialForce{0.1}, -1e-9, 0}, 0.3),
+                  InvalidInput);
   // A joint holds its mean indentation: nothing else is proposed.
-  CHECK_THROWS_WITH(joint_loss(law, AtForce{2}, {TangentialForce{0.1}, 2e-6, 0}, 0.3),
+  CHECK_THROWS_WITH(joint_loss(law, at_force(2), {TangentialForce{0.1}, 2e-6, 0}, 0.3),
                     Catch::Contains("normal_amplitude") &&
                         Catch::EndsWith("at most 1.84 µm here; give a `curve` that covers the "
                                         "motion"));
@@ -200,12 +201,13 @@ TEST_CASE("Joints that cannot be are refused", "[joint]") {
 TEST_CASE("A joint that slides as a whole has no exponent", "[joint]") {
   const ExponentialLaw law(1, 1e-8, 0.8);
   const auto at = [&](double x) {
-    return joint_loss(law, AtForce{1}, TangentialOscillation(TangentialAmplitude{x}), 0.3).exponent;
+    return joint_loss(law, at_force(1), TangentialOscillation(TangentialAmplitude{x}), 0.3)
+        .exponent;
   };
   // d ln W/d ln T from two motions a thousandth apart, where a part still sticks.
   const double x = 1e-8;
   const auto loss = [&](double one) {
-    return joint_loss(law, AtForce{1}, TangentialOscillation(TangentialAmplitude{one}), 0.3);
+    return joint_loss(law, at_force(1), TangentialOscillation(TangentialAmplitude{one}), 0.3);
   };
   const JointLoss low = loss(0.999 * x), high = loss(1.001 * x);
   CHECK(at(x) == Approx(std::log(high.work_per_cycle / low.work_per_cycle) /
@@ -214,5 +216,5 @@ TEST_CASE("A joint that slides as a whole has no exponent", "[joint]") {
   // T = µF to the last digit: W grows with x at a constant force.
   CHECK(std::isnan(at(2e-6)));
   const JointMotion follows{TangentialAmplitude{2e-6}, 1e-9, 0.5};
-  CHECK(std::isnan(joint_loss(law, AtForce{1}, follows, 0.3, 400).exponent));
+  CHECK(std::isnan(joint_loss(law, at_force(1), follows, 0.3, 400).exponent));
 }

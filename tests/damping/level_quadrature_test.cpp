@@ -51,7 +51,7 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
                                     Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
     const LevelQuadratureResult levels =
         level_quadrature(paraboloid(), grid, material, motion, mean_indentation, free_boundary());
-    const DampingResult exact = relaxation_damping(law, AtIndentation{mean_indentation}, motion);
+    const DampingResult exact = relaxation_damping(law, at_indentation(mean_indentation), motion);
     REQUIRE(levels.converged());
     // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b),
     // which weighs the edge of the sweep.
@@ -91,7 +91,7 @@ TEST_CASE("The levels' stated error holds wherever the cells lie under the conta
     const Material material = Material::of_contact_modulus(contact_modulus, 0);
     const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
     const double exact =
-        relaxation_damping(law, AtIndentation{mean_indentation}, motion).work_per_cycle;
+        relaxation_damping(law, at_indentation(mean_indentation), motion).work_per_cycle;
     const LevelQuadratureResult result = run(0), anisotropic = run(0.5);
     CHECK(std::abs(result.work_per_cycle - exact) <= result.error_estimate);
     stated += result.error_estimate / exact / 12;
@@ -306,7 +306,7 @@ TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the para
     if (surface.origin.find("paraboloid") != std::string::npos) {
       const PowerLaw law(4.0 / 3 * 2, 1.5, material.modulus_ratio());
       CHECK(by_steps.work_per_cycle ==
-            Approx(relaxation_damping(law, AtIndentation{depth}, motion).work_per_cycle)
+            Approx(relaxation_damping(law, at_indentation(depth), motion).work_per_cycle)
                 .epsilon(0.01));
     }
   }
@@ -323,7 +323,7 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
   const Surface surface = random_phase(cells, SelfAffineSpectrum(parameters), seed);
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const NormalContactState mean =
-      press(surface, contact_modulus, {.pressure = 0.05 * 0.1 * contact_modulus});
+      press(surface, contact_modulus, at_pressure(0.05 * 0.1 * contact_modulus));
   const double rms_height = std::sqrt(surface.heights.square().mean());
   const ContactLevels levels =
       boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});
@@ -361,7 +361,7 @@ TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on 
   const Surface surface = random_phase(cells, SelfAffineSpectrum(parameters), 2);
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const NormalContactState mean =
-      press(surface, contact_modulus, {.pressure = 0.02 * 0.1 * contact_modulus});
+      press(surface, contact_modulus, at_pressure(0.02 * 0.1 * contact_modulus));
   const double amplitude = 0.05 * std::sqrt(surface.heights.square().mean());
   const ContactLevels levels =
       boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});

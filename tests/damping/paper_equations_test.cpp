@@ -272,7 +272,7 @@ TEST_CASE("Eq (12): case (a) by F'', for the cone at any amplitude", "[paper]") 
   const double closed =
       cf::work_per_cycle(modulus_ratio, law.force_curvature(cone_indentation), equal);
   CHECK(closed ==
-        Approx(relaxation_damping(law, AtIndentation{cone_indentation}, equal).work_per_cycle)
+        Approx(relaxation_damping(law, at_indentation(cone_indentation), equal).work_per_cycle)
             .epsilon(1e-9));
   CHECK(closed == Approx(work_of_engine(law, cone_indentation, equal)).epsilon(1e-9));
   EqualFrequency downwards = equal;
@@ -322,7 +322,7 @@ TEST_CASE("Eq (15): case (b) by F'', for the cone at any amplitude", "[paper]") 
   const double closed =
       cf::work_per_cycle(modulus_ratio, law.force_curvature(cone_indentation), drag);
   CHECK(closed ==
-        Approx(relaxation_damping(law, AtIndentation{cone_indentation}, drag).work_per_cycle)
+        Approx(relaxation_damping(law, at_indentation(cone_indentation), drag).work_per_cycle)
             .epsilon(1e-9));
   CHECK(closed == Approx(work_of_engine(law, cone_indentation, drag)).epsilon(1e-9));
 }

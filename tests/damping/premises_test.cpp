@@ -210,7 +210,7 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     const Premises premises =
         premises_of(law, 0, drag, {.friction_coefficient = friction, .excursion = excursion});
     // The share goes like X².
-    const double steady = relaxation_damping(law, AtIndentation{0}, drag).work_per_cycle;
+    const double steady = relaxation_damping(law, at_indentation(0), drag).work_per_cycle;
     const double expected = excursion * std::sqrt(0.05 * steady / simulated.slip_work);
     CHECK(premises.slip_of_closed_levels.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
   }
@@ -237,7 +237,7 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
     CAPTURE(one.amplitude);
     const Drag drag{one.amplitude, 1e-6, 1e5};
     const double way = 2 * pi * drag.drag_velocity / drag.angular_frequency;
-    const double steady = relaxation_damping(*one.law, AtIndentation{mean}, drag).work_per_cycle;
+    const double steady = relaxation_damping(*one.law, at_indentation(mean), drag).work_per_cycle;
     for (const int cycles : {2, 9}) {
       const Premise slow =
           premises_of(*one.law, mean, drag, {.excursion = cycles * way}).slow_motion;
@@ -302,7 +302,7 @@ TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
     CHECK(loss.work_per_cycle == Approx(path.work_per_cycle).epsilon(2e-4));
     CHECK(loss.relaxation_work == Approx(path.relaxation_work).epsilon(1e-3));
     CHECK(loss.slip_work == Approx(path.slip_work).epsilon(1e-3));
-    const double stuck = relaxation_damping(law, AtIndentation{1e-6}, motion).work_per_cycle;
+    const double stuck = relaxation_damping(law, at_indentation(1e-6), motion).work_per_cycle;
     CHECK(loss.work_per_cycle_without_slip == Approx(stuck).epsilon(1e-6));
   }
 }
@@ -314,7 +314,7 @@ TEST_CASE("The limit of amplitude is where the closed forms of the exponential l
   const Premises drag = premises_of(law, 0, Drag{1e-9, 1, 1e5}),
                  equal = premises_of(law, 0, EqualFrequency{6e-8, 1e-9, pi / 2, 1e5});
   const auto off = [&](const Oscillation& motion) {
-    const DampingResult result = relaxation_damping(law, AtIndentation{0}, motion);
+    const DampingResult result = relaxation_damping(law, at_indentation(0), motion);
     return std::abs(result.small_amplitude_work / result.work_per_cycle - 1);
   };
   CHECK(off(Drag{drag.amplitude.limit_5_percent, 1, 1e5}) == Approx(0.05).epsilon(1e-3));
@@ -530,11 +530,11 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
         Approx(1).margin(2 * stored + 1e-3));
   // A joint carries μF where all of it slips, (1 − e^{−20}) of it at twenty depths.
   const JointLoss joint =
-      joint_loss(like, AtIndentation{0},
+      joint_loss(like, at_indentation(0),
                  TangentialAmplitude{20 * friction / (1.1 * ratio) * length}, friction);
   CHECK(joint.tangential_force == Approx(friction * like.force(0)).epsilon(1e-8));
   const double few = 3.5 * friction / (1.1 * ratio) * length;
-  CHECK(joint_loss(own, AtIndentation{0}, TangentialAmplitude{few}, friction).tangential_force ==
+  CHECK(joint_loss(own, at_indentation(0), TangentialAmplitude{few}, friction).tangential_force ==
         Approx(friction * own.force(0) * (1 - std::exp(-3.5))).epsilon(1e-6));
 }
 
@@ -629,7 +629,7 @@ TEST_CASE("The loss in each regime is that of the simulated springs", "[regimes]
     const Drag drag{amplitude, point.velocity_ratio * critical, omega};
     const TurningLoss loss = loss_of_turning(paraboloid, drag, mean, point.cycles, friction);
     const double excursion = point.cycles * 2 * pi * drag.drag_velocity / omega;
-    const double stick = relaxation_damping(paraboloid, AtIndentation{mean}, drag).work_per_cycle;
+    const double stick = relaxation_damping(paraboloid, at_indentation(mean), drag).work_per_cycle;
     const RegimeMap map = regime_map(paraboloid, mean, {amplitude, omega}, {drag.drag_velocity},
                                      {excursion}, friction);
     CHECK(name_of(map.regime[0][0]) == name_of(point.regime));
@@ -651,7 +651,7 @@ TEST_CASE("A long slow way loses what steady sliding does", "[regimes]") {
                                        3 * critical};
   const RegimeMap map = regime_map(exponential, 0, normal, velocities, {1.0}, friction);
   const std::vector<SteadySliding> sliding =
-      steady_sliding(exponential, AtIndentation{0}, normal, velocities, friction);
+      steady_sliding(exponential, at_indentation(0), normal, velocities, friction);
   for (std::size_t i = 0; i < velocities.size(); ++i) {
     CAPTURE(i);
     const double stuck = 2 * pi * velocities[i] * velocities[i] / normal.angular_frequency *

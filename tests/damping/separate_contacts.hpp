@@ -30,7 +30,7 @@ inline Eigen::VectorXd separate_stiffnesses(const Surface& surface, double conta
     NormalContactOptions options{.tolerance = 1e-12, .boundary = boundary};
     const NormalContactState state =
         press(surface, contact_modulus,
-              {.indentation = center + half * std::cos(std::numbers::pi * k / nodes)}, options);
+              at_indentation(center + half * std::cos(std::numbers::pi * k / nodes)), options);
     found(k) = state.converged() ? normal_stiffness(state, surface.grid, contact_modulus, options)
                                  : std::numeric_limits<double>::quiet_NaN();
   }

@@ -18,7 +18,7 @@ namespace {
 constexpr double ratio = 0.7 / 0.85;  // G*/E* at ν = 0.3
 constexpr double friction = 0.3;
 constexpr double omega = 2 * pi * 20e3;
-constexpr AtForce load{0.02};
+constexpr OperatingPoint load = at_force(0.02);
 
 // The contact of docs/howto/stick_slip.md, and a sphere whose contact opens in the larger of the
 // motions.
@@ -222,7 +222,7 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
           "[slider]") {
   struct Case {
     const ContactLaw* law;
-    AtForce position;
+    OperatingPoint point;
     double mass, slowness, velocity, support, slope, largest;
   };
   // K_t/(mω²) is 0.035 for 1 g on the rough contact: the error is then up to half of dT̄/dv.
@@ -243,13 +243,13 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
     CAPTURE(++number);
     const Slider slider = slider_of(one.mass, one.slowness, one.velocity, one.support, one.slope);
     const SliderThreshold threshold =
-        threshold_amplitude(*one.law, one.position, {one.largest, omega}, slider, friction);
+        threshold_amplitude(*one.law, one.point, {one.largest, omega}, slider, friction);
     // A thousandth for the steps of the full equation.
     CHECK(std::abs(threshold.linear_estimate - threshold.value) <
           threshold.linear_estimate_error + 1e-3 * threshold.value);
     // The estimate is that of dT̄/dv.
-    CHECK(steady_sliding(*one.law, one.position,
-                         Drag{threshold.linear_estimate, one.velocity, omega}, friction)
+    CHECK(steady_sliding(*one.law, one.point, Drag{threshold.linear_estimate, one.velocity, omega},
+                         friction)
               .sliding_damping == Approx(one.slope - one.support).epsilon(1e-6));
     if (one.mass > 0.001) continue;
     // Followed in time: what is a tenth below grows out of sliding, what is a tenth above dies out.
@@ -257,8 +257,8 @@ TEST_CASE("The oscillation that stabilises a slider is the linear estimate's wit
     options.start = SliderStart::sliding;
     options.tolerance = 0.1;
     const auto state_at = [&](double part) {
-      return slider_motion(*one.law, one.position, {part * threshold.value, omega}, slider,
-                           friction, options)
+      return slider_motion(*one.law, one.point, {part * threshold.value, omega}, slider, friction,
+                           options)
           .state;
     };
     CHECK(state_at(0.9) != SliderState::steady);

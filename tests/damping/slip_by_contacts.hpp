@@ -24,7 +24,7 @@ inline DenseForces dense_forces(const Surface& surface, const Material& material
   NormalContactOptions options;
   options.tolerance = 1e-9;
   NormalContactState state =
-      press(surface, material.contact_modulus, {.pressure = pressure}, options);
+      press(surface, material.contact_modulus, at_pressure(pressure), options);
   DenseForces dense;
   dense.mean = state.indentation;
   for (int k = 0; k <= intervals; ++k)
@@ -40,7 +40,7 @@ inline DenseForces dense_forces(const Surface& surface, const Material& material
     }
     start = state.contact_pressure;
     options.initial_pressure = &start;
-    state = press(surface, material.contact_modulus, {.indentation = level}, options);
+    state = press(surface, material.contact_modulus, at_indentation(level), options);
     dense.force.push_back(state.force);
   }
   return dense;

@@ -55,7 +55,7 @@ TEST_CASE("A sliding flat punch has the friction of Popov and Popov", "[sliding]
                                               {0.9, 0.00731},  {1, 0},         {3, 0}};
   for (const auto& [speed, reduction] : values) {
     CAPTURE(speed);
-    const SteadySliding sliding = steady_sliding(punch, AtIndentation{middle},
+    const SteadySliding sliding = steady_sliding(punch, at_indentation(middle),
                                                  {amplitude, speed * critical, omega}, friction);
     CHECK(sliding.converged);
     CHECK(sliding.critical_velocity == Approx(critical).epsilon(1e-12));
@@ -63,7 +63,7 @@ TEST_CASE("A sliding flat punch has the friction of Popov and Popov", "[sliding]
           Approx(reduction).margin(5.1e-6));
     CHECK(sliding.relaxation_work == Approx(0).margin(1e-9 * sliding.slip_work));
   }
-  CHECK(steady_sliding(punch, AtIndentation{middle}, {amplitude, 1e-9 * critical, omega}, friction)
+  CHECK(steady_sliding(punch, at_indentation(middle), {amplitude, 1e-9 * critical, omega}, friction)
             .static_friction_coefficient == Approx(friction * 0.7).epsilon(1e-12));
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("At low speed sliding has the damping constant of the stick during a c
   const ExponentialLaw law(2, decay_length, ratio);
   const auto at = [&](double part) {
     const double critical = friction / ratio * amplitude * omega;
-    return steady_sliding(law, AtForce{2}, {amplitude, part * critical, omega}, friction);
+    return steady_sliding(law, at_force(2), {amplitude, part * critical, omega}, friction);
   };
   // ∫_0^π θ K_t dθ by series of modified Bessel functions: e^{z cosθ} = I_0 + 2ΣI_k cos kθ, ∫θ cos
   // kθ = −2/k² for odd k.
@@ -116,7 +116,7 @@ TEST_CASE("The damping of a sliding contact is the slope of its friction over ve
     CAPTURE(one.middle, one.amplitude, one.speed);
     const double friction = 0.25, critical = friction / ratio * one.amplitude * omega;
     const auto force_at = [&](double speed) {
-      return steady_sliding(*one.law, AtIndentation{one.middle},
+      return steady_sliding(*one.law, at_indentation(one.middle),
                             {one.amplitude, speed * critical, omega}, friction)
           .mean_tangential_force;
     };
@@ -124,7 +124,7 @@ TEST_CASE("The damping of a sliding contact is the slope of its friction over ve
       return (force_at(one.speed * (1 + step)) - force_at(one.speed * (1 - step))) /
              (2 * step * one.speed * critical);
     };
-    const double damping = steady_sliding(*one.law, AtIndentation{one.middle},
+    const double damping = steady_sliding(*one.law, at_indentation(one.middle),
                                           {one.amplitude, one.speed * critical, omega}, friction)
                                .sliding_damping;
     // Central differences are off by the square of the step.
@@ -134,12 +134,12 @@ TEST_CASE("The damping of a sliding contact is the slope of its friction over ve
   // Γ as v → 0; nothing from v_c on. A list has the same values.
   const double amplitude = 5e-8, friction = 0.25, critical = friction / ratio * amplitude * omega;
   const double velocities[] = {1e-8 * critical, 0.4 * critical, 2 * critical};
-  const auto list = steady_sliding(rough, AtForce{3}, {amplitude, omega}, velocities, friction);
+  const auto list = steady_sliding(rough, at_force(3), {amplitude, omega}, velocities, friction);
   CHECK(list[0].sliding_damping == Approx(list[0].low_speed_damping).epsilon(1e-3));
   CHECK(list[2].sliding_damping == 0);
   for (std::size_t i = 0; i < 3; ++i)
     CHECK(list[i].mean_tangential_force ==
-          Approx(steady_sliding(rough, AtForce{3}, {amplitude, velocities[i], omega}, friction)
+          Approx(steady_sliding(rough, at_force(3), {amplitude, velocities[i], omega}, friction)
                      .mean_tangential_force)
               .epsilon(1e-14));
 }
@@ -150,7 +150,7 @@ TEST_CASE("Steady sliding is what the springs do, with second order in their ste
     const double friction = 0.25, critical = friction / ratio * one.amplitude * omega;
     const Drag motion{one.amplitude, one.speed * critical, omega};
     const SteadySliding sliding =
-        steady_sliding(*one.law, AtIndentation{one.middle}, motion, friction);
+        steady_sliding(*one.law, at_indentation(one.middle), motion, friction);
     REQUIRE(sliding.converged);
     const double coarse = simulated_force(*one.law, one.middle, motion, friction, 400);
     const double fine = simulated_force(*one.law, one.middle, motion, friction, 3200);
@@ -264,7 +264,7 @@ TEST_CASE("A drag far too short for sliding to begin has its steady state all th
   const Drag motion{2e-8, 1e-5, 2 * pi * 20e3};
   const auto followed =
       trajectory_damping(law, sample(motion, 0, 2000), {.friction_coefficient = 100});
-  const auto slid = steady_sliding(law, AtIndentation{0}, motion, 100);
+  const auto slid = steady_sliding(law, at_indentation(0), motion, 100);
   // 2000 straight steps, and slip from v/v_c = 3e-5 of a radian on, which is less than one of them.
   CHECK(followed.work_per_cycle == Approx(slid.relaxation_work + slid.slip_work).epsilon(1e-4));
 }
@@ -272,7 +272,7 @@ TEST_CASE("A drag far too short for sliding to begin has its steady state all th
 TEST_CASE("Bad input of steady sliding is named", "[sliding]") {
   const PowerLaw law(1e9, 1.5, ratio);
   const auto at = [&](double friction, double velocity, double amplitude = 1e-7) {
-    return steady_sliding(law, AtIndentation{1e-6}, {amplitude, velocity, omega}, friction);
+    return steady_sliding(law, at_indentation(1e-6), {amplitude, velocity, omega}, friction);
   };
   CHECK_THROWS_WITH(at(0.3, 0), Catch::StartsWith("drag_velocity: 0"));
   CHECK_THROWS_WITH(at(0.3, -1), Catch::StartsWith("drag_velocity: -1"));

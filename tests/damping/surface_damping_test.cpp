@@ -166,7 +166,7 @@ TEST_CASE(
       options.boundary = Boundary::free;
       options.hold = hold;
       const SurfaceDamping result = surface_damping(surface, material, motion, curve, options)[0];
-      const DampingResult exact = relaxation_damping(law, AtForce{force}, motion, {.hold = hold});
+      const DampingResult exact = relaxation_damping(law, at_force(force), motion, {.hold = hold});
       INFO(motion.index() << ' ' << int(hold) << ' ' << result.work_per_cycle / exact.work_per_cycle
                           << ' ' << result.work_per_cycle_error() / exact.work_per_cycle);
       REQUIRE(result.converged);
@@ -263,7 +263,7 @@ TEST_CASE("What holds a mean force shifts the mean indentation of a paraboloid a
     options.hold = hold;
     works[int(hold)] = surface_damping(surface, material, motion, curve, options)[0].work_per_cycle;
     exact[int(hold)] =
-        relaxation_damping(law, AtForce{force}, motion, {.hold = hold}).work_per_cycle;
+        relaxation_damping(law, at_force(force), motion, {.hold = hold}).work_per_cycle;
   }
   const double found = works[1] / works[0] - 1, expected = exact[1] / exact[0] - 1;
   REQUIRE(std::abs(expected) > 0.01);
@@ -430,7 +430,7 @@ TEST_CASE("The loss of a joint of a surface has an error that holds, at small fo
     for (int k = -7; k <= 5; ++k) pressures.push_back(pressure * std::pow(1.6, k));
     const ForceCurve curve = sweep_pressures(surface, stuck, pressures);
     const TabulatedLaw law(curve, stuck.modulus_ratio());
-    const Position position = AtForce{pressure * surface.grid.area()};
+    const OperatingPoint position = at_force(pressure * surface.grid.area());
     const TangentialOscillation motion = TangentialForce{force};
     const JointLoss result =
         surface_joint_loss(surface, stuck, law, position, {motion}, friction)[0];
@@ -471,7 +471,7 @@ TEST_CASE("Steady sliding of a surface has errors that hold, and so do its dampi
     REQUIRE(found.size() == 2);
     const auto [law, center] = law_by_contacts(refined(surface, 4), stuck, pressure, amplitude, 32);
     const std::vector<SteadySliding> converged = steady_sliding(
-        *law, AtIndentation{center}, {amplitude, angular_frequency}, velocities, friction);
+        *law, at_indentation(center), {amplitude, angular_frequency}, velocities, friction);
     for (std::size_t i = 0; i < 2; ++i)
       for (const auto& [number, error] : sliding_errors) {
         if (std::isnan(found[i].first.*number)) continue;
@@ -735,7 +735,7 @@ TEST_CASE("Forces of contacts that start from each other know nothing of the tol
   for (const double share : {1.0, 1.001, 0.999, 1.002, 1.01}) {
     const detail::StiffnessSample sample = levels.at(share * center);
     const NormalContactState separate =
-        press(surface, material.contact_modulus, {.indentation = share * center}, options);
+        press(surface, material.contact_modulus, at_indentation(share * center), options);
     CAPTURE(share, sample.force_correction / separate.force);
     // Where the sets are the same it is round-off; otherwise cells that hardly carry are missing.
     CHECK(std::abs(sample.force / separate.force - 1) < 1e-9);

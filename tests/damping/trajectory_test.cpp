@@ -37,7 +37,7 @@ TEST_CASE("Sampled harmonic motion meets the theorem at second order in its step
   for (const Oscillation& motion :
        {Oscillation(equal_frequency(amplitude, 0.7)), Oscillation(slow_drag(amplitude))}) {
     CAPTURE(amplitude, law.exponent(), motion.index());
-    const DampingResult exact = relaxation_damping(law, AtIndentation{indentation}, motion);
+    const DampingResult exact = relaxation_damping(law, at_indentation(indentation), motion);
     auto at = [&](int steps) {
       return trajectory_damping(law, sample(motion, indentation, steps));
     };
@@ -140,7 +140,7 @@ TEST_CASE("Two frequencies: closed form, theorem and trajectory are one", "[traj
   const CommonPeriod period = common_period(motion);
   CHECK(period.normal_cycles == cycles.p);
   CHECK(period.tangential_cycles == cycles.q);
-  const DampingResult result = relaxation_damping(cone, AtIndentation{indentation}, motion);
+  const DampingResult result = relaxation_damping(cone, at_indentation(indentation), motion);
   const double closed = 2 * ratio * curvature * 4e-14 * amplitude *
                         cf::frequency_ratio_phase_sum(cycles.p, 0.4) *
                         cf::frequency_ratio_integral(static_cast<double>(cycles.q) / cycles.p);
@@ -148,7 +148,7 @@ TEST_CASE("Two frequencies: closed form, theorem and trajectory are one", "[traj
   CHECK(result.small_amplitude_work == Approx(closed).epsilon(1e-12));
   for (const PowerLaw& law : {cone, paraboloid}) {
     const TrajectoryDamping followed = trajectory_damping(law, sample(motion, indentation, 1000));
-    const DampingResult theorem = relaxation_damping(law, AtIndentation{indentation}, motion);
+    const DampingResult theorem = relaxation_damping(law, at_indentation(indentation), motion);
     // Second order in 2π/1000 of the normal and 2πr/1000 of the tangential cycle.
     CHECK(followed.work_per_cycle == Approx(theorem.work_per_cycle).epsilon(1e-4));
     CHECK(followed.power == Approx(theorem.power).epsilon(1e-4));
@@ -161,18 +161,18 @@ TEST_CASE("Frequencies without a common period have the mean power of their neig
   const PowerLaw law(1e9, 1.5, ratio);
   const double golden = 0.5 * (std::sqrt(5.0) - 1);
   const TwoFrequencies motion{6e-7, 2e-7, 0.4, 300, 300 * golden};
-  const DampingResult mean = relaxation_damping(law, AtIndentation{1e-6}, motion);
+  const DampingResult mean = relaxation_damping(law, at_indentation(1e-6), motion);
   CHECK(std::isnan(mean.work_per_cycle));
   TwoFrequencies near = motion;
   near.tangential_angular_frequency = 300.0 * 377 / 610;
   CHECK(mean.power ==
-        Approx(relaxation_damping(law, AtIndentation{1e-6}, near).power).epsilon(1e-4));
+        Approx(relaxation_damping(law, at_indentation(1e-6), near).power).epsilon(1e-4));
   CHECK_THROWS_WITH(sample(motion, 1e-6, 100), Catch::Contains("common period"));
   // Slow tangential motion is the tunable damper of case (b).
   TwoFrequencies slow = motion;
   slow.tangential_angular_frequency = 300 * 1e-4 * golden;
-  CHECK(relaxation_damping(law, AtIndentation{1e-6}, slow).damping_constant ==
-        Approx(relaxation_damping(law, AtIndentation{1e-6}, slow_drag(6e-7)).damping_constant)
+  CHECK(relaxation_damping(law, at_indentation(1e-6), slow).damping_constant ==
+        Approx(relaxation_damping(law, at_indentation(1e-6), slow_drag(6e-7)).damping_constant)
             .epsilon(1e-6));
 }
 
@@ -252,7 +252,7 @@ TEST_CASE("The force of a periodic motion does not depend on where its samples b
   const ExponentialLaw law(10, 1e-7, 0.8);
   const double friction = 0.3, amplitude = 1e-8;
   const double expected =
-      joint_loss(law, AtIndentation{0}, TangentialAmplitude{amplitude}, friction).tangential_force;
+      joint_loss(law, at_indentation(0), TangentialAmplitude{amplitude}, friction).tangential_force;
   for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
     SampledMotion path;
     for (int i = 0; i <= 400; ++i) {

@@ -103,7 +103,7 @@ TEST_CASE("Slow oscillation is relaxation damping of the relaxed body", "[viscoe
     for (const double amplitude : {0.3 * indentation, 1.5 * indentation}) {
       const auto compare = [&](const auto& motion_of) {
         const double exact =
-            relaxation_damping(law, AtIndentation{indentation}, motion_of(1.0)).work_per_cycle;
+            relaxation_damping(law, at_indentation(indentation), motion_of(1.0)).work_per_cycle;
         const auto excess = [&](double product) {
           // Only the square of v/ω of case (b) enters.
           const double omega = product / tau;
@@ -131,7 +131,7 @@ TEST_CASE("Fast oscillation is relaxation damping of the unrelaxed body over a w
   const IndenterLaw law(cone_profile(0.2), material);
   const double amplitude = 0.05 * indentation, omega = 1e5 / tau, R = 3;
   const auto elastic = [&](const Oscillation& motion) {
-    return relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+    return relaxation_damping(law, at_indentation(indentation), motion).work_per_cycle;
   };
   for (const auto& [motion, spread] :
        {std::pair<Oscillation, double>(equal_frequency(amplitude, omega), 1 + R / 2),
@@ -293,7 +293,8 @@ TEST_CASE(
   const EqualFrequency motion = equal_frequency(0.05 * indentation, 10);
   const ViscoelasticDamping found =
       damping(law, {1e6, {{5e6, 1e-9}, {3e6, 1e8}}}, motion, 512, 400);
-  const double elastic = relaxation_damping(law, AtIndentation{indentation}, motion).work_per_cycle;
+  const double elastic =
+      relaxation_damping(law, at_indentation(indentation), motion).work_per_cycle;
   CHECK(found.relaxation_work == Approx(4 * 2.5 * elastic).epsilon(2e-4));
 }
 

@@ -24,7 +24,7 @@ inline double work_by_contacts(const Surface& surface, const Material& material,
   NormalContactOptions options;
   options.tolerance = 1e-9;
   NormalContactState state =
-      press(surface, material.contact_modulus, {.pressure = pressure}, options);
+      press(surface, material.contact_modulus, at_pressure(pressure), options);
   const double center = state.indentation;
   Field start = state.contact_pressure;
   options.initial_pressure = &start;
@@ -36,7 +36,7 @@ inline double work_by_contacts(const Surface& surface, const Material& material,
     force.push_back(0);
     last = 0;
     if (!(place.back() > 0)) continue;
-    state = press(surface, material.contact_modulus, {.indentation = place.back()}, options);
+    state = press(surface, material.contact_modulus, at_indentation(place.back()), options);
     start = state.contact_pressure;
     force.back() = state.force;
     if (stick ? k % (intervals / 2) != 0 : k != intervals) continue;
@@ -70,10 +70,10 @@ inline double joint_work_by_contacts(const Surface& surface, const Material& stu
   NormalContactOptions options;
   options.tolerance = 1e-10;
   const NormalContactState high =
-      press(surface, stuck.contact_modulus, {.pressure = pressure}, options);
+      press(surface, stuck.contact_modulus, at_pressure(pressure), options);
   const double least = high.force - tangential_force / friction_coefficient;
   const double depth = high.indentation - press(surface, stuck.contact_modulus,
-                                                {.pressure = least / surface.grid.area()}, options)
+                                                at_pressure(least / surface.grid.area()), options)
                                               .indentation;
   Field start = high.contact_pressure;
   options.initial_pressure = &start;
@@ -81,7 +81,7 @@ inline double joint_work_by_contacts(const Surface& surface, const Material& stu
   for (int k = 1; k <= intervals; ++k) {
     const double to = depth * std::pow(std::sin(std::numbers::pi * k / (2 * intervals)), 2);
     const NormalContactState state =
-        press(surface, stuck.contact_modulus, {.indentation = high.indentation - to}, options);
+        press(surface, stuck.contact_modulus, at_indentation(high.indentation - to), options);
     start = state.contact_pressure;
     sum += (above - state.force) * (depth - from - to);
     above = state.force;
@@ -98,7 +98,7 @@ inline std::pair<std::unique_ptr<const ContactLaw>, double> law_by_contacts(
   NormalContactOptions options;
   options.tolerance = 1e-10;
   NormalContactState state =
-      press(surface, material.contact_modulus, {.pressure = pressure}, options);
+      press(surface, material.contact_modulus, at_pressure(pressure), options);
   const double center = state.indentation;
   Field start = state.contact_pressure;
   options.initial_pressure = &start;
@@ -107,7 +107,7 @@ inline std::pair<std::unique_ptr<const ContactLaw>, double> law_by_contacts(
     // A law that ends at the oscillation's last digit would be left by round-off.
     const double place =
         center - 1.001 * normal_amplitude * std::cos(std::numbers::pi * k / intervals);
-    state = press(surface, material.contact_modulus, {.indentation = place}, options);
+    state = press(surface, material.contact_modulus, at_indentation(place), options);
     start = state.contact_pressure;
     ForceSample& sample = curve.samples.emplace_back();
     sample.indentation = place;

@@ -39,7 +39,7 @@ inline ForceCurve cubic_curve(double factor = 1, double height = 1e-6) {
 inline DeckContact cubic(double factor = 1) {
   return deck_contact(CurveContact{cubic_curve(factor),
                                    DeckContact::unknown,
-                                   {Standing::pressure, {force0 / area0 / 8}},
+                                   {ControlQuantity::pressure, {force0 / area0 / 8}},
                                    "curve"});
 }
 

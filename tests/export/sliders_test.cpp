@@ -95,7 +95,7 @@ TEST_CASE("Sliders of a curve lose what joint_loss() says, and know where levels
   // Levels below ū = 0.8 h, of 0.064 of F, are one slider.
   for (const double q : {0.02, 0.3, 0.7, 0.9}) {
     const JointLoss joint =
-        joint_loss(*contact.law, AtForce{force}, TangentialForce{q * friction * force}, friction);
+        joint_loss(*contact.law, at_force(force), TangentialForce{q * friction * force}, friction);
     CHECK(loss_of(sliders, q * friction * force) == Approx(joint.work_per_cycle).epsilon(1e-3));
   }
 }

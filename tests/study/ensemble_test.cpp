@@ -613,7 +613,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
   // largest is the largest.
   const Surface surface = study_surface(result.configuration, first.seed);
   const NormalContactState state =
-      press(surface, 1e10, {.pressure = result.pressures[6]}, {.tolerance = 1e-8});
+      press(surface, 1e10, at_pressure(result.pressures[6]), {.tolerance = 1e-8});
   std::vector<double> sizes(13, 0.0);
   double largest = 0;
   for (const ContactSpot& spot : contact_spots(state.contact_pressure, surface.grid).spots) {
@@ -657,7 +657,8 @@ TEST_CASE("Exponential heights make Eq. (16) exact, with l = sigma", "[ensemble]
   const GreenwoodWilliamsonLaw law(ensemble, material, 1e-10);
   const Drag drag{.normal_amplitude = 1e-10, .drag_velocity = 1e-3, .angular_frequency = 1e5};
   const double force = 1e-3;
-  const auto exact = relaxation_damping(law, AtForce{force}, drag, {.amplitude = Amplitude::small});
+  const auto exact =
+      relaxation_damping(law, at_force(force), drag, {.amplitude = Amplitude::small});
   const double by_paper =
       closed_form::work_per_cycle_rough(material.modulus_ratio(), force, 2e-8, drag);
   // Both are closed forms: round-off.

@@ -178,7 +178,7 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
 TEST_CASE("The memory of a contact is 43 bytes a cell and its result's", "[scaling]") {
   const auto pressed = [&](Index points) {
     const Surface surface = rough(points);
-    return peak_growth([&] { press(surface, 1e10, {.pressure = 2e7}); });
+    return peak_growth([&] { press(surface, 1e10, at_pressure(2e7)); });
   };
   const double each = (pressed(1024) - pressed(512)) / (1024. * 1024 - 512. * 512);
   // docs/reliability.md, "Memory": 43 with contact on a tenth of the cells, of which tiles are

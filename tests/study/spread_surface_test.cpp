@@ -29,7 +29,7 @@ TEST_CASE("What needs a surface whole refuses one that is spread over processes"
     Surface surface{{32, 32, 32, 32}, {}, true, "test", all};
     surface.heights = Field::Random(surface.share().count(), 32);
     const Material material = Material::of_contact_modulus(1, 0.3);
-    const NormalContactState state = press(surface, 1, {.pressure = 0.1});
+    const NormalContactState state = press(surface, 1, at_pressure(0.1));
     const std::vector<std::pair<const char*, std::function<void()>>> calls{
         {"require_complete", [&] { surface.require_complete("a test"); }},
         {"boundary_element_levels", [&] { boundary_element_levels(surface, 1, {}); }},

@@ -360,7 +360,7 @@ TEST_CASE("A study has the flow through the gap of each contact where it is aske
   options.tolerance = configuration.tolerance;
   for (const std::size_t k : {std::size_t(0), result.pressures.size() - 1}) {
     const FlowFactors flow = flow_factors(press(surface, configuration.material.contact_modulus,
-                                                {.pressure = result.pressures[k]}, options),
+                                                at_pressure(result.pressures[k]), options),
                                           surface.grid);
     CHECK(first.flow[k].percolates_x == flow.percolates_x);
     if (flow.percolates_x)
@@ -390,15 +390,15 @@ TEST_CASE("A study with adhesion has the curve, the cycle and the pull-off of ea
   // The least load begins without a state before, as press_adhesive() does.
   const ForceCurve& curve = first.of(ContactModel::bem).curve;
   const AdhesiveContactState light =
-      press_adhesive(surface, modulus, {.pressure = result.pressures[0]}, plan.adhesion);
+      press_adhesive(surface, modulus, at_pressure(result.pressures[0]), plan.adhesion);
   CHECK(curve.adhesive);
   CHECK(curve.samples[0].mean_gap == Approx(light.mean_gap).epsilon(1e-9));
   CHECK(curve.samples[0].contact_area_fraction == light.contact_area_fraction);
   CHECK(curve.samples[0].contact_area_fraction >
-        2 * press(surface, modulus, {.pressure = result.pressures[0]}).contact_area_fraction);
+        2 * press(surface, modulus, at_pressure(result.pressures[0])).contact_area_fraction);
   CHECK(first.spots[0].spot_count > 0);
-  std::vector<Target> gaps;
-  for (const double gap : plan.cycle) gaps.push_back({.mean_gap = gap});
+  std::vector<OperatingPoint> gaps;
+  for (const double gap : plan.cycle) gaps.push_back(at_mean_gap(gap));
   const AdhesiveCycle cycle =
       adhesive_cycle(surface, modulus, gaps, plan.adhesion, {.unload = true});
   CHECK(first.adhesion.pull_off_pressure == cycle.pull_off_pressure);

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/material.hpp>
@@ -13,6 +12,7 @@
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/contact/normal/adhesion.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
+#include <salebra/contact/operating_point.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/premises.hpp>
 #include <string>
@@ -30,24 +30,6 @@ struct Context {
   std::function<bool()> stopped = {};
 };
 
-/// The control quantity of an operating point.
-enum class Standing { normal_force, indentation, pressure, mean_gap };
-
-template <>
-struct EnumNames<Standing> {
-  static constexpr auto values = std::to_array<std::pair<Standing, std::string_view>>(
-      {{Standing::normal_force, "normal_force"},
-       {Standing::indentation, "indentation"},
-       {Standing::pressure, "pressure"},
-       {Standing::mean_gap, "mean_gap"}});
-};
-
-/// Operating points: one or several values of one control quantity.
-struct Standings {
-  Standing quantity = Standing::normal_force;
-  std::vector<double> values = {};  ///< N, m, Pa
-};
-
 /// F = F0 exp(δ/l) about the first of its forces; F'' = F/l² whatever F0 is.
 struct ExponentialContact {
   double decay_length = 0;   ///< l > 0, m
@@ -59,14 +41,14 @@ struct ExponentialContact {
 struct IndenterContact {
   std::shared_ptr<const IndenterProfile> profile;
   Material material;
-  Standings at;
+  OperatingPoints at;
 };
 
 /// A computed or measured curve, at any control quantity that it has.
 struct CurveContact {
   ForceCurve curve;
   double modulus_ratio = 0;  ///< G*/E* > 0, used where the curve has no K_t
-  Standings at;
+  OperatingPoints at;
   std::string source = {};  ///< name of the curve in messages: its file
 };
 
@@ -87,7 +69,7 @@ using ContactProblem =
 /// The law of a contact, its operating points, and the data behind it.
 struct ContactSolution {
   std::unique_ptr<const ContactLaw> law;
-  std::vector<Position> positions;                 ///< operating points on the law
+  std::vector<OperatingPoint> points;              ///< operating points on the law
   std::optional<ForceCurve> curve = {};            ///< curve behind the law
   std::optional<Surface> surface = {};             ///< swept surface, residual after first loading
   std::optional<FirstLoading> first_loading = {};  ///< first loading that left the residual surface

@@ -36,15 +36,14 @@ struct OscillationCase {
   std::optional<FirstLoading> first_loading = {};  ///< empty unless the body is residual
 };
 
-/// Returns the indentation at an operating point, m; for an empty one the body's own. Throws
-/// NotConverged.
+/// Returns the indentation at an operating point, m. Throws NotConverged.
 double mean_indentation(const OscillatingBody& body, double contact_modulus,
-                        const Target& position);
+                        const OperatingPoint& point);
 
 /// Loads the contact to the mean operating point with pressures up to the hardness, Pa. After
 /// plastic deformation the contact has the residual surface, at the same load.
 /// throws  NotConverged, Interrupted, and as load_first()
-void load_plastically(OscillationCase& contact, const Target& position, double hardness,
+void load_plastically(OscillationCase& contact, const OperatingPoint& point, double hardness,
                       const Progress& on_progress);
 
 /// The methods by which a cycle is simulated, and their resolution.

@@ -35,12 +35,12 @@ struct SlidingSolution {
 /// Computes steady sliding of a law, and the regimes if excursions are given.
 ///
 ///     SlidingProblem problem{{1e-9}, 1e5, 0.3, {1e-5, 1e-4}};
-///     SlidingSolution sliding = solve(problem, law, AtForce{1});
+///     SlidingSolution sliding = solve(problem, law, at_force(1));
 ///
 /// throws  InvalidInput as steady_sliding() and regime_map(), and for ratios without an amplitude;
 ///         NotConverged where a quadrature did not reach its tolerance
 SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
-                      const Position& position);
+                      const OperatingPoint& point);
 /// The same at the first operating point of a contact. On a surface each point comes from contacts
 /// solved inside the oscillation, with errors (surface_sliding()); regimes always come from the
 /// law.
@@ -71,6 +71,7 @@ struct SliderSolution {
 /// Simulates a slider.
 /// throws  InvalidInput as slider_motion(); NotConverged where a motion does not repeat;
 ///         Interrupted
-SliderSolution solve(const SliderProblem& problem, const ContactLaw& law, const Position& position);
+SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
+                     const OperatingPoint& point);
 
 }  // namespace salebra

@@ -22,7 +22,7 @@ std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts,
 /// uses loss_with_slip(), with its turning points; other motions are followed along `steps`
 /// straight steps of their period.
 ///
-///     DampingResult result = relaxation_damping(law, AtForce{1}, motion);
+///     DampingResult result = relaxation_damping(law, at_force(1), motion);
 ///     add_slip(result, law, motion, {.friction_coefficient = 0.3, .excursion = 1e-5});
 ///
 /// Throws InvalidInput as loss_with_slip() and trajectory_damping(), and Interrupted.

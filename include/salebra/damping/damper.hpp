@@ -60,11 +60,11 @@ constexpr void describe(auto&& visit, std::type_identity<OscillatorDecay>) {
 
 /// Computes the decay of a tangential oscillator under fast normal oscillation of its contact.
 ///
-///     OscillatorDecay decay = oscillator_decay(law, AtForce{1}, {1e-9, 1e5}, {.mass = 1});
+///     OscillatorDecay decay = oscillator_decay(law, at_force(1), {1e-9, 1e5}, {.mass = 1});
 ///
 /// Throws InvalidInput as relaxation_damping(), and for an oscillator without mass or without any
 /// stiffness.
-OscillatorDecay oscillator_decay(const ContactLaw& law, const Position& position,
+OscillatorDecay oscillator_decay(const ContactLaw& law, const OperatingPoint& point,
                                  const NormalOscillation& normal,
                                  const TangentialOscillator& oscillator,
                                  const DampingOptions& options = {});
@@ -93,7 +93,7 @@ constexpr void describe(auto&& visit, std::type_identity<DamperMap>) {
 }
 
 /// Computes the map. At each amplitude γ is exactly a constant over ω, so each is computed once.
-DamperMap damper_map(const ContactLaw& law, const Position& position,
+DamperMap damper_map(const ContactLaw& law, const OperatingPoint& point,
                      const std::vector<double>& normal_amplitudes,
                      const std::vector<double>& angular_frequencies,
                      const DampingOptions& options = {});
@@ -103,7 +103,7 @@ DamperMap damper_map(const ContactLaw& law, const Position& position,
 /// velocity, F_f = F_0 − bv, with b = falling_slope > 0, N s/m: for small disturbances of steady
 /// sliding this is a damping constant of −b. NaN where no amplitude up to largest_amplitude
 /// suffices: under a dead weight γ has a maximum over u_z.
-double stabilising_amplitude(const ContactLaw& law, const Position& position,
+double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
                              double angular_frequency, double falling_slope,
                              double largest_amplitude, const DampingOptions& options = {});
 

@@ -5,27 +5,18 @@
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/law/law.hpp>
+#include <salebra/contact/operating_point.hpp>
 #include <salebra/damping/loss.hpp>
 #include <salebra/damping/oscillation.hpp>
 #include <salebra/damping/quantities.hpp>
 #include <span>
-#include <variant>
 #include <vector>
 
 namespace salebra {
 
-/// The operating point of a contact: an indentation δ on the law's own scale, m, …
-struct AtIndentation {
-  double indentation = 0;
-};
-/// … or a normal force > 0, N.
-struct AtForce {
-  double force = 0;
-};
-using Position = std::variant<AtIndentation, AtForce>;
-
-/// Returns the indentation δ of a position, m.
-double indentation_of(const ContactLaw& law, const Position& position);
+/// Returns the indentation δ at an operating point, on the law's own scale, m. A law has no area and
+/// no gap: InvalidInput for a pressure or a mean gap.
+double indentation_of(const ContactLaw& law, const OperatingPoint& point);
 
 enum class Amplitude {
   small,  ///< Eq. (12) or (15) with F'' of the law: the limit u_z → 0
@@ -39,8 +30,8 @@ struct EnumNames<Amplitude> {
 };
 
 struct DampingOptions {
-  /// Hold::indentation: the position is the mean indentation of the cycle. Hold::force: the cycle
-  /// mean of F equals the force at the position (F(δ) where an indentation is given). At
+  /// Hold::indentation: the operating point is the mean indentation of the cycle. Hold::force: the cycle
+  /// mean of F equals the force at the operating point (F(δ) where an indentation is given). At
   /// Amplitude::small the two coincide.
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
@@ -62,7 +53,7 @@ struct DampingResult : Loss {
   double force = unknown;                 ///< F at the mean indentation, N
   double mean_force = unknown;            ///< cycle mean of F at finite amplitude, N
   double indentation = unknown;           ///< mean indentation of the cycle, m
-  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* position, J. It does not include the shift of
+  /// Eq. (12) or (15) with (G*/E*)F'' at the *given* operating point, J. It does not include the shift of
   /// the mean indentation by Hold::force.
   double small_amplitude_work = unknown;
   double tangential_curvature =
@@ -110,12 +101,12 @@ constexpr void describe(auto&& visit, std::type_identity<DampingResult>) {
 /// may open during the cycle. It assumes no slip, contact sets that grow with δ, and quasi-static
 /// motion.
 ///
-///     DampingResult result = relaxation_damping(law, AtForce{1}, Drag{1e-9, 1e-6, 1e5});
+///     DampingResult result = relaxation_damping(law, at_force(1), Drag{1e-9, 1e-6, 1e5});
 ///
 /// throws  InvalidInput for u_z < 0, an ω that is not > 0 in Drag or < 0 in EqualFrequency, values
 ///         that are not finite, a force <= 0, and a motion that leaves the range of a tabulated law
 /// cost    about 100 to 1000 evaluations of the law; 50 times that with Hold::force
-DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
+DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const Oscillation& motion, const DampingOptions& options = {});
 
 /// The same for two frequencies: W over their common period of p normal cycles is
@@ -123,12 +114,12 @@ DampingResult relaxation_damping(const ContactLaw& law, const Position& position
 /// with r = ω_x/ω_z and S = closed_form::frequency_ratio_phase_sum(). Without a common period
 /// work_per_cycle is NaN and power is the mean power, with S/p = 1/2; small_amplitude_work and
 /// error_estimate are then means per normal cycle.
-DampingResult relaxation_damping(const ContactLaw& law, const Position& position,
+DampingResult relaxation_damping(const ContactLaw& law, const OperatingPoint& point,
                                  const TwoFrequencies& motion, const DampingOptions& options = {});
 
 /// One point of a damping curve over force, amplitude, frequency, velocity or phase.
 struct DampingCase {
-  Position position;
+  OperatingPoint point;
   Oscillation motion;
 };
 

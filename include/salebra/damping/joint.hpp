@@ -71,13 +71,13 @@ struct JointMotion {
 /// by Masing's rule, which builds the loop from the first loading (docs/theory.md, section 8). W is
 /// half of Eq. (12)'s theorem for a normal oscillation of amplitude c/2 about δ − c/2 at φ0 = 90°.
 ///
-///     JointLoss loss = joint_loss(law, AtForce{100}, TangentialForce{20}, 0.5);
+///     JointLoss loss = joint_loss(law, at_force(100), TangentialForce{20}, 0.5);
 ///
 /// friction_coefficient  μ > 0, finite
 /// throws  InvalidInput for a force at which the contact slides (the message says which), for slip
 ///         that reaches depths below the range of a tabulated law, and as relaxation_damping()
 /// cost    some hundred evaluations of the law, ten times as many for a force
-JointLoss joint_loss(const ContactLaw& law, const Position& position,
+JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
                      const TangentialOscillation& motion, double friction_coefficient,
                      const DampingOptions& options = {});
 
@@ -89,12 +89,12 @@ JointLoss joint_loss(const ContactLaw& law, const Position& position,
 /// difference between c and that of the law. W is NaN where it is no larger than its error. A law
 /// through loads that are farther apart than the range of slip is interpolated there, and has no
 /// error.
-/// law      through the curve of this surface and material at `position`
+/// law      through the curve of this surface and material at `point`
 /// throws   NotConverged where a contact did not converge; Interrupted; and as above
 /// cost     for each motion some nine contacts on the given cells and three on cells of half the
 ///          size
 std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material& material,
-                                          const ContactLaw& law, const Position& position,
+                                          const ContactLaw& law, const OperatingPoint& point,
                                           const std::vector<TangentialOscillation>& motions,
                                           double friction_coefficient,
                                           const Progress& on_progress = {});
@@ -108,7 +108,7 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
 ///          on_progress says stop
 /// cost     two periods of a displacement, O(steps); for a force some tens of evaluations of the
 ///          state for each step, and periods until the loss is steady to 1e-9
-JointLoss joint_loss(const ContactLaw& law, const Position& position, const JointMotion& motion,
+JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const JointMotion& motion,
                      double friction_coefficient, int steps = 2000,
                      const Progress& on_progress = {});
 

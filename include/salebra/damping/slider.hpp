@@ -66,7 +66,8 @@ struct EnumNames<SliderState> {
 };
 
 struct SliderOptions {
-  Hold hold = Hold::indentation;  ///< quantity of the position held constant, as in DampingOptions
+  Hold hold =
+      Hold::indentation;  ///< quantity of the operating point held constant, as in DampingOptions
   SliderStart start = SliderStart::rest;  ///< initial state
   /// >= 16, per period of the oscillation; more are taken where the slider or the contact's
   /// resonance √(K_t/m) is faster.
@@ -149,7 +150,7 @@ constexpr void describe(auto&& visit, std::type_identity<SliderMotion>) {
 /// is computed with `steps` and twice as many until the amplitude changes by less than the
 /// tolerance.
 ///
-///     SliderMotion end = slider_motion(law, AtForce{1}, {1e-9, 1e6}, {.mass = 1e-3,
+///     SliderMotion end = slider_motion(law, at_force(1), {1e-9, 1e6}, {.mass = 1e-3,
 ///                                      .spring_stiffness = 1e4, .velocity = 1e-5}, 0.3);
 ///
 /// normal_oscillation  δ = δ0 − u_z cos ωt with ω > 4√(k/m); u_z = 0: none, and ω is not used
@@ -159,7 +160,7 @@ constexpr void describe(auto&& visit, std::type_identity<SliderMotion>) {
 ///         or a slow cycle more than 10 million; Interrupted where on_progress says stop
 /// cost    some 0.6 µs per step; a slow cycle has ω/√(k/m) times `steps` of them, and more with a
 ///         slower drive
-SliderMotion slider_motion(const ContactLaw& law, const Position& position,
+SliderMotion slider_motion(const ContactLaw& law, const OperatingPoint& point,
                            const NormalOscillation& normal, const Slider& slider,
                            double friction_coefficient, const SliderOptions& options = {});
 
@@ -167,7 +168,7 @@ SliderMotion slider_motion(const ContactLaw& law, const Position& position,
 /// steady_sliding() and |T| <= μF(δ_min) at rest. It is the limit of the full one for
 /// √(k/m) ≪ √(K_t/m) ≪ ω. Solved by Runge–Kutta steps of order 8 between located changes of
 /// sticking and slipping.
-SliderMotion averaged_slider_motion(const ContactLaw& law, const Position& position,
+SliderMotion averaged_slider_motion(const ContactLaw& law, const OperatingPoint& point,
                                     const NormalOscillation& normal, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options = {});
 
@@ -214,7 +215,7 @@ constexpr void describe(auto&& visit, std::type_identity<SliderStability>) {
 /// period of the full equation maps these two numbers. The fixed point of the map is steady
 /// sliding; its multipliers are the growth.
 ///
-///     SliderStability sliding = slider_stability(law, AtForce{1}, normal, slider, 0.3);
+///     SliderStability sliding = slider_stability(law, at_force(1), normal, slider, 0.3);
 ///
 /// The error of the averaged estimate is that of two effects of the mass, with f = Γ/(πmω)
 /// replacing K_t/(mω²). Springs that stick for a whole period have −ln cos(2π√f)/(2π²f) times the
@@ -222,7 +223,7 @@ constexpr void describe(auto&& visit, std::type_identity<SliderStability>) {
 /// sticking. The error is the larger of both plus (π²/3)(k/m)/ω² of the damping.
 /// throws  InvalidInput as slider_motion()
 /// cost    some ten periods of the full equation with 4 `steps`
-SliderStability slider_stability(const ContactLaw& law, const Position& position,
+SliderStability slider_stability(const ContactLaw& law, const OperatingPoint& point,
                                  const NormalOscillation& normal, const Slider& slider,
                                  double friction_coefficient, const SliderOptions& options = {});
 
@@ -266,10 +267,10 @@ constexpr void describe(auto&& visit, std::type_identity<SliderThresholds>) {
 ///         frequency
 /// throws  InvalidInput as slider_motion(), and where b <= c, which needs no oscillation
 /// cost    slider_stability() and steady_sliding() some tens to hundreds of times
-SliderThreshold threshold_amplitude(const ContactLaw& law, const Position& position,
+SliderThreshold threshold_amplitude(const ContactLaw& law, const OperatingPoint& point,
                                     const NormalOscillation& last, const Slider& slider,
                                     double friction_coefficient, const SliderOptions& options = {});
-SliderThreshold threshold_angular_frequency(const ContactLaw& law, const Position& position,
+SliderThreshold threshold_angular_frequency(const ContactLaw& law, const OperatingPoint& point,
                                             const NormalOscillation& last, const Slider& slider,
                                             double friction_coefficient,
                                             const SliderOptions& options = {});

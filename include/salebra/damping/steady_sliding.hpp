@@ -155,7 +155,7 @@ constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
 /// Computes the mean tangential force of steady sliding with Coulomb friction under a normal
 /// oscillation δ = δ0 − u_z cosφ.
 ///
-///     SteadySliding state = steady_sliding(law, AtForce{1}, Drag{1e-9, 1e-4, 1e5}, 0.3);
+///     SteadySliding state = steady_sliding(law, at_force(1), Drag{1e-9, 1e-4, 1e5}, 0.3);
 ///
 /// The spring at depth ζ sticks, or slips at the stretch limit (μK/K_t)(δ − ζ). For v > 0 every
 /// closed spring is at its limit when δ is smallest, so one period from there is the steady state
@@ -173,10 +173,10 @@ constexpr void describe(auto&& visit, std::type_identity<RegimePoint>) {
 /// throws  InvalidInput as relaxation_damping()
 /// cost    seven evaluations of the law for each of its pieces, some hundred for a smooth one; a
 ///         list of velocities shares them
-SteadySliding steady_sliding(const ContactLaw& law, const Position& position, const Drag& motion,
+SteadySliding steady_sliding(const ContactLaw& law, const OperatingPoint& point, const Drag& motion,
                              double friction_coefficient, const DampingOptions& options = {});
 /// The same for each velocity > 0, m/s.
-std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const Position& position,
+std::vector<SteadySliding> steady_sliding(const ContactLaw& law, const OperatingPoint& point,
                                           const NormalOscillation& normal,
                                           std::span<const double> velocities,
                                           double friction_coefficient,

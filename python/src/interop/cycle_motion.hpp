@@ -25,11 +25,28 @@ auto with_motion(const Motion& motion, const Function& function) {
   return function(std::get<TwoFrequencies>(motion));
 }
 
-/// Where the contact stands: exactly one of the two keywords.
-inline Position position_of(std::optional<double> indentation, std::optional<double> force) {
+/// The operating point on a law: exactly one of the two keywords.
+inline OperatingPoint operating_point_of(std::optional<double> indentation,
+                                         std::optional<double> force) {
   require_one(indentation.has_value(), "indentation", force.has_value(), "force");
-  if (force) return AtForce{*force};
-  return AtIndentation{*indentation};
+  if (force) return at_force(*force);
+  return at_indentation(*indentation);
+}
+
+/// The operating point of a surface: exactly one of the four keywords.
+inline OperatingPoint operating_point_of(std::optional<double> pressure,
+                                         std::optional<double> mean_gap,
+                                         std::optional<double> indentation,
+                                         std::optional<double> force) {
+  require_that(
+      pressure.has_value() + mean_gap.has_value() + indentation.has_value() + force.has_value() ==
+          1,
+      "operating point",
+      "exactly one of `pressure`, `mean_gap`, `indentation` and `force` must be given");
+  if (pressure) return at_pressure(*pressure);
+  if (mean_gap) return at_mean_gap(*mean_gap);
+  if (indentation) return at_indentation(*indentation);
+  return at_force(*force);
 }
 
 }  // namespace salebra::python

@@ -58,7 +58,7 @@ ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double con
 
 // Changes the pressures so that their mean is the one asked, within the bound.
 template <class Real>
-void ActiveSetCg<Real>::correct_load(const ContactTarget& target, double* p) const {
+void ActiveSetCg<Real>::correct_load(const ScaledOperatingPoint& target, double* p) const {
   const double load = target.value * static_cast<double>(grid_.points()), bound = target.bound;
   const double carried = sum_rows([&](Index begin, Index end) {
     return kernels_.clip(p + begin * grid_.ny, (end - begin) * grid_.ny, bound);
@@ -323,7 +323,7 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
 }
 
 template <class Real>
-ActiveSetOutcome ActiveSetCg<Real>::solve(const ContactTarget& target,
+ActiveSetOutcome ActiveSetCg<Real>::solve(const ScaledOperatingPoint& target,
                                           const ActiveSetLimits& limits, double* p, double* g) {
   reset();
   Run run{target, limits, p, g};

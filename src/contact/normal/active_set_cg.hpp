@@ -57,8 +57,8 @@ class ActiveSetCg {
               const Heights& heights, double rms_height);
 
   // p: the start on entry, the solution on return; g = Gp − h on return.
-  ActiveSetOutcome solve(const ContactTarget& target, const ActiveSetLimits& limits, double* p,
-                         double* g);
+  ActiveSetOutcome solve(const ScaledOperatingPoint& target, const ActiveSetLimits& limits,
+                         double* p, double* g);
 
   // Σq with Gq = 1 on the cells where 0 < p < bound and q = 0 elsewhere: the load that a unit of
   // rigid approach adds. `pressure`, where given, receives q.
@@ -75,7 +75,7 @@ class ActiveSetCg {
  private:
   // The state of one call of solve().
   struct Run {
-    ContactTarget target;
+    ScaledOperatingPoint target;
     ActiveSetLimits limits;
     double* p;
     double* g;
@@ -201,7 +201,7 @@ class ActiveSetCg {
   CurvatureSums take_direction(double z_mean, double beta, double t_mean);
 
   void reset();
-  void correct_load(const ContactTarget& target, double* p) const;
+  void correct_load(const ScaledOperatingPoint& target, double* p) const;
   Convolution2D<double>& exact_compliance();
   Convolution2D<Real>& dense_compliance();
   ContactResidual dense_gap(Run& run, bool exact, bool whole);

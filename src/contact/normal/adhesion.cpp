@@ -125,16 +125,10 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
                       std::max(surface.grid.dx(), surface.grid.dy()) * zone / doubtful_zone));
 }
 
-/// A load or a level that is held. A force of a surface is its pressure.
-struct AdhesiveTarget {
-  bool load_given = true;
-  double value = 0;  // Pa; or m: mean gap of a periodic contact, indentation of a free one
-};
-
 class AdhesiveSolve {
  public:
   AdhesiveSolve(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
-                const AdhesiveContactOptions& options, const Target& target)
+                const AdhesiveContactOptions& options, const OperatingPoint& point)
       : surface_(surface),
         rows_(surface.share()),
         cells_(static_cast<double>(surface.grid.points())),
@@ -144,8 +138,8 @@ class AdhesiveSolve {
         periodic_(options.contact.boundary == Boundary::periodic) {
     highest_ = height_sums(rows_, surface.heights, 0).highest;
     mean_depth_ = -height_sums(rows_, surface.heights, highest_).first / cells_;
-    target_ = target_of(target);
-    require_room(target);
+    point_ = checked(point);
+    require_room();
     reference_ = detail::adhesion_reference(surface, contact_modulus, adhesion);
   }
 
@@ -226,23 +220,15 @@ class AdhesiveSolve {
   bool yields() const { return std::isfinite(options_.contact.hardness); }
   double bound() const { return adhesion_.pressure_bound(options_.contact.hardness); }
 
-  AdhesiveTarget target_of(const Target& target) const {
-    const auto& [pressure, mean_gap, indentation, force] = target;
-    require_that(
-        pressure.has_value() + mean_gap.has_value() + indentation.has_value() + force.has_value() ==
-            1,
-        "target", "exactly one of `pressure`, `mean_gap`, `indentation` and `force` must be given");
-    const double value = pressure      ? *pressure
-                         : mean_gap    ? *mean_gap
-                         : indentation ? *indentation
-                                       : *force;
-    const char* name = pressure      ? "pressure"
-                       : mean_gap    ? "mean_gap"
-                       : indentation ? "indentation"
-                                     : "force";
+  /// A force becomes a pressure, the indentation of a periodic contact its mean gap.
+  OperatingPoint checked(const OperatingPoint& point) const {
+    const bool by_force = point.control == ControlQuantity::normal_force,
+               by_gap = point.control == ControlQuantity::mean_gap;
+    const double value = point.value;
+    const std::string_view name = by_force ? "force" : name_of(point.control);
     require(std::isfinite(value), name, value, "must be finite");
-    if (pressure || force) {
-      const double nominal = force ? value / surface_.grid.area() : value;
+    if (point.load_given()) {
+      const double nominal = by_force ? value / surface_.grid.area() : value;
       require(nominal <= 1e12 * modulus_, name, value,
               fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
                           modulus_));
@@ -251,22 +237,22 @@ class AdhesiveSolve {
               fmt::format("must be > 0 and below the hardness, {}, on the nominal area: a first "
                           "loading presses",
                           format_quantity(hardness, Dimension::pressure)));
-      return {true, nominal};
+      return at_pressure(nominal);
     }
     require(!yields(), name, value,
             "is not held in a first loading; with a hardness give a pressure or a force");
-    require(!mean_gap || periodic_, "boundary", "free",
+    require(!by_gap || periodic_, "boundary", "free",
             "has no mean gap; give a force or an indentation");
-    require(!mean_gap || value > 0, "mean_gap", value, "must be > 0");
-    require(!indentation || !periodic_ || value < mean_depth_, "indentation", value,
+    require(!by_gap || value > 0, name, value, "must be > 0");
+    require(by_gap || !periodic_ || value < mean_depth_, name, value,
             fmt::format("must be below {} m, where a periodic contact is full", mean_depth_));
-    return {false, indentation && periodic_ ? mean_depth_ - value : value};
+    return periodic_ && !by_gap ? at_mean_gap(mean_depth_ - value) : point;
   }
 
   // An isolated surface whose edge is held is cut off there.
-  void require_room(const Target& target) const {
+  void require_room() const {
     if (periodic_) return;
-    const double approach = std::max(0.0, target.indentation.value_or(0.0));
+    const double approach = point_.load_given() ? 0.0 : std::max(0.0, point_.value);
     double held = 0;
     for (const double part : parallel::map_blocks<double>(rows_, [&](Index begin, Index end) {
            double most = 0;
@@ -302,7 +288,7 @@ class AdhesiveSolve {
         normal_compliance<double>(grid, modulus_, options_.contact.boundary, surface_.ranks));
     if (options_.start_tension) {
       tension_ = *options_.start_tension;
-    } else if (target_.load_given && !(target_.value > 0)) {
+    } else if (point_.load_given() && !(point_.value > 0)) {
       tension_ = (highest_ - surface_.heights).unaryExpr([&](double gap) {
         return adhesion_.tension(gap);
       });
@@ -337,23 +323,23 @@ class AdhesiveSolve {
     const double mean = sums.first / cells_;
     rms_raised_ = std::sqrt(std::max(0.0, sums.second / cells_ - mean * mean));
     const double mean_tension = mean_of(tension_);
-    Target target;
-    if (target_.load_given) {
-      const double load = target_.value + mean_tension;
-      if (!(load > no_load * largest()) && !(target_.value > 0)) {
+    OperatingPoint inner_point;
+    if (point_.load_given()) {
+      const double load = point_.value + mean_tension;
+      if (!(load > no_load * largest()) && !(point_.value > 0)) {
         detach();
         return false;
       }
-      target.pressure = load;
+      inner_point = at_pressure(load);
     } else {
       // The heights are raised and count from first touch on.
-      const double level = periodic_ ? sums.highest - highest_ - mean - target_.value
-                                     : target_.value + sums.highest - highest_;
+      const double level = periodic_ ? sums.highest - highest_ - mean - point_.value
+                                     : point_.value + sums.highest - highest_;
       if (!(level > 0)) {
         float_above(level, sums.highest);
         return true;
       }
-      target.indentation = level;
+      inner_point = at_indentation(level);
     }
     NormalContactOptions inner = options_.contact;
     inner.tolerance = tolerance;
@@ -366,7 +352,7 @@ class AdhesiveSolve {
     }
     first_ = false;
     const Counts before = counts();
-    static_cast<NormalContactState&>(state_) = press(raised_, modulus_, target, inner);
+    static_cast<NormalContactState&>(state_) = press(raised_, modulus_, inner_point, inner);
     state_.iterations += before.iterations;
     state_.fft_count += before.fft_count;
     state_.multilevel_count += before.multilevel_count;
@@ -490,24 +476,24 @@ class AdhesiveSolve {
     state_.elastic_energy = elastic * area;
     state_.adhesive_energy = adhesive * area;
     state_.tension_force = total.tension / cells_ * area;
-    const double load = target_.load_given ? target_.value : pressure;
+    const double load = point_.load_given() ? point_.value : pressure;
     const double potential = load * (periodic_ ? mean_gap - sunk : -state_.indentation);
     state_.total_energy = (elastic + adhesive + plastic + potential) * area;
-    return {elastic + adhesive + plastic + (target_.load_given ? potential : 0.0), total.change,
+    return {elastic + adhesive + plastic + (point_.load_given() ? potential : 0.0), total.change,
             total.contact / cells_};
   }
 
   // In free contact the indentation counts from first touch of the surface itself.
   double indentation() {
-    if (!target_.load_given) return target_.value;
+    if (!point_.load_given()) return point_.value;
     // state_.indentation is that of the raised heights until measure() replaces it.
     return state_.indentation - highest_raised_ + highest_;
   }
 
   AdhesiveContactState finish() {
     if (state_.detached) {
-      state_.mean_pressure = target_.value;
-      state_.force = target_.value * surface_.grid.area();
+      state_.mean_pressure = point_.value;
+      state_.force = point_.value * surface_.grid.area();
       state_.mean_gap = std::numeric_limits<double>::infinity();
       state_.indentation = -std::numeric_limits<double>::infinity();
       state_.elastic_energy = state_.adhesive_energy = state_.total_energy = 0;
@@ -524,7 +510,7 @@ class AdhesiveSolve {
   const Adhesion adhesion_;
   const AdhesiveContactOptions& options_;
   const bool periodic_;
-  AdhesiveTarget target_;
+  OperatingPoint point_;
   double highest_ = 0, highest_raised_ = 0, mean_depth_ = 0, reference_ = 1;
   double rms_raised_ = 0;
   bool first_ = true;
@@ -589,10 +575,10 @@ std::optional<std::string> doubt_of_process_zone(const Adhesion& adhesion, const
 }
 
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
-                                    const Target& target, const Adhesion& adhesion,
+                                    const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options) {
   collectively(surface.ranks, [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
-  return AdhesiveSolve(surface, contact_modulus, adhesion, options, target).go();
+  return AdhesiveSolve(surface, contact_modulus, adhesion, options, point).go();
 }
 
 }  // namespace salebra

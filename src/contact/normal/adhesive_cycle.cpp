@@ -23,8 +23,9 @@ class CycleRun {
   }
 
   /// False where the run ends here.
-  bool go_to(const Target& target, bool unloading, std::vector<AdhesiveContactState>& branch) {
-    AdhesiveContactState state = solve(target);
+  bool go_to(const OperatingPoint& point, bool unloading,
+             std::vector<AdhesiveContactState>& branch) {
+    AdhesiveContactState state = solve(point);
     const bool converged = state.converged();
     if (converged && !state.detached) follow(state);
     keep(std::move(state), unloading, branch);
@@ -35,7 +36,7 @@ class CycleRun {
   double pull_off(double first, std::vector<AdhesiveContactState>& branch) {
     double held = 0, parts = 0, pull = 0;
     for (int halvings = 0; halvings <= bisections;) {
-      AdhesiveContactState state = solve({.pressure = -pull});
+      AdhesiveContactState state = solve(at_pressure(-pull));
       if (!state.converged()) {
         keep(std::move(state), true, branch);
         return std::numeric_limits<double>::quiet_NaN();
@@ -55,10 +56,10 @@ class CycleRun {
   }
 
  private:
-  AdhesiveContactState solve(const Target& target) const {
+  AdhesiveContactState solve(const OperatingPoint& point) const {
     AdhesiveContactOptions contact = options_.contact;
     contact.start_tension = tension_.size() > 0 ? &tension_ : nullptr;
-    return press_adhesive(surface_, modulus_, target, adhesion_, contact);
+    return press_adhesive(surface_, modulus_, point, adhesion_, contact);
   }
   void follow(const AdhesiveContactState& state) { tension_ = state.tension; }
   void keep(AdhesiveContactState state, bool unloading,
@@ -160,20 +161,21 @@ bool AdhesiveCycle::converged() const {
 }
 
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
-                             const std::vector<Target>& positions, const Adhesion& adhesion,
+                             const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
                              const AdhesiveCycleOptions& options) {
-  require_that(!positions.empty(), "positions", "none given; name at least one");
+  require_that(!points.empty(), "operating points", "none given; name at least one");
   AdhesiveCycle cycle;
   CycleRun run(surface, contact_modulus, adhesion, options);
-  for (const Target& target : positions)
-    if (!run.go_to(target, false, cycle.loading)) return cycle;
+  for (const OperatingPoint& point : points)
+    if (!run.go_to(point, false, cycle.loading)) return cycle;
   if (!options.unload) return cycle;
   cycle.unloading.push_back(cycle.loading.back());
-  for (auto target = positions.rbegin() + 1; target != positions.rend(); ++target)
-    if (!run.go_to(*target, true, cycle.unloading)) return cycle;
-  const Target& loosest = positions.front();
-  if (loosest.pressure || loosest.force) {
-    const double load = loosest.pressure.value_or(loosest.force.value_or(0) / surface.grid.area());
+  for (auto point = points.rbegin() + 1; point != points.rend(); ++point)
+    if (!run.go_to(*point, true, cycle.unloading)) return cycle;
+  const OperatingPoint& loosest = points.front();
+  if (loosest.load_given()) {
+    const bool by_force = loosest.control == ControlQuantity::normal_force;
+    const double load = by_force ? loosest.value / surface.grid.area() : loosest.value;
     cycle.pull_off_pressure = run.pull_off(
         std::max(std::abs(load) / 4, 1e-3 * adhesion.largest_tension()), cycle.unloading);
     return cycle;

@@ -17,8 +17,9 @@ struct DenseSums {
 
 }  // namespace
 
-ContactResidual contact_residual(const Grid2D& grid, const Share& rows, const ContactTarget& target,
-                                 double rms_height, const double* p, const double* g) {
+ContactResidual contact_residual(const Grid2D& grid, const Share& rows,
+                                 const ScaledOperatingPoint& target, double rms_height,
+                                 const double* p, const double* g) {
   const double bound = target.bound;
   DenseSums total;
   for (const DenseSums& part : parallel::map_blocks<DenseSums>(

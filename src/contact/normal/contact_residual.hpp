@@ -6,6 +6,7 @@
 #include <optional>
 #include <salebra/base/progress.hpp>
 #include <salebra/base/share.hpp>
+#include <salebra/contact/operating_point.hpp>
 
 namespace salebra::detail {
 
@@ -16,14 +17,13 @@ struct Heights {
   double operator[](Index k) const { return values[k] - zero; }
 };
 
-// What is prescribed: the mean pressure, or the level λ of the contact plane (gap = g − λ with g =
-// Gp − h).
-struct ContactTarget {
-  enum class Kind { mean_pressure, level } kind = Kind::mean_pressure;
-  double value = 0;
-  double bound = std::numeric_limits<double>::infinity();  // largest pressure
-
-  bool load_given() const { return kind == Kind::mean_pressure; }
+// The operating point in the units of the solver: a mean pressure, or as indentation the height λ of
+// the contact plane (gap = g − λ with g = Gp − h). No cell carries more than the bound.
+struct ScaledOperatingPoint : OperatingPoint {
+  ScaledOperatingPoint(ControlQuantity held, double at,
+                       double largest = std::numeric_limits<double>::infinity())
+      : OperatingPoint{held, at}, bound(largest) {}
+  double bound;
 };
 
 // Part of the transform's points that may be in tiles in use where the multilevel kernel takes the
@@ -102,7 +102,8 @@ struct ContactResidual {
 // a gap below the latter adds its depth. Saturated cells may lie below the plane, so they count
 // only where they stand above it. p and g are those of the rows of this process, the result that of
 // all. Collective.
-ContactResidual contact_residual(const Grid2D& grid, const Share& rows, const ContactTarget& target,
-                                 double rms_height, const double* p, const double* g);
+ContactResidual contact_residual(const Grid2D& grid, const Share& rows,
+                                 const ScaledOperatingPoint& target, double rms_height,
+                                 const double* p, const double* g);
 
 }  // namespace salebra::detail

@@ -66,14 +66,14 @@ std::optional<NormalContactState> at_top(const Surface& residual, double contact
   options.hardness = std::numeric_limits<double>::infinity();
   options.initial_pressure = &start;
   const NormalContactState mean =
-      press(residual, contact_modulus, {.pressure = nominal_pressure}, options);
+      press(residual, contact_modulus, at_pressure(nominal_pressure), options);
   if (!mean.converged()) return mean;
   const double top = mean.indentation + normal_amplitude;
   if (options.boundary == Boundary::periodic &&
       top >= (residual.heights.maxCoeff() - residual.heights).mean())
     return {};
   options.initial_pressure = &mean.contact_pressure;
-  return press(residual, contact_modulus, {.indentation = top}, options);
+  return press(residual, contact_modulus, at_indentation(top), options);
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
   require(normal_amplitude >= 0 && normal_amplitude < std::numeric_limits<double>::infinity(),
           "normal_amplitude", normal_amplitude, "must be finite and >= 0");
   NormalContactState state =
-      press(surface, contact_modulus, {.pressure = nominal_pressure}, options);
+      press(surface, contact_modulus, at_pressure(nominal_pressure), options);
   if (normal_amplitude == 0)
     return residual_surface(std::move(surface), contact_modulus, state, options);
   ResidualSurface residual = residual_surface(surface, contact_modulus, state, options);
@@ -158,7 +158,7 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
                         format_quantity(load, Dimension::pressure)));
     NormalContactOptions further = options;
     further.initial_pressure = &top->contact_pressure;
-    state = press(surface, contact_modulus, {.pressure = load}, further);
+    state = press(surface, contact_modulus, at_pressure(load), further);
     residual = residual_surface(surface, contact_modulus, state, options);
   }
   return residual;

@@ -213,7 +213,7 @@ class Descent {
   Share rows_;
   double cells_;  // of all processes
   Boundary boundary_;
-  ContactTarget target_;
+  ScaledOperatingPoint target_;
   Eigen::Map<const Field> heights_;
   double zero_;
   Dense p_, g_;

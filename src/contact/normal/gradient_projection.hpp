@@ -18,7 +18,7 @@ struct ProjectionProblem {
   Boundary boundary;
   Heights heights;
   double rms_height;
-  ContactTarget target;
+  ScaledOperatingPoint target;
 };
 void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits& limits, double* p,
                          double* g, ActiveSetOutcome& outcome);

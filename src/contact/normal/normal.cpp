@@ -23,9 +23,9 @@ namespace {
 using detail::ActiveSetCg;
 using detail::ActiveSetLimits;
 using detail::ActiveSetOutcome;
-using detail::ContactTarget;
 using detail::Heights;
 using detail::MultigridLevel;
+using detail::ScaledOperatingPoint;
 
 // Coarse levels only give a start: solving them further gains nothing.
 constexpr double coarse_tolerance = 1e-3;
@@ -167,7 +167,7 @@ class NestedSolve {
     const Share& rows;
     const Heights& heights;
     double rms_height, mean_depth;
-    const ContactTarget& target;
+    const ScaledOperatingPoint& target;
     const NormalContactOptions& options;
   };
 
@@ -189,7 +189,7 @@ class NestedSolve {
       levels_.erase(levels_.begin() + static_cast<std::ptrdiff_t>(k) + 1, levels_.end());
       ActiveSetCg<Real> solver(level.grid, level.rows, 1, options.boundary, level.heights,
                                rms_height);
-      ContactTarget target_here = target;
+      ScaledOperatingPoint target_here = target;
       // The mean height of a coarse grid is another one. At the same level it may be beyond full
       // contact, where no pressure is a solution and CG runs away: a start for the finer grid has
       // its mean gap instead.
@@ -219,9 +219,8 @@ class NestedSolve {
       return pressure;
     }
     if (k + 1 == levels_.size())
-      return Field::Constant(
-          level.rows.count(), level.grid.ny,
-          target.kind == ContactTarget::Kind::mean_pressure ? target.value : 0.0);
+      return Field::Constant(level.rows.count(), level.grid.ny,
+                             target.load_given() ? target.value : 0.0);
     Field pressure = uninitialised_field(level.rows.count(), level.grid.ny);
     const double step = prediction / cell_compliance(level.grid, 1);
     detail::prolong({levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.level},
@@ -271,8 +270,9 @@ class NestedSolve {
   Clock::time_point last_checkpoint_ = Clock::now();
 };
 
-NormalContactState state_of(Solution&& solution, const ContactTarget& target, const Scaled& scaled,
-                            const Surface& surface, const Heights& below_summit, double hardness) {
+NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& target,
+                            const Scaled& scaled, const Surface& surface,
+                            const Heights& below_summit, double hardness) {
   NormalContactState state;
   const ActiveSetOutcome& outcome = solution.outcome;
   const Field& heights = surface.heights;
@@ -344,34 +344,35 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
 
 // Heights count from the highest point, so that the level of the plane is the indentation.
 NormalContactState contact_of(const Surface& surface, double contact_modulus, const Depths& depths,
-                              ContactTarget::Kind kind, double value,
-                              const NormalContactOptions& options) {
+                              const OperatingPoint& point, const NormalContactOptions& options) {
   const Scaled scaled(surface.grid, contact_modulus);
-  const bool load_given = kind == ContactTarget::Kind::mean_pressure;
-  const ContactTarget target{kind, load_given ? value / scaled.pressure_unit : value,
-                             options.hardness / scaled.pressure_unit};
+  const ScaledOperatingPoint scaled_point{
+      point.control, point.load_given() ? point.value / scaled.pressure_unit : point.value,
+      options.hardness / scaled.pressure_unit};
   const Heights heights{surface.heights.data(), depths.highest};
   // A flat punch has no roughness to compare a gap with, and its problem is linear: the
   // displacement is the length.
-  const double displacement =
-      load_given ? value / contact_modulus * std::sqrt(surface.grid.area()) : value;
+  const double displacement = point.load_given()
+                                  ? point.value / contact_modulus * std::sqrt(surface.grid.area())
+                                  : point.value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
   const Share rows = surface.share();
   const auto solve = [&]<class Real>(Real) {  // the coarse grids go when it returns
-    return NestedSolve({scaled, rows, heights, length, depths.mean, target, options}).go<Real>();
+    return NestedSolve({scaled, rows, heights, length, depths.mean, scaled_point, options})
+        .go<Real>();
   };
   auto solution = options.precision == Precision::mixed ? solve(0.0f) : solve(0.0);
-  return state_of(std::move(solution), target, scaled, surface, heights, options.hardness);
+  return state_of(std::move(solution), scaled_point, scaled, surface, heights, options.hardness);
 }
 
-/// The nominal pressure of a target that is a load.
-double checked_pressure(const Target& target, double area, double contact_modulus,
+/// The nominal pressure of a pressure or a force.
+double checked_pressure(const OperatingPoint& point, double area, double contact_modulus,
                         double hardness) {
-  const char* name = target.force ? "force" : "pressure";
-  const double value = target.force ? *target.force : *target.pressure;
-  require_positive(value, name);
-  const double pressure = target.force ? value / area : value;
-  require(pressure <= 1e12 * contact_modulus, name, value,
+  const bool by_force = point.control == ControlQuantity::normal_force;
+  const char* name = by_force ? "force" : "pressure";
+  require_positive(point.value, name);
+  const double pressure = by_force ? point.value / area : point.value;
+  require(pressure <= 1e12 * contact_modulus, name, point.value,
           fmt::format("must not exceed 1e12 times the contact modulus, {} Pa; check the units",
                       contact_modulus));
   require(
@@ -381,52 +382,46 @@ double checked_pressure(const Target& target, double area, double contact_modulu
   return pressure;
 }
 
-/// The indentation of a target that is a mean gap, or the indentation itself.
-double checked_level(const Target& target, double highest, Boundary boundary) {
-  if (target.mean_gap) {
-    require(*target.mean_gap < highest, "mean_gap", *target.mean_gap,
+/// The indentation of a mean gap, or the indentation itself.
+double checked_indentation(const OperatingPoint& point, double highest, Boundary boundary) {
+  if (point.control == ControlQuantity::mean_gap) {
+    require(point.value < highest, "mean_gap", point.value,
             fmt::format("must be below {} m, where the highest point first touches", highest));
     // The mean of Gp is zero, so approach and mean gap add up to the mean gap at first touch.
-    return highest - *target.mean_gap;
+    return highest - point.value;
   }
-  require(boundary == Boundary::free || *target.indentation < highest, "indentation",
-          *target.indentation,
+  require(boundary == Boundary::free || point.value < highest, "indentation", point.value,
           fmt::format("must be below {} m, where a periodic contact is full", highest));
-  return *target.indentation;
+  return point.value;
 }
 
 }  // namespace
 
 ContactSet contact_set(const NormalContactState& state) { return state.contact_pressure > 0; }
 
-NormalContactState press(const Surface& surface, double contact_modulus, const Target& target,
-                         const NormalContactOptions& options) {
+NormalContactState press(const Surface& surface, double contact_modulus,
+                         const OperatingPoint& point, const NormalContactOptions& options) {
   check(surface, contact_modulus, options);
-  const auto& [pressure, mean_gap, indentation, force] = target;
-  require_that(
-      pressure.has_value() + mean_gap.has_value() + indentation.has_value() + force.has_value() ==
-          1,
-      "target", "exactly one of `pressure`, `mean_gap`, `indentation` and `force` must be given");
-  if (pressure || force) {
+  if (point.load_given()) {
     const double nominal =
-        checked_pressure(target, surface.grid.area(), contact_modulus, options.hardness);
+        checked_pressure(point, surface.grid.area(), contact_modulus, options.hardness);
     const Depths depths(surface);
     if (!(depths.rms > 0) && options.boundary == Boundary::periodic)
       return full_contact_of_plane(surface, nominal);
-    return contact_of(surface, contact_modulus, depths, ContactTarget::Kind::mean_pressure, nominal,
-                      options);
+    return contact_of(surface, contact_modulus, depths, at_pressure(nominal), options);
   }
-  if (mean_gap) {
+  if (point.control == ControlQuantity::mean_gap) {
     require(options.boundary == Boundary::periodic, "boundary", "free",
             "has no mean gap; give a force or an indentation");
     require(
         std::isinf(options.hardness), "hardness", options.hardness,
         "makes the mean gap depend on more than the approach; give a pressure or an indentation");
   }
-  require_positive(mean_gap ? *mean_gap : *indentation, mean_gap ? "mean_gap" : "indentation");
+  require_positive(point.value, name_of(point.control));
   const Depths depths(surface);
-  return contact_of(surface, contact_modulus, depths, ContactTarget::Kind::level,
-                    checked_level(target, depths.mean, options.boundary), options);
+  return contact_of(surface, contact_modulus, depths,
+                    at_indentation(checked_indentation(point, depths.mean, options.boundary)),
+                    options);
 }
 
 }  // namespace salebra

@@ -71,7 +71,7 @@ struct CoupledContact::Parts {
       return apart;
     }
     NormalContactState state =
-        salebra::press(lowered, contact_modulus, {.indentation = from_first_touch}, contact);
+        salebra::press(lowered, contact_modulus, at_indentation(from_first_touch), contact);
     state.gap = out.select(state.gap - depth, state.gap);
     return state;
   }

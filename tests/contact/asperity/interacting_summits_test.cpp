@@ -139,7 +139,7 @@ TEST_CASE("Interaction moves the force-gap curve of summits to that of boundary 
     const DeterministicSummits independent(summits, soft, 1, surface.heights.mean());
     const InteractingSummits interacting(summits, soft, surface.grid, surface.heights.mean());
     const NormalContactState exact =
-        press(surface, modulus, {.pressure = force}, {.tolerance = 1e-8});
+        press(surface, modulus, at_pressure(force), {.tolerance = 1e-8});
     REQUIRE(exact.converged());
     const double exact_length = force / normal_stiffness(exact, surface.grid, modulus);
     const double alone = independent.separation_of(force);

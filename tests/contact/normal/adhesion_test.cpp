@@ -164,7 +164,7 @@ TEST_CASE("The energy never rises from contact to contact", "[adhesion]") {
       // The normalisation of forward and backward together is that of forward of its mean.
       if (tension.sum() > 0) raised.heights += lifted / (zero_mode * 1024);
       const NormalContactState contact =
-          press(raised, 1, {.pressure = pressure + tension.mean()}, {.tolerance = 1e-13});
+          press(raised, 1, at_pressure(pressure + tension.mean()), {.tolerance = 1e-13});
       const Field gap = (contact.contact_pressure > 0).select(0, contact.gap.max(0.0));
       const double now = energy(gap);
       CHECK(now <= before + 1e-10 * std::abs(now));
@@ -183,7 +183,7 @@ TEST_CASE("The solver's plain steps do not raise the energy", "[adhesion]") {
   AdhesiveContactState before;
   for (int contacts = 1; contacts <= 8; ++contacts) {
     AdhesiveContactState state =
-        press_adhesive(surface, 1, {.pressure = 0.01}, adhesion,
+        press_adhesive(surface, 1, at_pressure(0.01), adhesion,
                        {.max_outer_iterations = contacts, .start_tension = &none});
     REQUIRE(state.outer_iterations <= contacts);
     const double noise =
@@ -207,7 +207,7 @@ TEST_CASE("Where cells decide what sticks, extrapolation alone leads nowhere", "
   // Without that it stalls at a residual of 0.06.
   const Surface surface = rough_surface(cells(96, 96), {.cutoff = 16, .rms_slope = 1, .seed = 1});
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, {.pressure = 0.01}, {AdhesionPotential::exponential, 0.9, 1.33},
+      press_adhesive(surface, 1, at_pressure(0.01), {AdhesionPotential::exponential, 0.9, 1.33},
                      {.force_coarse = true});
   CHECK(state.converged());
   CHECK(state.cells_in_process_zone == Approx(1.33 * 1.33 / 0.9));
@@ -221,7 +221,7 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
   const double pressure = GENERATE(0.003, 0.03);
   const Surface surface = steep(48);
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, {.pressure = pressure}, adhesion, {.tolerance = 1e-7});
+      press_adhesive(surface, 1, at_pressure(pressure), adhesion, {.tolerance = 1e-7});
   REQUIRE(state.converged());
   const Field gap = (state.contact_pressure > 0).select(0, state.gap.max(0.0));
   Lcg random(5);
@@ -244,7 +244,7 @@ TEST_CASE("An adhesive contact is a minimum that another method finds", "[adhesi
   CHECK(state.mean_gap == Approx(gap.mean()).epsilon(1e-9));
   // The contact sticks: more of it touches than without adhesion.
   CHECK(state.contact_area_fraction >
-        press(surface, 1, {.pressure = pressure}).contact_area_fraction);
+        press(surface, 1, at_pressure(pressure)).contact_area_fraction);
 }
 
 TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[adhesion]") {
@@ -252,14 +252,14 @@ TEST_CASE("A contact at its mean gap or indentation is that at its pressure", "[
   const Surface surface = steep(48, 2);
   const AdhesiveContactOptions options{.tolerance = 1e-7};
   const AdhesiveContactState loaded =
-      press_adhesive(surface, 1, {.pressure = 0.02}, adhesion, options);
+      press_adhesive(surface, 1, at_pressure(0.02), adhesion, options);
   REQUIRE(loaded.converged());
   const double highest_gap = surface.heights.maxCoeff() - surface.heights.mean();
   AdhesiveContactOptions from_there = options;
   from_there.start_tension = &loaded.tension;
-  for (const Target& target :
-       {Target{.mean_gap = loaded.mean_gap}, Target{.indentation = highest_gap - loaded.mean_gap},
-        Target{.force = loaded.force}}) {
+  for (const OperatingPoint& target :
+       {at_mean_gap(loaded.mean_gap), at_indentation(highest_gap - loaded.mean_gap),
+        at_force(loaded.force)}) {
     const AdhesiveContactState same = press_adhesive(surface, 1, target, adhesion, from_there);
     REQUIRE(same.converged());
     // Where the solver stops, t is wrong by its tolerance, and so is the mean of it.
@@ -284,13 +284,13 @@ TEST_CASE("The energy of a contact at a load falls with the load by its indentat
     if (!periodic) options.contact.boundary = Boundary::free;
     const double force = periodic ? 20 : 5;
     const AdhesiveContactState middle =
-        press_adhesive(surface, 1, {.force = force}, adhesion, options);
+        press_adhesive(surface, 1, at_force(force), adhesion, options);
     REQUIRE(middle.converged());
     CHECK(middle.force == Approx(force).epsilon(1e-9));
     options.start_tension = &middle.tension;
     const auto energy_at = [&](double factor) {
       const AdhesiveContactState state =
-          press_adhesive(surface, 1, {.force = factor * force}, adhesion, options);
+          press_adhesive(surface, 1, at_force(factor * force), adhesion, options);
       REQUIRE(state.converged());
       return state.total_energy;
     };
@@ -298,7 +298,7 @@ TEST_CASE("The energy of a contact at a load falls with the load by its indentat
           Approx(periodic ? middle.mean_gap : -middle.indentation).epsilon(1e-4));
     // The same contact by its indentation.
     const AdhesiveContactState same =
-        press_adhesive(surface, 1, {.indentation = middle.indentation}, adhesion, options);
+        press_adhesive(surface, 1, at_indentation(middle.indentation), adhesion, options);
     REQUIRE(same.converged());
     CHECK(same.force == Approx(force).epsilon(1e-6));
   }
@@ -306,9 +306,9 @@ TEST_CASE("The energy of a contact at a load falls with the load by its indentat
 
 TEST_CASE("Without work of adhesion the contact is the ordinary one", "[adhesion]") {
   const Surface surface = steep(48);
-  const NormalContactState ordinary = press(surface, 1, {.pressure = 0.02}, {.tolerance = 1e-9});
+  const NormalContactState ordinary = press(surface, 1, at_pressure(0.02), {.tolerance = 1e-9});
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, {.pressure = 0.02}, {.work = 0, .range = 1}, {.tolerance = 1e-7});
+      press_adhesive(surface, 1, at_pressure(0.02), {.work = 0, .range = 1}, {.tolerance = 1e-7});
   REQUIRE(state.converged());
   CHECK(state.mean_gap == Approx(ordinary.mean_gap).epsilon(1e-6));
   CHECK(state.elastic_energy == Approx(ordinary.elastic_energy).epsilon(1e-6));
@@ -340,7 +340,7 @@ TEST_CASE("A sphere is held by the force of Maugis and Dugdale", "[adhesion]") {
     for (const double a : {1.6, 1.3, 1.15, 1.0}) {
       const AdhesivePoint expected = model.contact(a * off.contact_radius);
       const AdhesiveContactState state =
-          press_adhesive(sphere, 1, {.indentation = expected.indentation}, adhesion, options);
+          press_adhesive(sphere, 1, at_indentation(expected.indentation), adhesion, options);
       REQUIRE(state.converged());
       worst = std::max(worst, std::abs(state.force - expected.force));
       least = std::min(least, state.force);
@@ -381,7 +381,7 @@ TEST_CASE("A wavy surface of short range is Johnson's", "[adhesion]") {
     double worst = 0;
     for (const double gap : {8.0, 10.0, 12.0}) {
       const AdhesiveContactState state =
-          press_adhesive(wavy, 1, {.mean_gap = gap}, adhesion, options);
+          press_adhesive(wavy, 1, at_mean_gap(gap), adhesion, options);
       REQUIRE(state.converged());
       const double psi = pi / 2 * state.contact_area_fraction;
       const double expected =
@@ -403,30 +403,30 @@ TEST_CASE("A sticky surface comes off later than it snapped on, a detached one i
   const Adhesion adhesion{AdhesionPotential::exponential, 0.3, 2};
   const Surface surface = rough_surface(
       cells(48, 48), {.hurst = 0.8, .rolloff = 1, .cutoff = 24, .rms_slope = 0.2, .seed = 3});
-  const AdhesiveContactState pressed = press_adhesive(surface, 1, {.pressure = 0.05}, adhesion);
+  const AdhesiveContactState pressed = press_adhesive(surface, 1, at_pressure(0.05), adhesion);
   REQUIRE(pressed.converged());
   // Held at no load, and by a small pull.
   AdhesiveContactOptions follow;
   follow.start_tension = &pressed.tension;
   const AdhesiveContactState held =
-      press_adhesive(surface, 1, {.pressure = -0.002}, adhesion, follow);
+      press_adhesive(surface, 1, at_pressure(-0.002), adhesion, follow);
   REQUIRE(held.converged());
   CHECK_FALSE(held.detached);
   CHECK(held.contact_area_fraction > 0);
   CHECK(held.mean_pressure == Approx(-0.002).epsilon(1e-6));
   // Without its history the pull parts the surfaces, and beyond all tension with it.
-  CHECK(press_adhesive(surface, 1, {.pressure = -0.1}, adhesion).detached);
+  CHECK(press_adhesive(surface, 1, at_pressure(-0.1), adhesion).detached);
   const AdhesiveContactState parted =
-      press_adhesive(surface, 1, {.pressure = -0.2}, adhesion, follow);
+      press_adhesive(surface, 1, at_pressure(-0.2), adhesion, follow);
   CHECK(parted.converged());
   CHECK(parted.detached);
   CHECK(std::isinf(parted.mean_gap));
   CHECK(parted.contact_area_fraction == 0);
   // Loading at a gap where the other branch still touches: hysteresis.
   const double gap = surface.heights.maxCoeff() - surface.heights.mean() + 1;
-  const AdhesiveContactState loading = press_adhesive(surface, 1, {.mean_gap = gap}, adhesion);
+  const AdhesiveContactState loading = press_adhesive(surface, 1, at_mean_gap(gap), adhesion);
   const AdhesiveContactState unloading =
-      press_adhesive(surface, 1, {.mean_gap = gap}, adhesion, follow);
+      press_adhesive(surface, 1, at_mean_gap(gap), adhesion, follow);
   REQUIRE((loading.converged() && unloading.converged()));
   CHECK(unloading.mean_pressure < 0);
   CHECK(unloading.contact_area_fraction >= loading.contact_area_fraction);
@@ -447,7 +447,7 @@ TEST_CASE("A first loading with adhesion is the adhesive contact of the surface 
   AdhesiveContactOptions options{.tolerance = 1e-8};
   options.contact = {.boundary = boundary, .hardness = hardness};
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, {.pressure = pressure}, adhesion, options);
+      press_adhesive(surface, 1, at_pressure(pressure), adhesion, options);
   REQUIRE(state.converged());
   const ResidualSurface left = residual_surface(surface, 1, state, adhesion, options.contact);
   CHECK(left.first_loading.yielded_area_fraction > 0.15 * state.contact_area_fraction);
@@ -456,7 +456,7 @@ TEST_CASE("A first loading with adhesion is the adhesive contact of the surface 
   options.contact.hardness = std::numeric_limits<double>::infinity();
   options.start_tension = &state.tension;
   const AdhesiveContactState elastic =
-      press_adhesive(left.surface, 1, {.pressure = pressure}, adhesion, options);
+      press_adhesive(left.surface, 1, at_pressure(pressure), adhesion, options);
   REQUIRE(elastic.converged());
   CHECK((elastic.contact_pressure - state.contact_pressure).abs().maxCoeff() < 1e-6);
   CHECK(elastic.elastic_energy == Approx(state.elastic_energy).epsilon(1e-7));
@@ -475,7 +475,7 @@ TEST_CASE("What sinks in under adhesion makes the energy least", "[adhesion][fir
   AdhesiveContactOptions options{.tolerance = 1e-8};
   options.contact.hardness = hardness;
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, {.pressure = pressure}, adhesion, options);
+      press_adhesive(surface, 1, at_pressure(pressure), adhesion, options);
   REQUIRE(state.converged());
   const Field sunk = surface.heights -
                      residual_surface(surface, 1, state, adhesion, options.contact).surface.heights;
@@ -506,8 +506,8 @@ TEST_CASE("Under a tension that reaches far a first loading is that of the load 
   AdhesiveContactOptions options;
   options.contact.hardness = 0.4;
   const AdhesiveContactState state =
-      press_adhesive(surface, 1, {.pressure = 0.02}, adhesion, options);
-  const NormalContactState pulled = press(surface, 1, {.pressure = 0.12}, {.hardness = 0.5});
+      press_adhesive(surface, 1, at_pressure(0.02), adhesion, options);
+  const NormalContactState pulled = press(surface, 1, at_pressure(0.12), {.hardness = 0.5});
   REQUIRE((state.converged() && pulled.converged()));
   CHECK((state.contact_pressure - pulled.contact_pressure).abs().maxCoeff() < 1e-6);
   CHECK(state.mean_gap == Approx(pulled.mean_gap).epsilon(1e-6));
@@ -517,12 +517,12 @@ TEST_CASE("An adhesive plane is in full contact under what its tension allows", 
   Surface plane{cells(16, 16), Field::Constant(16, 16, 3.0), true, "test"};
   const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 2};
   const double pressure = GENERATE(0.01, -0.01);
-  const AdhesiveContactState state = press_adhesive(plane, 1, {.pressure = pressure}, adhesion);
+  const AdhesiveContactState state = press_adhesive(plane, 1, at_pressure(pressure), adhesion);
   REQUIRE(state.converged());
   CHECK(state.contact_area_fraction == 1);
   CHECK(state.contact_pressure.mean() == Approx(pressure + 0.05));
   CHECK(state.adhesive_energy == Approx(-0.1 * 256));
-  CHECK(press_adhesive(plane, 1, {.pressure = -0.051}, adhesion).detached);
+  CHECK(press_adhesive(plane, 1, at_pressure(-0.051), adhesion).detached);
 }
 
 TEST_CASE("An adhesive contact has the same bits for every number of threads and processes",
@@ -530,7 +530,7 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
   const Adhesion adhesion{AdhesionPotential::exponential, 0.1, 3};
   const Surface surface = steep(96, GENERATE(1u, 2u, 3u, 4u));
   const auto solve = [&](const Surface& mine) {
-    return press_adhesive(mine, 1, {.pressure = 0.01}, adhesion, {.tolerance = 1e-4});
+    return press_adhesive(mine, 1, at_pressure(0.01), adhesion, {.tolerance = 1e-4});
   };
   parallel::set_threads(1);
   const AdhesiveContactState one = solve(surface);
@@ -561,8 +561,8 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
   // So has a cycle, whose states follow from each other.
   const auto work = [&](int threads) {
     parallel::set_threads(threads);
-    return adhesive_cycle(steep(32), 1, {{.mean_gap = 9}, {.mean_gap = 5}, {.mean_gap = 3}},
-                          adhesion, {.unload = true});
+    return adhesive_cycle(steep(32), 1, {at_mean_gap(9), at_mean_gap(5), at_mean_gap(3)}, adhesion,
+                          {.unload = true});
   };
   const AdhesiveCycle cycle = work(1);
   REQUIRE(cycle.converged());
@@ -574,7 +574,7 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
 TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
   const Surface surface = steep(32);
   const Adhesion good{AdhesionPotential::exponential, 0.1, 2};
-  const auto message = [&](const Target& target, const Adhesion& adhesion,
+  const auto message = [&](const OperatingPoint& target, const Adhesion& adhesion,
                            const AdhesiveContactOptions& options) -> std::string {
     try {
       press_adhesive(surface, 1, target, adhesion, options);
@@ -583,7 +583,7 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
     }
     return "";
   };
-  const Target load{.pressure = 0.01};
+  const OperatingPoint loadat_pressure(0.01);
   CHECK(message(load, {.work = -1, .range = 1}, {}).find("work_of_adhesion") == 0);
   CHECK(message(load, {.work = 1, .range = 0}, {}).find("adhesion_range") == 0);
   const std::string coarse = message(load, {.work = 1, .range = 0.5}, {});
@@ -591,10 +591,8 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
   CHECK(coarse.find("force_coarse") != std::string::npos);
   CHECK(coarse.find('\n') == std::string::npos);
   CHECK(message(load, {.work = 1, .range = 1}, {.force_coarse = true}).empty());
-  CHECK(message({}, good, {}).find("target") == 0);
-  CHECK(message({.pressure = 1, .force = 1}, good, {}).find("target") == 0);
-  CHECK(message({.mean_gap = 0}, good, {}).find("mean_gap") == 0);
-  CHECK(message({.indentation = 1e3}, good, {}).find("indentation") == 0);
+  CHECK(message(at_mean_gap(0), good, {}).find("mean_gap") == 0);
+  CHECK(message(at_indentation(1e3), good, {}).find("indentation") == 0);
   CHECK(message(load, good, {.tolerance = 0}).find("tolerance") == 0);
   CHECK(message(load, good, {.max_outer_iterations = 0}).find("max_outer") == 0);
   const Field short_start = Field::Zero(3, 3);
@@ -602,14 +600,14 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
   AdhesiveContactOptions hard;
   hard.contact.hardness = 0.005;
   CHECK(message(load, good, hard).find("pressure") == 0);
-  CHECK(message({.pressure = -0.001}, good, hard).find("pressure") == 0);
-  CHECK(message({.mean_gap = 1}, good, hard).find("mean_gap") == 0);
+  CHECK(message(at_pressure(-0.001), good, hard).find("pressure") == 0);
+  CHECK(message(at_mean_gap(1), good, hard).find("mean_gap") == 0);
   hard.contact.hardness = 0;
   CHECK(message(load, good, hard).find("hardness") == 0);
   AdhesiveContactOptions isolated;
   isolated.contact.boundary = Boundary::free;
   CHECK(message(load, {AdhesionPotential::exponential, 0.1, 50}, isolated).find("boundary") == 0);
-  CHECK(message({.mean_gap = 1}, good, isolated).find("boundary") == 0);
+  CHECK(message(at_mean_gap(1), good, isolated).find("boundary") == 0);
 
   const AdhesiveContactState unfinished =
       press_adhesive(surface, 1, load, good, {.max_outer_iterations = 2});
@@ -627,11 +625,12 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
 namespace {
 
 /// Mean gaps from beyond every force to a part of that of first touch.
-std::vector<Target> way_in(const Surface& surface, double from, int steps, double closed = 0.6) {
+std::vector<OperatingPoint> way_in(const Surface& surface, double from, int steps,
+                                   double closed = 0.6) {
   const double touch = surface.heights.maxCoeff() - surface.heights.mean();
-  std::vector<Target> positions;
+  std::vector<OperatingPoint> positions;
   for (int k = 0; k <= steps; ++k)
-    positions.push_back({.mean_gap = from + (closed * touch - from) * k / steps});
+    positions.push_back(at_mean_gap(from + (closed * touch - from) * k / steps));
   return positions;
 }
 
@@ -688,8 +687,8 @@ TEST_CASE("Out of the closest position no work is lost below the amplitude that 
   options.on_state = [&](bool unloading, const AdhesiveContactState& state) {
     if (!unloading) tensions.push_back(state.tension);
   };
-  std::vector<Target> positions;
-  for (int k = 0; k <= 24; ++k) positions.push_back({.indentation = -10 + 0.5 * k});
+  std::vector<OperatingPoint> positions;
+  for (int k = 0; k <= 24; ++k) positions.push_back(at_indentation(-10 + 0.5 * k));
   const AdhesiveCycle cycle = adhesive_cycle(sphere, 1, positions, adhesion, options);
   REQUIRE(cycle.converged());
   REQUIRE(cycle.reversible() == false);
@@ -715,8 +714,8 @@ TEST_CASE("Under pressures a cycle pulls until the surfaces part", "[adhesion]")
       cells(32, 32), {.hurst = 0.8, .rolloff = 1, .cutoff = 16, .rms_slope = 0.2, .seed = 3});
   const Adhesion sticky{AdhesionPotential::exponential, 0.3, 2};
   const AdhesiveCycle cycle =
-      adhesive_cycle(surface, 1, {{.pressure = 0.005}, {.pressure = 0.02}, {.pressure = 0.05}},
-                     sticky, {.unload = true});
+      adhesive_cycle(surface, 1, {at_pressure(0.005), at_pressure(0.02), at_pressure(0.05)}, sticky,
+                     {.unload = true});
   REQUIRE(cycle.converged());
   REQUIRE(cycle.unloading.size() > 4);
   CHECK(cycle.unloading[2].mean_pressure == Approx(0.005).epsilon(1e-6));
@@ -729,10 +728,10 @@ TEST_CASE("Under pressures a cycle pulls until the surfaces part", "[adhesion]")
       adhesive_cycle(surface, 1, way_in(surface, 40, 80, 0.05), sticky, {.unload = true});
   CHECK(by_gap.pull_off_pressure == Approx(cycle.pull_off_pressure).epsilon(0.05));
   // By 3 % more the last state comes off.
-  std::vector<Target> way{{.pressure = 0.05}};
+  std::vector<OperatingPoint> way{at_pressure(0.05)};
   for (const AdhesiveContactState& state : cycle.unloading)
-    way.push_back({.pressure = state.mean_pressure});
-  way.push_back({.pressure = -1.03 * cycle.pull_off_pressure});
+    way.push_back(at_pressure(state.mean_pressure));
+  way.push_back(at_pressure(-1.03 * cycle.pull_off_pressure));
   const AdhesiveCycle once_more = adhesive_cycle(surface, 1, way, sticky);
   CHECK_FALSE(once_more.loading[way.size() - 2].detached);
   CHECK(once_more.loading.back().detached);

@@ -25,7 +25,7 @@ Watched watch(const Surface& surface, double pressure, NormalContactOptions opti
   Watched watched;
   options.checkpoint_every = 0;
   options.on_checkpoint = [&](const Field& present) { watched.pressures.push_back(present); };
-  watched.state = press(surface, 1, {.pressure = pressure}, options);
+  watched.state = press(surface, 1, at_pressure(pressure), options);
   return watched;
 }
 
@@ -45,7 +45,7 @@ TEST_CASE("Checkpoints change no bit of a contact, and a later one starts from t
   SECTION("of an isolated surface") { options.boundary = Boundary::free; }
   const auto length = static_cast<double>(side);
   const Surface surface = test::rough_surface({side, side, length, length});
-  const NormalContactState plain = press(surface, 1, {.pressure = pressure}, options);
+  const NormalContactState plain = press(surface, 1, at_pressure(pressure), options);
   REQUIRE(plain.converged());
   const Watched watched = watch(surface, pressure, options);
   CHECK(watched.state.iterations == plain.iterations);
@@ -66,7 +66,7 @@ TEST_CASE("Checkpoints change no bit of a contact, and a later one starts from t
   // error, hence 1e-10 leaves 1e-5 of the gap.
   const Field start = watched.pressures[watched.pressures.size() / 2].cast<float>().cast<double>();
   options.initial_pressure = &start;
-  const NormalContactState continued = press(surface, 1, {.pressure = pressure}, options);
+  const NormalContactState continued = press(surface, 1, at_pressure(pressure), options);
   CHECK(continued.converged());
   CHECK(continued.iterations < plain.iterations);
   CHECK(continued.mean_gap == Approx(plain.mean_gap).epsilon(1e-5));
@@ -89,7 +89,7 @@ TEST_CASE("A checkpoint of processes has the bits of one, when the root's clock 
       if (!(whole.middleRows(rows.begin(), rows.count()) == present).all())
         throw Error("another pressure");
     };
-    press(mine, 1, {.pressure = 5e-3}, options);
+    press(mine, 1, at_pressure(5e-3), options);
     if (count != (by_root ? alone.pressures.size() : 0)) throw Error("not by the root's clock");
   });
 }
@@ -129,6 +129,6 @@ TEST_CASE("Gradient projection keeps its bits beside checkpoints too", "[normal]
 TEST_CASE("A time between checkpoints that is none is refused", "[normal]") {
   const Surface surface = test::rough_surface({16, 16, 16, 16}, {.rolloff = 1, .cutoff = 6});
   const double every = GENERATE(-1.0, std::numeric_limits<double>::quiet_NaN());
-  CHECK_THROWS_WITH(press(surface, 1, {.pressure = 5e-3}, {.checkpoint_every = every}),
+  CHECK_THROWS_WITH(press(surface, 1, at_pressure(5e-3), {.checkpoint_every = every}),
                     Catch::Contains("checkpoint_every"));
 }

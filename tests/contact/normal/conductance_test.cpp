@@ -61,7 +61,7 @@ TEST_CASE("The conductance by the stiffness is that of a potential solve on the 
   constexpr double modulus = 2e9, first = 3e-8, second = 5e-7;
   const double part = GENERATE(0.02, 0.1);
   const NormalContactState state =
-      press(rough_surface(grid), modulus, {.pressure = part * 0.1 * modulus});
+      press(rough_surface(grid), modulus, at_pressure(part * 0.1 * modulus));
   REQUIRE(state.converged());
   const ContactSet set = contact_set(state);
   // Both bodies have the potential of one with the sum of the resistivities.

@@ -80,7 +80,7 @@ TEST_CASE("The corrected area of a coarse grid is that of a fine one", "[spots]"
     const auto spots_of = [&](Index points) {
       const Surface surface = filtered_noise({points, points, 1, 1}, spectrum, seed);
       const NormalContactState state =
-          press(surface, 1, {.pressure = 0.02 * 0.1}, {.tolerance = 1e-8});
+          press(surface, 1, at_pressure(0.02 * 0.1), {.tolerance = 1e-8});
       REQUIRE(state.converged());
       return contact_spots(state.contact_pressure, surface.grid);
     };

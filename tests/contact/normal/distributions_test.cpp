@@ -30,7 +30,7 @@ double first_moment(const std::vector<double>& at, const std::vector<double>& de
 TEST_CASE("Densities of pressure and gap add up to the contact and to what is out of it",
           "[distributions]") {
   const Grid2D grid{64, 64, 1e-3, 1e-3};
-  const NormalContactState state = press(rough_surface(grid), 1e9, {.pressure = 5e6});
+  const NormalContactState state = press(rough_surface(grid), 1e9, at_pressure(5e6));
   const int bins = GENERATE(1, 7, 200);
   const ContactDistributions found = contact_distributions(state, grid, bins);
   REQUIRE(found.contact_pressure.size() == static_cast<std::size_t>(bins));
@@ -56,7 +56,7 @@ TEST_CASE("The pressures of a sphere are distributed as Hertz has it", "[distrib
   const Surface sphere = surface_of(grid, [&](double x, double y) {
     return -(std::pow(x - 5e-4, 2) + std::pow(y - 5e-4, 2)) / (2 * radius);
   });
-  const NormalContactState state = press(sphere, 1e9, {.force = 8}, {.boundary = Boundary::free});
+  const NormalContactState state = press(sphere, 1e9, at_force(8), {.boundary = Boundary::free});
   REQUIRE(state.converged());
   const double contact_radius = std::cbrt(3 * state.force * radius / (4 * 1e9));
   const double peak = 1.5 * state.force / (std::numbers::pi * std::pow(contact_radius, 2));
@@ -74,7 +74,7 @@ TEST_CASE("Distributions of a contact that is spread have the bits of one proces
           "[distributions][share]") {
   const Grid2D grid{96, 50, 1e-3, 1e-3};
   const NormalContactState whole =
-      press(rough_surface(grid), 1e9, {.pressure = 5e6}, {.tolerance = 1e-6});
+      press(rough_surface(grid), 1e9, at_pressure(5e6), {.tolerance = 1e-6});
   const ContactDistributions alone = contact_distributions(whole, grid);
   std::atomic<int> right = 0;
   salebra::testing::run_ranks(3, [&](const Communicator& ranks) {

@@ -37,7 +37,7 @@ Surface rough() { return rough_surface({64, 64, 1e-3, 1e-3}); }
 
 /// The largest elastic pressure of rough(), Pa.
 double largest_elastic_pressure(Boundary boundary) {
-  return press(rough(), contact_modulus, {.pressure = pressure}, elastic(contact(boundary, 1)))
+  return press(rough(), contact_modulus, at_pressure(pressure), elastic(contact(boundary, 1)))
       .contact_pressure.maxCoeff();
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   const double share = GENERATE(0.6, 0.3, 0.1);
   const Surface surface = rough();
   const auto options = contact(boundary, share * largest_elastic_pressure(boundary));
-  const auto loaded = press(surface, contact_modulus, {.pressure = pressure}, options);
+  const auto loaded = press(surface, contact_modulus, at_pressure(pressure), options);
   const ResidualSurface residual = after_first_loading(surface, contact_modulus, pressure, options);
   REQUIRE(residual.converged());
   const FirstLoading& first = residual.first_loading;
@@ -101,7 +101,7 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   CHECK(depth.maxCoeff() == Approx(first.max_plastic_depth).epsilon(1e-9));
 
   const auto unloading =
-      press(residual.surface, contact_modulus, {.pressure = pressure}, elastic(options));
+      press(residual.surface, contact_modulus, at_pressure(pressure), elastic(options));
   REQUIRE(unloading.converged());
   // e_c is a mean of gaps where there is contact: the energy, second order in the error of the
   // pressure, is good to it, pressures to its root, 1e-6. Gaps follow the displacement.
@@ -162,8 +162,8 @@ TEST_CASE("An oscillation about the first load stays below the hardness", "[firs
   REQUIRE(moved.converged());
   const auto largest_pressure = [&](const ResidualSurface& residual) {
     const auto mean =
-        press(residual.surface, contact_modulus, {.pressure = pressure}, elastic(options));
-    return press(residual.surface, contact_modulus, {.indentation = mean.indentation + amplitude},
+        press(residual.surface, contact_modulus, at_pressure(pressure), elastic(options));
+    return press(residual.surface, contact_modulus, at_indentation(mean.indentation + amplitude),
                  elastic(options));
   };
   const auto top = largest_pressure(moved);
@@ -180,7 +180,7 @@ TEST_CASE("A load that the hardness cannot carry is refused", "[first_loading]")
   CHECK_THROWS_WITH(after_first_loading(surface, contact_modulus, 1.06 * pressure, options),
                     Catch::Contains("hardness: 10.5 MPa must exceed the nominal pressure"));
   // Nearly all of the area flows, and what is left open closes on a short way.
-  const double gap = press(surface, contact_modulus, {.pressure = pressure}, options).mean_gap;
+  const double gap = press(surface, contact_modulus, at_pressure(pressure), options).mean_gap;
   CHECK_THROWS_WITH(after_first_loading(surface, contact_modulus, pressure, options, 0.5 * gap),
                     Catch::Contains("hardness: 10.5 MPa must exceed the largest mean pressure of "
                                     "the oscillation"));
@@ -219,13 +219,13 @@ struct Unloading {
     const ResidualSurface residual =
         after_first_loading(surface, contact_modulus, force / grid.area(), options);
     REQUIRE(residual.converged());
-    const auto top = press(residual.surface, contact_modulus, {.pressure = force / grid.area()},
+    const auto top = press(residual.surface, contact_modulus, at_pressure(force / grid.area()),
                            elastic(options));
     indentation = top.indentation;
     radius = normal_stiffness(top, grid, contact_modulus, elastic(options)) / (2 * contact_modulus);
     for (const double part : {0.2, 0.4, 0.6, 0.8}) {
       share.push_back(part);
-      forces.push_back(press(residual.surface, contact_modulus, {.indentation = part * indentation},
+      forces.push_back(press(residual.surface, contact_modulus, at_indentation(part * indentation),
                              elastic(options))
                            .force);
     }

@@ -78,7 +78,7 @@ double direct_flow_factor(const Field& gap, const Grid2D& grid, bool along_x) {
 Field contact_gap(const Grid2D& grid, std::uint64_t seed, double pressure) {
   const Surface surface = rough_surface(grid, {.rms_slope = 0.1, .seed = seed});
   const NormalContactState state =
-      press(surface, modulus, {.pressure = pressure * 0.1 * modulus}, {.tolerance = 1e-8});
+      press(surface, modulus, at_pressure(pressure * 0.1 * modulus), {.tolerance = 1e-8});
   return (state.contact_pressure > 0).select(0, state.gap.max(0.0));
 }
 
@@ -265,7 +265,7 @@ TEST_CASE("Flow ends where 0.42 of the area touches", "[flow]") {
     while (closed - open > 2e-3) {
       const double middle = 0.5 * (open + closed);
       const NormalContactState state =
-          press(surface, modulus, {.pressure = middle * 0.1 * modulus}, {.tolerance = 1e-5});
+          press(surface, modulus, at_pressure(middle * 0.1 * modulus), {.tolerance = 1e-5});
       const bool percolates = flow_factors(state, grid, {.tolerance = 0.1}).percolates_x;
       (percolates ? open : closed) = middle;
       (percolates ? area_open : area_closed) = state.contact_area_fraction;
@@ -315,7 +315,7 @@ TEST_CASE("Flow factors do not depend on units, and cells under load are closed"
   const Grid2D grid{64, 64, 1e-3, 1e-3};
   const Surface surface = rough_surface(grid);
   NormalContactState state =
-      press(surface, modulus, {.pressure = 0.05 * modulus * 0.1}, {.tolerance = 1e-6});
+      press(surface, modulus, at_pressure(0.05 * modulus * 0.1), {.tolerance = 1e-6});
   const Field gap = (state.contact_pressure > 0).select(0, state.gap);
   const FlowFactors flow = flow_of(gap), of_state = flow_factors(state, grid);
   CHECK(of_state.pressure_flow_factor_x == flow.pressure_flow_factor_x);

@@ -161,9 +161,9 @@ TEST_CASE(
       // First touch is at the summit of the paraboloid, which lies between the points of the grid.
       const double touch = -surface.heights.maxCoeff();
       const auto held =
-          press(surface, contact_modulus, {.indentation = approach - touch}, free_contact());
-      const auto loaded = press(surface, contact_modulus, {.pressure = force / surface.grid.area()},
-                                free_contact());
+          press(surface, contact_modulus, at_indentation(approach - touch), free_contact());
+      const auto loaded =
+          press(surface, contact_modulus, at_pressure(force / surface.grid.area()), free_contact());
       REQUIRE((held.converged() && loaded.converged()));
       const auto add = [](double& sum, double value, double exact) {
         sum += std::abs(value / exact - 1) / 6;
@@ -197,13 +197,13 @@ TEST_CASE("Hertz: force, indentation and stiffness are one curve", "[normal]") {
   const Surface surface = paraboloid(96, 1e-3, 1e-2);
   const double indentation = 5e-6;
   const auto options = free_contact();
-  const auto state = press(surface, contact_modulus, {.indentation = indentation}, options);
+  const auto state = press(surface, contact_modulus, at_indentation(indentation), options);
   REQUIRE(state.converged());
   CHECK(state.indentation == Approx(indentation).epsilon(1e-12));
   CHECK(state.force ==
         Approx(4.0 / 3 * contact_modulus * std::sqrt(1e-2) * std::pow(indentation, 1.5))
             .epsilon(2e-3));
-  const auto back = press(surface, contact_modulus, {.pressure = state.mean_pressure}, options);
+  const auto back = press(surface, contact_modulus, at_pressure(state.mean_pressure), options);
   CHECK(back.indentation == Approx(indentation).epsilon(1e-8));
   // K = 2E*a; the contact radius is known to half a cell in fifty.
   const double stiffness = normal_stiffness(state, surface.grid, contact_modulus, options);
@@ -215,13 +215,13 @@ TEST_CASE("A flat square punch is linear: its force is its stiffness times its i
   const double side = 1e-3, indentation = 1e-6;
   const auto stiffness = [&](Index n) {
     const Surface punch = surface_of({n, n, side, side}, [](double, double) { return 0.25; });
-    const auto state = press(punch, contact_modulus, {.indentation = indentation}, free_contact());
+    const auto state = press(punch, contact_modulus, at_indentation(indentation), free_contact());
     REQUIRE(state.converged());
     CHECK(state.contact_area_fraction == 1);
     const double value = normal_stiffness(state, punch.grid, contact_modulus, free_contact());
     CHECK(value * indentation == Approx(state.force).epsilon(1e-8));
     const auto back =
-        press(punch, contact_modulus, {.pressure = state.mean_pressure}, free_contact());
+        press(punch, contact_modulus, at_pressure(state.mean_pressure), free_contact());
     CHECK(back.indentation == Approx(indentation).epsilon(1e-8));
     return value / (contact_modulus * side);
   };
@@ -241,7 +241,7 @@ TEST_CASE("A free contact does not feel the size of its grid", "[normal]") {
     const Surface surface = surface_of({n, n, side, side}, [=](double x, double y) {
       return -(std::pow(x - side / 2, 2) + std::pow(y - side / 2, 2)) / 2e-2 + 0 * cell;
     });
-    return press(surface, contact_modulus, {.pressure = 0.2 / surface.grid.area()},
+    return press(surface, contact_modulus, at_pressure(0.2 / surface.grid.area()),
                  free_contact(1e-13));
   };
   const auto small = pressed(48, 0.6e-3), large = pressed(80, 1e-3);
@@ -261,8 +261,8 @@ TEST_CASE("A free contact does not feel where on its grid it lies, nor from wher
           1e-3 - (std::pow(double(i) - 19.6 - 17, 2) + std::pow(double(j) - 21.3 - 13, 2)) *
                      surface.grid.cell_area() / 8e-3;
   const double pressure = 0.3 / surface.grid.area();
-  const auto here = press(surface, contact_modulus, {.pressure = pressure}, free_contact(1e-14));
-  const auto there = press(moved, contact_modulus, {.pressure = pressure}, free_contact(1e-14));
+  const auto here = press(surface, contact_modulus, at_pressure(pressure), free_contact(1e-14));
+  const auto there = press(moved, contact_modulus, at_pressure(pressure), free_contact(1e-14));
   REQUIRE((here.converged() && there.converged()));
   CHECK(here.contact_area_fraction > 0.01);
   CHECK(there.contact_area_fraction == here.contact_area_fraction);
@@ -272,9 +272,9 @@ TEST_CASE("A free contact does not feel where on its grid it lies, nor from wher
 
 TEST_CASE("A free contact names what it does not have", "[normal]") {
   const Surface surface = paraboloid(16, 1e-3, 1e-2);
-  CHECK_THROWS_WITH(press(surface, contact_modulus, {.mean_gap = 1e-6}, free_contact()),
+  CHECK_THROWS_WITH(press(surface, contact_modulus, at_mean_gap(1e-6), free_contact()),
                     Catch::Contains("boundary"));
-  CHECK_THROWS_AS(press(surface, contact_modulus, {.indentation = -1e-6}, free_contact()),
+  CHECK_THROWS_AS(press(surface, contact_modulus, at_indentation(-1e-6), free_contact()),
                   InvalidInput);
 }
 
@@ -286,9 +286,9 @@ TEST_CASE("Saturated cells carry exactly the hardness, and forces balance", "[no
   options.boundary = boundary;
   options.precision = precision;
   const double pressure = 1e7;
-  const auto elastic = press(surface, contact_modulus, {.pressure = pressure}, options);
+  const auto elastic = press(surface, contact_modulus, at_pressure(pressure), options);
   options.hardness = 0.3 * elastic.contact_pressure.maxCoeff();
-  const auto state = press(surface, contact_modulus, {.pressure = pressure}, options);
+  const auto state = press(surface, contact_modulus, at_pressure(pressure), options);
   REQUIRE(state.converged());
   CHECK(state.contact_pressure.maxCoeff() == options.hardness);
   const Index saturated = (state.contact_pressure == options.hardness).count();
@@ -300,10 +300,10 @@ TEST_CASE("Saturated cells carry exactly the hardness, and forces balance", "[no
   CHECK(normal_stiffness(state, surface.grid, contact_modulus, options) > 0);
   // A hardness that no cell reaches changes nothing.
   options.hardness = 1.01 * elastic.contact_pressure.maxCoeff();
-  CHECK(press(surface, contact_modulus, {.pressure = pressure}, options).mean_gap ==
+  CHECK(press(surface, contact_modulus, at_pressure(pressure), options).mean_gap ==
         Approx(elastic.mean_gap).epsilon(1e-6));
   options.hardness = pressure;
-  CHECK_THROWS_WITH(press(surface, contact_modulus, {.pressure = pressure}, options),
+  CHECK_THROWS_WITH(press(surface, contact_modulus, at_pressure(pressure), options),
                     Catch::Contains("hardness"));
 }
 
@@ -313,7 +313,7 @@ TEST_CASE("Hardness that most of the load meets: soft as a cushion, still a solu
   const Surface surface = rough_surface({64, 64, 1e-3, 1e-3});
   NormalContactOptions options;
   options.hardness = hardness;
-  const auto state = press(surface, contact_modulus, {.pressure = 1e6}, options);
+  const auto state = press(surface, contact_modulus, at_pressure(1e6), options);
   REQUIRE(state.converged());
   CHECK(state.contact_pressure.mean() == Approx(1e6).epsilon(1e-10));
   CHECK(state.contact_pressure.maxCoeff() == hardness);

@@ -23,7 +23,7 @@ struct Solved {
 };
 
 // On one grid of unit cells with E* = 1, from a start that the next coarser grid gives.
-Solved solve(const Surface& surface, Boundary boundary, const ContactTarget& target,
+Solved solve(const Surface& surface, Boundary boundary, const ScaledOperatingPoint& target,
              double tolerance, MultilevelShare share) {
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
@@ -57,9 +57,9 @@ Surface unit_cells(Index nx, Index ny, std::uint64_t seed, double cutoff = 8, do
                              roughness);
 }
 
-ContactTarget pressed(double load, double bound = infinite) {
+ScaledOperatingPoint pressed(double load, double bound = infinite) {
   // load is p/(E*·rms slope), and the slope is 0.1.
-  return {ContactTarget::Kind::mean_pressure, 0.1 * load, bound};
+  return {ControlQuantity::pressure, 0.1 * load, bound};
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
   struct Case {
     Surface surface;
     Boundary boundary;
-    ContactTarget target;
+    ScaledOperatingPoint target;
     int most_pairs;
   };
   int contacts = 0, multilevel_pairs = 0, applications = 0, transform_pairs = 0;
@@ -78,7 +78,7 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
        {Case{square, Boundary::periodic, pressed(0.005), 8},
         Case{square, Boundary::periodic, pressed(0.1), 8},
         Case{square, Boundary::periodic, pressed(1.2), 8},
-        Case{square, Boundary::periodic, {ContactTarget::Kind::level, 0.5 * depth}, 8},
+        Case{square, Boundary::periodic, {ControlQuantity::indentation, 0.5 * depth}, 8},
         Case{square, Boundary::periodic, pressed(0.02, 0.03), 12},
         Case{unit_cells(512, 512, 2, 2), Boundary::periodic, pressed(0.02), 8},
         Case{unit_cells(300, 500, 3), Boundary::periodic, pressed(0.02), 8},
@@ -158,7 +158,7 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the multilev
       limits.multilevel_share = 1.0;
       ActiveSetCg<float> solver(surface.grid, 1, Boundary::free, heights, rms);
       const ActiveSetOutcome outcome =
-          solver.solve({ContactTarget::Kind::level, depth * rms}, limits, p.data(), g.data());
+          solver.solve({ControlQuantity::indentation, depth * rms}, limits, p.data(), g.data());
       CHECK(outcome.converged());
       CHECK(outcome.multilevel_count > 0);
       // It takes as many as from any start: seven are measured. With the tiles of the patch alone
@@ -170,7 +170,7 @@ TEST_CASE("Tiles that come into contact only after a refresh are on the multilev
 TEST_CASE(
     "Wherever the plane is expected, the contact is the same and its gap is there everywhere") {
   const Surface surface = unit_cells(512, 512, 4);
-  const ContactTarget target = pressed(0.01);
+  const ScaledOperatingPoint target = pressed(0.01);
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const auto solved = [&](std::optional<double> expected, MultilevelShare share) {

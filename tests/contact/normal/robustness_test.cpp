@@ -34,7 +34,7 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
       CHECK(independent_residual(state.contact_pressure, contact.surface, 1, boundary) <
             1.1 * tolerance);
     };
-    const auto state = press(contact.surface, 1, {.pressure = contact.pressure}, options);
+    const auto state = press(contact.surface, 1, at_pressure(contact.pressure), options);
     sound(state);
     CHECK(state.contact_pressure.mean() == Approx(contact.pressure).epsilon(1e-10));
     const double first_touch = contact.surface.heights.maxCoeff() - contact.surface.heights.mean();
@@ -44,8 +44,8 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
         (state.mean_gap < 1e-6 * first_touch || state.mean_gap > (1 - 1e-9) * first_touch))
       continue;
     const auto back = periodic
-                          ? press(contact.surface, 1, {.mean_gap = state.mean_gap}, options)
-                          : press(contact.surface, 1, {.indentation = state.indentation}, options);
+                          ? press(contact.surface, 1, at_mean_gap(state.mean_gap), options)
+                          : press(contact.surface, 1, at_indentation(state.indentation), options);
     sound(back);
     // e_c is an energy; pressures differ by its root.
     CHECK(back.mean_pressure == Approx(contact.pressure).epsilon(10 * std::sqrt(tolerance)));
@@ -56,7 +56,7 @@ void check(const AwkwardContact& contact, Boundary boundary = Boundary::periodic
 struct SingleGrid {
   Surface surface = rough_surface({64, 64, 64, 64}, {.rms_slope = 0.1});
   double rms = rms_height(surface);
-  detail::ContactTarget target{detail::ContactTarget::Kind::mean_pressure, 0.005};
+  detail::ScaledOperatingPoint target{ControlQuantity::pressure, 0.005};
   detail::ActiveSetLimits limits{.tolerance = 1e-12};
   Field p = Field::Constant(64, 64, 0.005), g = Field::Zero(64, 64);
 
@@ -93,13 +93,13 @@ TEST_CASE("A contact is found by its mean gap where coarse grids have another me
       if (i % 2 == 1 || j % 2 == 1) surface.heights(i, j) -= lowered * rms;
   NormalContactOptions options;
   options.precision = GENERATE(Precision::mixed, Precision::full);
-  const auto state = press(surface, 1, {.pressure = pressure}, options);
+  const auto state = press(surface, 1, at_pressure(pressure), options);
   REQUIRE(state.converged());
   REQUIRE(state.contact_area_fraction > least);
   REQUIRE(state.contact_area_fraction < most);
   // 3/4 of the cells are lowered, none of a coarse grid.
   REQUIRE(state.mean_gap < 0.75 * lowered * rms);
-  const auto back = press(surface, 1, {.mean_gap = state.mean_gap}, options);
+  const auto back = press(surface, 1, at_mean_gap(state.mean_gap), options);
   CHECK(back.converged());
   CHECK(independent_residual(back.contact_pressure, surface, 1) < 1.1 * options.tolerance);
   // e_c is an energy; pressures differ by its root.
@@ -115,7 +115,7 @@ TEST_CASE("A single point and constant heights are in full contact under any pre
   for (const Index n : {1, 24})
     for (const double pressure : {1e-6, 1.0, 1e6}) {
       const Surface plane = surface_of({n, n, 1, 1}, [](double, double) { return -3.25; });
-      const auto state = press(plane, 1, {.pressure = pressure}, options);
+      const auto state = press(plane, 1, at_pressure(pressure), options);
       CHECK(state.converged());
       CHECK(state.contact_area_fraction == 1);
       CHECK(state.contact_pressure.mean() == Approx(pressure).epsilon(1e-12));
@@ -146,7 +146,7 @@ TEST_CASE("Measured surfaces converge, as cells that repeat and as isolated bodi
 TEST_CASE("Undefined points of a measured surface are named, not pressed", "[normal]") {
   const Surface surface = read_surface(SALEBRA_SURFACES "/sur-2.sur");
   REQUIRE(surface.undefined_points() == 25);
-  CHECK_THROWS_WITH(press(surface, 1e9, {.pressure = 1e3}), Catch::Contains("25"));
+  CHECK_THROWS_WITH(press(surface, 1e9, at_pressure(1e3)), Catch::Contains("25"));
 }
 
 TEST_CASE("Where conjugate gradients stall, gradient projection finds the same contact",
@@ -173,7 +173,7 @@ TEST_CASE("Gradient projection solves a contact on its own, from any start", "[n
   const auto reference = usual.solve<double>();
   REQUIRE(reference.converged());
   if (!load_given) {
-    projected.target = {detail::ContactTarget::Kind::level, reference.level, bound};
+    projected.target = {ControlQuantity::indentation, reference.level, bound};
     projected.p.setZero();
   }
   auto compliance = normal_compliance<double>(projected.surface.grid, 1, Boundary::periodic);
@@ -209,7 +209,7 @@ TEST_CASE("A contact that the fallback solves carries the load asked, on cells o
     if (k % 4 > 0) options.hardness = load * (1.1 + 5 * random.uniform());
     options.boundary = k % 2 == 0 ? Boundary::periodic : Boundary::free;
     INFO("contact " << k << ", dx/dy = " << root * root << ", load " << load);
-    const NormalContactState state = press(surface, 1, {.pressure = load}, options);
+    const NormalContactState state = press(surface, 1, at_pressure(load), options);
     CHECK(state.converged());
     // The load is corrected to 1e-14, and its sum rounds by a few 1e-16.
     CHECK(state.mean_pressure == Approx(load).epsilon(2e-14).scale(0));
@@ -235,9 +235,9 @@ TEST_CASE("A fallback that runs out of iterations says so", "[normal]") {
 TEST_CASE("A start near the solution saves iterations and gives the same contact", "[normal]") {
   const Surface surface = rough_surface({128, 128, 1e-3, 1e-3});
   NormalContactOptions options;
-  const auto cold = press(surface, 1e9, {.pressure = 3e6}, options);
+  const auto cold = press(surface, 1e9, at_pressure(3e6), options);
   options.initial_pressure = &cold.contact_pressure;
-  const auto warm = press(surface, 1e9, {.pressure = 3e6}, options);
+  const auto warm = press(surface, 1e9, at_pressure(3e6), options);
   CHECK(warm.converged());
   CHECK(warm.iterations < cold.iterations);
   CHECK(warm.mean_gap == Approx(cold.mean_gap).epsilon(1e-6));
@@ -252,7 +252,7 @@ TEST_CASE("A start near the solution saves iterations and gives the same contact
         1e-4 * cold.contact_pressure.maxCoeff());
   const Field wrong = Field::Zero(3, 3);
   options.initial_pressure = &wrong;
-  CHECK_THROWS_AS(press(surface, 1e9, {.pressure = 3e6}, options), InvalidInput);
+  CHECK_THROWS_AS(press(surface, 1e9, at_pressure(3e6), options), InvalidInput);
 }
 
 TEST_CASE("What contacts of equal grids share changes none of them", "[normal]") {
@@ -260,14 +260,14 @@ TEST_CASE("What contacts of equal grids share changes none of them", "[normal]")
   for (const Boundary boundary : {Boundary::periodic, Boundary::free}) {
     NormalContactOptions options;
     options.boundary = boundary;
-    const auto once = [&] { return press(surface, 1e9, {.pressure = 3e5}, options); };
+    const auto once = [&] { return press(surface, 1e9, at_pressure(3e5), options); };
     const auto alone = once();
     // In use by several threads at a time, in the way of other grids, and made anew after these.
     std::array<NormalContactState, 4> states;
     std::vector<std::thread> threads;
     for (auto& state : states) threads.emplace_back([&] { state = once(); });
     for (auto& thread : threads) thread.join();
-    press(rough_surface({128, 256, 1e-3, 2e-3}), 1e9, {.pressure = 3e5}, options);
+    press(rough_surface({128, 256, 1e-3, 2e-3}), 1e9, at_pressure(3e5), options);
     detail::NormalOperators::of({3400, 3400, 1, 1}, 1, Boundary::periodic, Share(3400));
     auto last = once();
     for (const NormalContactState* state :

@@ -89,7 +89,7 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
   options.tolerance = 1e-9;
   const auto to_pressure = [&options](double pressure) {
     return [&options, pressure](const Surface& surface) {
-      return press(surface, 1, {.pressure = pressure}, options);
+      return press(surface, 1, at_pressure(pressure), options);
     };
   };
   SECTION("of a part of the cells from 0.01 to a half") {
@@ -113,7 +113,7 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
     const double rms = test::rms_height(surface);
     for (Index i = 1; i < 192; i += 2) surface.heights.row(i) -= 0.1 * rms;
     const auto to_gap = [&](const Surface& pressed) {
-      return press(pressed, 1, {.mean_gap = 1e-3 * rms}, options);
+      return press(pressed, 1, at_mean_gap(1e-3 * rms), options);
     };
     compare(surface, to_gap, options, ranks);
   }
@@ -127,14 +127,14 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
   }
   SECTION("at a given gap and indentation") {
     const Surface surface = test::rough_surface({128, 128, 128, 128});
-    const NormalContactState state = press(surface, 1, {.pressure = 3e-3}, options);
+    const NormalContactState state = press(surface, 1, at_pressure(3e-3), options);
     compare(
         surface,
-        [&](const Surface& s) { return press(s, 1, {.mean_gap = state.mean_gap}, options); },
+        [&](const Surface& s) { return press(s, 1, at_mean_gap(state.mean_gap), options); },
         options, ranks);
     compare(
         surface,
-        [&](const Surface& s) { return press(s, 1, {.indentation = state.indentation}, options); },
+        [&](const Surface& s) { return press(s, 1, at_indentation(state.indentation), options); },
         options, ranks);
   }
   SECTION("of an isolated surface") {
@@ -143,27 +143,27 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
   }
   SECTION("from a start that is given") {
     const Surface surface = test::rough_surface({128, 128, 128, 128});
-    const Field start = press(surface, 1, {.pressure = 2e-3}, options).contact_pressure;
+    const Field start = press(surface, 1, at_pressure(2e-3), options).contact_pressure;
     options.initial_pressure = &start;
-    const NormalContactState alone = press(surface, 1, {.pressure = 3e-3}, options);
+    const NormalContactState alone = press(surface, 1, at_pressure(3e-3), options);
     run_ranks(ranks, [&](const Communicator& all) {
       const Surface mine = spread(surface, all);
       const Share rows = mine.share();
       const Field my_start = start.middleRows(rows.begin(), rows.count());
       NormalContactOptions of_mine = options;
       of_mine.initial_pressure = &my_start;
-      require_same(alone, press(mine, 1, {.pressure = 3e-3}, of_mine), rows);
+      require_same(alone, press(mine, 1, at_pressure(3e-3), of_mine), rows);
     });
   }
 }
 
 TEST_CASE("A contact over processes has the bits of one process for two threads each", "[spread]") {
   const Surface surface = test::rough_surface({192, 192, 192, 192});
-  const NormalContactState alone = press(surface, 1, {.pressure = 5e-3});
+  const NormalContactState alone = press(surface, 1, at_pressure(5e-3));
   parallel::set_threads(2);
   run_ranks(GENERATE(1, 2, 3, 4, 5, 8), [&](const Communicator& all) {
     const Surface mine = spread(surface, all);
-    require_same(alone, press(mine, 1, {.pressure = 5e-3}), mine.share());
+    require_same(alone, press(mine, 1, at_pressure(5e-3)), mine.share());
   });
   parallel::set_threads(0);
 }
@@ -183,8 +183,7 @@ TEST_CASE("The multilevel kernel over processes has the bits of one process", "[
                               {mine.heights.data(), highest}, 1);
     ActiveSetLimits limits;
     limits.multilevel_share = infinite;
-    return solver.solve({ContactTarget::Kind::mean_pressure, 1e-3, infinite}, limits, p.data(),
-                        g.data());
+    return solver.solve({ControlQuantity::pressure, 1e-3, infinite}, limits, p.data(), g.data());
   };
   Field p, g;
   const ActiveSetOutcome alone = solve(surface, p, g);
@@ -207,7 +206,7 @@ TEST_CASE("The slower method that finishes stalled contacts has the bits of one 
   using namespace salebra::detail;
   const Surface surface = test::rough_surface({96, 64, 96, 64});
   const double bound = GENERATE(infinite, 0.03);
-  const ContactTarget target{ContactTarget::Kind::mean_pressure, 5e-3, bound};
+  const ScaledOperatingPoint target{ControlQuantity::pressure, 5e-3, bound};
   const auto solve = [&](const Surface& mine, Field& p, Field& g) {
     const Share rows = mine.share();
     p = Field::Constant(rows.count(), 64, target.value);
@@ -331,7 +330,7 @@ TEST_CASE("Groups of processes are at most as many as processes", "[spread]") {
 TEST_CASE("The stiffness of both directions over processes has the bits of one process",
           "[spread]") {
   const Surface surface = test::rough_surface({128, 96, 128, 96});
-  const ContactSet contact = contact_set(press(surface, 1, {.pressure = 3e-3}));
+  const ContactSet contact = contact_set(press(surface, 1, at_pressure(3e-3)));
   const Material material = Material::of_contact_modulus(1, 0.3);
   StickOptions options;
   options.hold_lateral = GENERATE(true, false);
@@ -356,11 +355,11 @@ TEST_CASE("A stop and a bad surface in one process end all of them", "[spread]")
     options.on_progress = [&](const ProgressReport& report) {
       return all.rank() != 1 || report.step < 3;
     };
-    if (press(mine, 1, {.pressure = 1e-3}, options).termination != Termination::interrupted)
+    if (press(mine, 1, at_pressure(1e-3), options).termination != Termination::interrupted)
       throw Error("not interrupted");
     if (all.rank() == 2) mine.heights(0, 5) = std::nan("");
     try {
-      press(mine, 1, {.pressure = 1e-3});
+      press(mine, 1, at_pressure(1e-3));
       throw Error("no failure");
     } catch (const InvalidInput& error) {
       if (error.field() != "heights") throw Error("another failure");
@@ -426,7 +425,7 @@ TEST_CASE("Two hundred faults, each in one process, end all of them alike", "[sp
       if (kind == 4) options.on_progress = [&](const ProgressReport&) { return !fails; };
       std::string& end = ends[static_cast<std::size_t>(all.rank())];
       try {
-        end = press(mine, 1, {.pressure = 1e-3}, options).termination == Termination::interrupted
+        end = press(mine, 1, at_pressure(1e-3), options).termination == Termination::interrupted
                   ? "interrupted"
                   : "solved";
       } catch (const InvalidInput& error) {

@@ -38,7 +38,7 @@ double stickiness(const Surface& surface, const Adhesion& adhesion) {
 
 /// Contact area fraction under a pressure, reached from the contact without adhesion.
 double area_of(const Surface& surface, const Adhesion& adhesion, double pressure) {
-  const AdhesiveContactState state = press_adhesive(surface, 1, {.pressure = pressure}, adhesion);
+  const AdhesiveContactState state = press_adhesive(surface, 1, at_pressure(pressure), adhesion);
   REQUIRE(state.converged());
   return state.detached ? 0 : state.contact_area_fraction;
 }
@@ -64,8 +64,8 @@ TEST_CASE("Surfaces stick on one side of Pastewka and Robbins' number and not on
     CHECK(stickiness(steep, weak) > 30);
     loaded += area_of(steep, weak, 0.02), half += area_of(steep, weak, 0.01);
     without += area_of(steep, weak, 0);
-    dry_loaded += press(steep, 1, {.pressure = 0.02}).contact_area_fraction;
-    dry_half += press(steep, 1, {.pressure = 0.01}).contact_area_fraction;
+    dry_loaded += press(steep, 1, at_pressure(0.02)).contact_area_fraction;
+    dry_half += press(steep, 1, at_pressure(0.01)).contact_area_fraction;
 
     CHECK(stickiness(flat, strong) < 1);
     const double stuck = area_of(flat, strong, 0.02 * 0.25);

@@ -213,7 +213,7 @@ TEST_CASE("Without coupling the coupled contact is the sliding one", "[coupling]
   REQUIRE(coupled.advance(indentation, {2e-6, 1e-6}).converged());
   SlidingContact alone(grid, material, free_boundary(friction, 1e-6).sliding);
   const Field pressure =
-      press(surface, contact_modulus, {.indentation = indentation}, {.boundary = Boundary::free})
+      press(surface, contact_modulus, at_indentation(indentation), {.boundary = Boundary::free})
           .contact_pressure;
   alone.advance(pressure);
   alone.advance(pressure, {2e-6, 1e-6});

@@ -292,7 +292,7 @@ TEST_CASE("A sweep takes K_t from stick solves on its contact sets", "[stick]") 
   options.stick = true;
   const ForceCurve stuck = sweep_pressures(surface, material, pressures, options);
   for (std::size_t k = 0; k < pressures.size(); ++k) {
-    const NormalContactState state = press(surface, contact_modulus, {.pressure = pressures[k]});
+    const NormalContactState state = press(surface, contact_modulus, at_pressure(pressures[k]));
     const StickStiffness direct = stick_stiffness(contact_set(state), grid, material);
     // A sweep ends its stick solves early: K_t is a maximum, and its error the square of that of
     // the tractions, 1e-3, at worst ten times.

@@ -117,7 +117,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 
 /// Solves the adhesive contact of a rigid rough surface with an elastic half-space:
 ///     const Adhesion adhesion{AdhesionPotential::exponential, 0.05, 1e-9};
-///     const auto state = press_adhesive(surface, 1e9, {.pressure = 1e6}, adhesion);
+///     const auto state = press_adhesive(surface, 1e9, at_pressure(1e6), adhesion);
 /// At a pressure P it finds a minimum of
 ///     E(g) = ½⟨(g + h) k (g + h)⟩ + ⟨φ(g)⟩ + P⟨g⟩,   g >= 0,   k = G⁻¹ of press(),
 /// at a mean gap that of the first two terms. The tangent of a concave φ lies above φ. With t =
@@ -143,7 +143,7 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveContactState>) 
 ///            in addition to press(). Collective if the surface is distributed, with the same bits
 ///            for any number of processes and threads
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
-                                    const Target& target, const Adhesion& adhesion,
+                                    const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options = {});
 
 }  // namespace salebra

@@ -83,15 +83,15 @@ constexpr void describe(auto&& visit, std::type_identity<AdhesiveCycle>) {
 /// Presses a surface from position to position and, with `unload`, separates it through the same
 /// ones:
 ///     const AdhesiveCycle cycle = adhesive_cycle(
-///         surface, 1e9, {{.pressure = 1e5}, {.pressure = 1e6}}, adhesion, {.unload = true});
+///         surface, 1e9, {at_pressure(1e5), at_pressure(1e6)}, adhesion, {.unload = true});
 /// In load control the unloading then pulls: the load doubles from step to step until the surfaces
 /// separate, and bisection finds the pull-off to 2 %. At given mean gaps and indentations, states
 /// beyond the minimum of the force are reached.
-/// positions  all with one control quantity, from the loosest to the closest
+/// points     all with one control quantity, from the loosest to the closest
 /// throws     InvalidInput before any work, as press_adhesive()
 /// cost       one press_adhesive() per position
 AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
-                             const std::vector<Target>& positions, const Adhesion& adhesion,
+                             const std::vector<OperatingPoint>& points, const Adhesion& adhesion,
                              const AdhesiveCycleOptions& options = {});
 
 }  // namespace salebra

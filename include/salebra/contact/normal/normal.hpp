@@ -10,6 +10,7 @@
 #include <salebra/base/progress.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 #include <salebra/contact/half_space/material.hpp>
+#include <salebra/contact/operating_point.hpp>
 
 namespace salebra {
 
@@ -20,17 +21,6 @@ template <>
 struct EnumNames<Precision> {
   static constexpr auto values = std::to_array<std::pair<Precision, std::string_view>>(
       {{Precision::mixed, "mixed"}, {Precision::full, "full"}});
-};
-
-/// The control quantity of a contact and its value: set exactly one member.
-struct Target {
-  std::optional<double> pressure = {};  ///< nominal, > 0, below the hardness, Pa
-  /// ū in (0, max h − mean h), m, for periodic elastic contacts only: a free contact has no mean
-  /// gap, and with a hardness the gap depends on more than the approach.
-  std::optional<double> mean_gap = {};
-  /// Rigid approach from first touch, > 0, m; below max h − mean h for periodic contacts.
-  std::optional<double> indentation = {};
-  std::optional<double> force = {};  ///< > 0, N: the pressure times the nominal area
 };
 
 struct NormalContactOptions {
@@ -104,7 +94,7 @@ constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
 ContactSet contact_set(const NormalContactState& state);
 
 /// Solves the frictionless contact of a rigid rough surface with an elastic half-space:
-///     const NormalContactState state = press(surface, 1.1e11, {.pressure = 2e8});
+///     const NormalContactState state = press(surface, 1.1e11, at_pressure(2e8));
 /// For a given nominal pressure it minimises
 ///     ½p·Gp − p·h  with 0 <= p <= hardness, mean p = nominal pressure,
 ///     û(q) = 2 p̂(q)/(E*|q|), û(0) = 0 (periodic);
@@ -115,13 +105,15 @@ ContactSet contact_set(const NormalContactState& state);
 /// stencils instead of G, and exact transforms only update the gap. For a surface distributed over
 /// processes the call is collective, and all numbers have the same bits as in one process.
 /// contact_modulus   E* > 0, Pa
+/// point             pressure and force > 0, the pressure below the hardness; 0 < mean gap < max h −
+///                   mean h, for periodic elastic contacts only; indentation > 0
 /// throws            InvalidInput before any work; non-convergence is returned, not thrown
 /// cost              15 to 100 iterations of one transform pair, or of one application of the
 ///                   multilevel kernel and 5 to 7 pairs in total; at a mean gap 3 to 20 times as
 ///                   many if more than 0.99 of the cells touch; 50 to 75 bytes per cell with
 ///                   heights and result, more for larger contacts (docs/performance.md)
-NormalContactState press(const Surface& surface, double contact_modulus, const Target& target,
-                         const NormalContactOptions& options = {});
+NormalContactState press(const Surface& surface, double contact_modulus,
+                         const OperatingPoint& point, const NormalContactOptions& options = {});
 
 /// Computes the normal stiffness K = dF/dδ, N/m, of the contact set {0 < p < hardness} of a state:
 ///     const double stiffness = normal_stiffness(state, surface.grid, 1.1e11);
