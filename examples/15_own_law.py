@@ -42,14 +42,14 @@ measured = salebra.relaxation_damping(law, motion, force=force)
 print(f"from the curve {measured.damping_constant / ball.damping_constant:.3f} of that of the ball")
 
 # %% [markdown]
-# ## Which premises does the answer need?
+# ## Which assumptions does the answer need?
 
 # %%
-facts = salebra.ContactFacts(friction_coefficient=0.3, hardness=1e9, density=1200, excursion=1e-9)
-judged = salebra.relaxation_damping(indenter, motion, force=force, facts=facts)
-print(judged.premises.validity)
-for one in judged.premises.conditions():
-    print(one.verdict, one.condition, one.here, one.remedy, sep="; ")
+parameters = salebra.ContactParameters(friction_coefficient=0.3, hardness=1e9, density=1200, excursion=1e-9)
+judged = salebra.relaxation_damping(indenter, motion, force=force, parameters=parameters)
+print(judged.assumptions.validity)
+for one in judged.assumptions.verdicts():
+    print(one.verdict, one.assumption, one.here, one.remedy, sep="; ")
 if not (worn.converged and ball.converged and measured.converged):
     sys.exit(1)
 

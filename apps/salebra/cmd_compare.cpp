@@ -191,8 +191,8 @@ std::string comparison_text(const StudyResult& result, const StudySolution& foun
                               loads_table(result) + "\n";
   if (result.configuration.adhesion)
     return contact + pull_off_table(result) + ensemble_remarks(result);
-  const PremiseReport premises = premises_of(found, result);
-  return contact + premises.warning() + damping_table(result, found) + "\n" + premises.text() +
+  const AssumptionReport assumptions = assumptions_of(found, result);
+  return contact + assumptions.warning() + damping_table(result, found) + "\n" + assumptions.text() +
          "\n" + ensemble_remarks(result);
 }
 

@@ -16,7 +16,7 @@
 #include "io/number_table.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
-#include "premise_options.hpp"
+#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
@@ -34,7 +34,7 @@ struct DampingArguments {
   std::vector<double> force_amplitude;
   std::optional<double> work_of_adhesion, adhesion_range;
   int steps = 2000;
-  PremiseOptions premises;
+  AssumptionOptions assumptions;
   MapOptions maps;
   BodyOptions body;
 
@@ -60,7 +60,7 @@ std::vector<Motion> motions_of(const DampingArguments& arguments) {
 }
 
 ContactProblem contact_of(const DampingArguments& arguments, Session& session) {
-  return arguments.law.problem(arguments.material, session, arguments.premises.hardness);
+  return arguments.law.problem(arguments.material, session, arguments.assumptions.hardness);
 }
 
 // --trajectory: one period of (time, indentation, displacement).
@@ -79,7 +79,7 @@ void follow_file(const DampingArguments& arguments, Session& session) {
           .columns;
   PathProblem problem{.contact = arguments.law.problem_of_law(arguments.material),
                       .path = {columns[0], columns[1], columns[2]},
-                      .facts = arguments.premises.facts(arguments.material)};
+                      .parameters = arguments.assumptions.parameters(arguments.material)};
   if (columns.size() > 3) problem.transverse = columns[3];
   const SampledMotion& path = problem.path;
   const PathSolution answer = solve(problem, session.context());
@@ -101,8 +101,8 @@ void follow_file(const DampingArguments& arguments, Session& session) {
     file.commit();
   }
   session.plot(cycle_figure(path, answer.loss));
-  PremiseReport{.cases = {answer.premises},
-                .slip_followed = arguments.premises.friction_coefficient.has_value()}
+  AssumptionReport{.cases = {answer.assumptions},
+                .slip_followed = arguments.assumptions.friction_coefficient.has_value()}
       .answer(session, json_of(answer.loss));
 }
 
@@ -167,11 +167,11 @@ void plot_case(const DampingArguments& arguments, const DampingSolution& answer,
   if (!session.has_plot()) return;
   require_that(arguments.force_amplitude.empty(), "--plot",
                "one case of --force-amplitude has no picture; give it as a range");
-  const bool slips = arguments.premises.friction_coefficient.has_value();
+  const bool slips = arguments.assumptions.friction_coefficient.has_value();
   const DampingCycle cycle = cycle_of(
       *answer.contact.law, answer.motions.front(), answer.results.front().indentation,
       slips ? arguments.steps : 1000,
-      arguments.premises.friction_coefficient.value_or(ContactFacts::unknown), session.context());
+      arguments.assumptions.friction_coefficient.value_or(ContactParameters::unknown), session.context());
   session.plot(cycle_figure(cycle.path, cycle.loss));
 }
 
@@ -182,7 +182,7 @@ void lose(const DampingArguments& arguments, Session& session) {
                          .force_amplitude = arguments.force_amplitude,
                          .hold = *parse_enum<Hold>(arguments.hold),
                          .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
-                         .facts = arguments.premises.facts(arguments.material),
+                         .parameters = arguments.assumptions.parameters(arguments.material),
                          .steps = arguments.steps};
   Varied varied = arguments.motion.varied();
   find_varied(arguments.law.at, varied);
@@ -205,7 +205,7 @@ void lose(const DampingArguments& arguments, Session& session) {
   if (!one) object[quantity] = values;
   object.add(answer_json(answer, answer.contact.nominal_area()));
   // Without friction the numbers without slip repeat those above them.
-  if (!arguments.premises.friction_coefficient)
+  if (!arguments.assumptions.friction_coefficient)
     for (const char* name : {"work_per_cycle_without_slip", "damping_constant_without_slip",
                              "damping_constant_without_slip_error"})
       object.erase(name);
@@ -220,7 +220,7 @@ void lose(const DampingArguments& arguments, Session& session) {
   }
   const bool slips = std::ranges::any_of(
       answer.results, [](const DampingResult& result) { return !std::isnan(result.slip_work); });
-  PremiseReport{.cases = answer.premises, .list = !one, .slip_followed = slips}.answer(session,
+  AssumptionReport{.cases = answer.assumptions, .list = !one, .slip_followed = slips}.answer(session,
                                                                                        object);
   if (lost > 0)
     throw NotConverged(fmt::format("damping: {} of {} integrals did not reach the tolerance", lost,
@@ -310,7 +310,7 @@ DamperProblem damper_problem(const DampingArguments& arguments) {
                         .hold = *parse_enum<Hold>(arguments.hold),
                         .amplitude = *parse_enum<Amplitude>(arguments.amplitude),
                         .falling_slope = arguments.body.falling_slope,
-                        .facts = arguments.premises.facts(arguments.material)};
+                        .parameters = arguments.assumptions.parameters(arguments.material)};
   if (!motion.drag_velocity.empty()) {
     require_positive(motion.drag_velocity.front(), "--drag-velocity");
     problem.drag_velocity = motion.drag_velocity.front();
@@ -352,8 +352,8 @@ void damp(const DampingArguments& arguments, Session& session) {
   }
   const bool pairs = amplitudes.size() > 1 && omega.size() > 1;
   const std::string text = pairs ? text_of(object, answer) : to_text(object);
-  if (answer.premises.empty()) return session.answer(object, text);
-  PremiseReport{.cases = answer.premises,
+  if (answer.assumptions.empty()) return session.answer(object, text);
+  AssumptionReport{.cases = answer.assumptions,
                 .list = amplitudes.size() > 1,
                 .slip_followed = answer.slip_share.size() > 0 && !answer.slip_share.isNaN().all()}
       .answer(session, object, text);
@@ -427,7 +427,7 @@ void add_damping_command(Program& program) {
   arguments->body.add_to(command, "the largest --normal-amplitude, or 1um");
   command.under(before);
   arguments->maps.add_to(command);
-  arguments->premises.add_to(command);
+  arguments->assumptions.add_to(command);
   arguments->material.add_to(command);
 }
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/export/deck.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
@@ -33,22 +33,22 @@ struct ExportArguments {
   int rows = 200, sliders = 200;
 };
 
-/// Facts of a study that its file holds and no option gave.
-struct StudyFacts {
+/// Parameters of a study that its file holds and no option gave.
+struct StudyParameters {
   double modulus_ratio = DeckContact::unknown;
   std::string remark = {};
 };
 
-StudyFacts facts_of(const std::filesystem::path& file) {
-  StudyFacts facts;
-  if (!detail::is_hdf5(file)) return facts;
+StudyParameters parameters_of(const std::filesystem::path& file) {
+  StudyParameters parameters;
+  if (!detail::is_hdf5(file)) return parameters;
   const ResultReader reader(file);
   if (reader.has("points"))
     throw InvalidInput(file.string(),
                        "holds a study of several points; give that of one, without [ensemble]");
-  if (!reader.has("damping")) return facts;
+  if (!reader.has("damping")) return parameters;
   if (const auto ratio = reader.number_attribute("damping", "modulus_ratio"))
-    facts.modulus_ratio = *ratio;
+    parameters.modulus_ratio = *ratio;
   // Files of 1.0 have another name for it.
   const std::string solution = reader.has("solution") ? "solution" : "answer";
   if (reader.has(solution))
@@ -56,9 +56,9 @@ StudyFacts facts_of(const std::filesystem::path& file) {
       require(parse_enum<Validity>(*validity).has_value(), file.string(), *validity,
               fmt::format("is no verdict of a study, in {}/validity; one of {}", solution,
                           fmt::join(names_of<Validity>(), ", ")));
-      facts.remark = "Study: validity of its damping constant: " + *validity + ".";
+      parameters.remark = "Study: validity of its damping constant: " + *validity + ".";
     }
-  return facts;
+  return parameters;
 }
 
 /// Throws InvalidInput for what an interrupted study left.
@@ -78,9 +78,9 @@ bool complete_forces(const ForceCurve& curve) {
 std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, const std::string& file,
                                           DeckProblem& problem, Session& session) {
   require_finished(file);
-  StudyFacts facts = facts_of(file);
-  if (arguments.material.given()) facts.modulus_ratio = arguments.material.modulus_ratio();
-  problem.remark = facts.remark;
+  StudyParameters parameters = parameters_of(file);
+  if (arguments.material.given()) parameters.modulus_ratio = arguments.material.modulus_ratio();
+  problem.remark = parameters.remark;
   const std::vector<OperatingPoints> at = arguments.law.at.given();
   require(at.size() < 2, "--normal-force", "several operating points", "are given; give one");
   std::vector<DeckContact> contacts;
@@ -91,7 +91,7 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
     if (arguments.nominal_area)
       curve = curve_of_part(std::move(curve), *arguments.nominal_area, file);
     contacts.push_back(deck_contact(CurveContact{.curve = std::move(curve),
-                                                 .modulus_ratio = facts.modulus_ratio,
+                                                 .modulus_ratio = parameters.modulus_ratio,
                                                  .at = at.empty() ? OperatingPoints{} : at.front(),
                                                  .source = file},
                                     session.context()));

@@ -10,7 +10,7 @@
 #include "figures.hpp"
 #include "law_options.hpp"
 #include "options.hpp"
-#include "premise_options.hpp"
+#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 
@@ -24,7 +24,7 @@ struct JointArguments {
   std::optional<double> normal_amplitude, phase, nominal_area, frequency;
   int steps = 2000;
   std::optional<int> direct_steps;
-  PremiseOptions premises;
+  AssumptionOptions assumptions;
 };
 
 double half_range_of(const std::vector<double>& values) {
@@ -45,7 +45,7 @@ detail::JointLoop loop_of(const JointArguments& arguments, const JointSolution& 
     motion.tangential = TangentialForce{largest.tangential_force};
   // An even number of steps has both ends of a harmonic motion.
   detail::JointLoop loop = detail::joint_loop(
-      *found.contact.law, found.state.indentation, motion, *arguments.premises.friction_coefficient,
+      *found.contact.law, found.state.indentation, motion, *arguments.assumptions.friction_coefficient,
       arguments.steps + arguments.steps % 2, session.context().on_progress);
   const double along = largest.tangential_amplitude / half_range_of(loop.displacement);
   const double up = largest.tangential_force / half_range_of(loop.tangential_force);
@@ -79,7 +79,7 @@ Figure joint_figure(const std::vector<JointLoss>& losses, const detail::JointLoo
 
 void check(const JointArguments& arguments) {
   std::vector<std::string> missing;
-  if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
+  if (!arguments.assumptions.friction_coefficient) missing.emplace_back("--friction-coefficient");
   if (arguments.tangential_forces.empty() && arguments.tangential_amplitudes.empty())
     missing.emplace_back("--tangential-forces or --tangential-amplitudes");
   require_options(missing, "a joint");
@@ -99,11 +99,11 @@ void run(const JointArguments& arguments, Session& session) {
                                  : std::vector<std::string>{"motions"});
   check(arguments);
   JointProblem problem{
-      .contact = arguments.law.problem(arguments.material, session, arguments.premises.hardness),
+      .contact = arguments.law.problem(arguments.material, session, arguments.assumptions.hardness),
       .normal_amplitude = arguments.normal_amplitude.value_or(0),
       .phase = arguments.phase.value_or(0),
       .angular_frequency = 2 * std::numbers::pi * arguments.frequency.value_or(0),
-      .facts = arguments.premises.facts(arguments.material),
+      .parameters = arguments.assumptions.parameters(arguments.material),
       .steps = arguments.steps,
       .direct_steps = arguments.direct_steps};
   if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
@@ -127,7 +127,7 @@ void run(const JointArguments& arguments, Session& session) {
   if (session.has_plot())
     session.plot(joint_figure(found.losses, loop_of(arguments, found, session)));
   add_first_loading(answer, found.contact.first_loading);
-  PremiseReport{{found.premises}}.answer(session, answer);
+  AssumptionReport{{found.assumptions}}.answer(session, answer);
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ void add_joint_command(Program& program) {
       ->range(16, 100000);
   add_quantity(command, "--frequency", arguments->frequency, Dimension::frequency,
                "in Hz, to judge inertia");
-  arguments->premises.add_to(command, false);
+  arguments->assumptions.add_to(command, false);
 }
 
 }  // namespace salebra::cli

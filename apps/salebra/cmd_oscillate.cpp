@@ -16,7 +16,7 @@
 #include "friction_options.hpp"
 #include "options.hpp"
 #include "oscillation_answer.hpp"
-#include "premise_options.hpp"
+#include "assumption_options.hpp"
 #include "program.hpp"
 #include "record_options.hpp"
 #include "results/columns.hpp"
@@ -38,7 +38,7 @@ struct OscillateArguments {
   std::optional<double> direction, relative_error, decay_length;
   RecordOptions record;
   FrictionOptions friction;
-  PremiseOptions premises;
+  AssumptionOptions assumptions;
 };
 
 constexpr double default_size = 1e-3;  // m
@@ -140,7 +140,7 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   contact.indentation = mean_indentation(body, modulus, point);
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
   arguments.friction.check(contact.motion, contact.indentation);
-  const std::optional<double>& hardness = arguments.premises.hardness;
+  const std::optional<double>& hardness = arguments.assumptions.hardness;
   if (!hardness) return contact;
   load_plastically(contact, point, *hardness, session.progress());
   require(shape.empty() || !arguments.relative_error || !contact.first_loading->yielded(),
@@ -246,19 +246,19 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
     file.commit();
   }
   if (session.has_plot()) session.plot(figure_of(outcomes, shapes));
-  const ContactFacts facts =
-      arguments.premises.facts(arguments.material, arguments.friction.friction_coefficient);
+  const ContactParameters parameters =
+      arguments.assumptions.parameters(arguments.material, arguments.friction.friction_coefficient);
   Json all;
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     const OscillationOutcome& outcome = outcomes[k];
     Json object = to_json(outcome);
     if (arguments.decay_length)
       object.add(json_of(exponential_loss(outcome, *arguments.decay_length)));
-    const PremiseReport premises{{premises_of(outcome, facts)}};
+    const AssumptionReport assumptions{{assumptions_of(outcome, parameters)}};
     if (single) {
-      premises.answer(session, object);
+      assumptions.answer(session, object);
     } else {
-      premises.add_to(object);
+      assumptions.add_to(object);
       all[shapes[k]] = std::move(object);
     }
   }
@@ -271,7 +271,7 @@ void finish(const std::vector<OscillationOutcome>& outcomes, const OscillateArgu
 void run(const OscillateArguments& arguments, Session& session) {
   check(arguments, session);
   // Bad input is refused before the work.
-  arguments.premises.facts(arguments.material, arguments.friction.friction_coefficient);
+  arguments.assumptions.parameters(arguments.material, arguments.friction.friction_coefficient);
   const std::vector<std::string> shapes =
       arguments.shapes.empty() ? std::vector<std::string>{""} : arguments.shapes;
   std::vector<OscillationOutcome> outcomes;
@@ -345,7 +345,7 @@ void add_oscillate_command(Program& program) {
                "l of F = F0 exp(-gap/l), as `fit` finds it: compares with Eq. (16) too");
   arguments->record.add_to(command);
   arguments->friction.add_to(command);
-  arguments->premises.add_to(command);
+  arguments->assumptions.add_to(command);
   arguments->material.add_to(command);
 }
 

@@ -11,7 +11,7 @@
 
 #include "law_options.hpp"
 #include "options.hpp"
-#include "premise_options.hpp"
+#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 #include "results/answer_json.hpp"
@@ -30,7 +30,7 @@ struct SlidingArguments {
   BodyOptions body;
   std::optional<double> support_damping, tolerance;
   std::optional<int> steps, most_cycles;
-  PremiseOptions premises;
+  AssumptionOptions assumptions;
 
   bool of_slider() const {
     return body.given() || support_damping || tolerance || steps || most_cycles || start != "rest";
@@ -53,7 +53,7 @@ void check(const SlidingArguments& arguments) {
   const SlidingProblem& sliding = arguments.sliding;
   const bool slider = arguments.of_slider();
   std::vector<std::string> missing;
-  if (!arguments.premises.friction_coefficient) missing.emplace_back("--friction-coefficient");
+  if (!arguments.assumptions.friction_coefficient) missing.emplace_back("--friction-coefficient");
   if (slider && !arguments.body.mass) missing.emplace_back("--mass");
   if (slider && !arguments.body.spring_stiffness) missing.emplace_back("--spring-stiffness");
   if (!slider && sliding.normal_amplitude.empty()) missing.emplace_back("--normal-amplitude");
@@ -65,7 +65,7 @@ void check(const SlidingArguments& arguments) {
   require_options(missing, slider ? "a slider" : "sliding under an oscillation");
   require_that(sliding.velocities.empty() || sliding.velocity_ratios.empty(), "--velocity-ratios",
                "given together with --velocities; give one of them");
-  require_positive(*arguments.premises.friction_coefficient, "--friction-coefficient");
+  require_positive(*arguments.assumptions.friction_coefficient, "--friction-coefficient");
   arguments.law.at.require_one("sliding takes one, and several --velocities");
   for (const auto& [option, values] : {std::pair{"--velocities", &sliding.velocities},
                                        {"--velocity-ratios", &sliding.velocity_ratios},
@@ -87,7 +87,7 @@ ContactSolution contact_of(const SlidingArguments& arguments, Session& session) 
   for (const double amplitude : arguments.sliding.normal_amplitude)
     largest = std::max(largest, std::abs(amplitude));
   ContactSolution contact =
-      arguments.law.contact(arguments.material, session, arguments.premises.hardness, largest);
+      arguments.law.contact(arguments.material, session, arguments.assumptions.hardness, largest);
   if (contact.surface && arguments.of_slider())
     session.note(
         "n/a: the error of the motion. It is that on a law through some loads of the surface, and "
@@ -109,17 +109,17 @@ std::vector<RegimePoint> rows_of(const RegimeMap& map) {
   return rows;
 }
 
-PremiseReport premises_of(const SlidingSolution& found, const SlidingProblem& problem,
-                          const ContactSolution& contact, const ContactFacts& known) {
+AssumptionReport assumptions_of(const SlidingSolution& found, const SlidingProblem& problem,
+                          const ContactSolution& contact, const ContactParameters& known) {
   const std::size_t count = problem.normal_amplitude.size(),
                     velocities = found.points.size() / count;
-  PremiseReport premises{.list = count > 1};
+  AssumptionReport assumptions{.list = count > 1};
   for (std::size_t k = 0; k < count; ++k) {
     const SlidingPoint& last = found.points[(k + 1) * velocities - 1];
     const Drag motion{last.normal_amplitude, last.velocity, problem.angular_frequency};
-    premises.cases.push_back(contact.premises_beside_slip(last.state.indentation, motion, known));
+    assumptions.cases.push_back(contact.assumptions_beside_slip(last.state.indentation, motion, known));
   }
-  return premises;
+  return assumptions;
 }
 
 void slide(const SlidingArguments& arguments, Session& session) {
@@ -130,7 +130,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
   require(!session.has_plot() || !maps || (velocities > 1 && problem.excursions.size() > 1),
           "--plot", fmt::format("{} by {} values", velocities, problem.excursions.size()),
           "are no map; give several velocities and several --excursions");
-  problem.friction_coefficient = *arguments.premises.friction_coefficient;
+  problem.friction_coefficient = *arguments.assumptions.friction_coefficient;
   problem.angular_frequency = arguments.frequency.angular().front();
   problem.hold = *parse_enum<Hold>(arguments.hold);
   const ContactSolution contact = contact_of(arguments, session);
@@ -167,7 +167,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
     session.plot(maps      ? regime_figure(*found.regimes, problem.angular_frequency)
                  : !single ? amplitude_figure(found.points, problem)
                            : sliding_figure(found.points, problem.friction_coefficient));
-  premises_of(found, problem, contact, arguments.premises.facts(arguments.material))
+  assumptions_of(found, problem, contact, arguments.assumptions.parameters(arguments.material))
       .answer(session, answer, text);
 }
 
@@ -181,7 +181,7 @@ SliderProblem slider_of(const SlidingArguments& arguments, Session& session) {
                  .falling_slope = arguments.body.falling_slope.value_or(0)},
       .normal = {sliding.normal_amplitude.empty() ? 0 : sliding.normal_amplitude.front(),
                  arguments.frequency.given() ? arguments.frequency.angular().front() : 0},
-      .friction_coefficient = *arguments.premises.friction_coefficient,
+      .friction_coefficient = *arguments.assumptions.friction_coefficient,
       .largest_amplitude = arguments.body.largest_amplitude};
   SliderOptions& options = problem.options;
   options.hold = *parse_enum<Hold>(arguments.hold);
@@ -216,8 +216,8 @@ void drag_slider(const SlidingArguments& arguments, Session& session) {
                 table_of("averaged_motion", lists_of(found.averaged))});
   if (session.has_plot())
     session.plot(slider_figure(found.motion, found.averaged, problem.slider.spring_stiffness));
-  const ContactFacts known = arguments.premises.facts(arguments.material);
-  PremiseReport{{contact.premises_beside_slip(found.sliding.indentation, found.judged, known)}}
+  const ContactParameters known = arguments.assumptions.parameters(arguments.material);
+  AssumptionReport{{contact.assumptions_beside_slip(found.sliding.indentation, found.judged, known)}}
       .answer(session, answer);
 }
 
@@ -281,7 +281,7 @@ void add_sliding_command(Program& program) {
   add_choice<Hold>(command, "--hold", arguments->hold,
                    "what stays in the mean; default indentation");
   add_slider(command, *arguments);
-  arguments->premises.add_to(command, false);
+  arguments->assumptions.add_to(command, false);
 }
 
 }  // namespace salebra::cli

@@ -285,9 +285,9 @@ std::string study_text(const StudyResult& result, const StudySolution& answer) {
            transport_table(result, answer);
   text += fmt::format("Damping constant: {}{}\n", motion_text(result.configuration),
                       std::isnan(friction) ? "" : fmt::format(", µ = {:g}", friction));
-  const PremiseReport premises = premises_of(answer, result);
-  return text + premises.warning() + answer_table(result, answer) + notes(result, answer) + "\n" +
-         premises.text() + accuracy(result) + law_line(result) + transport_table(result, answer);
+  const AssumptionReport assumptions = assumptions_of(answer, result);
+  return text + assumptions.warning() + answer_table(result, answer) + notes(result, answer) + "\n" +
+         assumptions.text() + accuracy(result) + law_line(result) + transport_table(result, answer);
 }
 
 /// What --verbose adds: all models, how the law bends, how the mean settled.

@@ -13,7 +13,7 @@
 #include "figures.hpp"
 #include "indenter_options.hpp"
 #include "options.hpp"
-#include "premise_options.hpp"
+#include "assumption_options.hpp"
 #include "program.hpp"
 #include "result_tables.hpp"
 
@@ -27,7 +27,7 @@ struct ViscoelasticArguments {
   std::optional<double> indentation, force;
   std::string prony;
   int steps = 512, springs = 200;
-  PremiseOptions premises;
+  AssumptionOptions assumptions;
 };
 
 /// "G1:tau1,G2:tau2".
@@ -128,12 +128,12 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
   session.warn(doubts_of_profile(*profile, law.contact_radius(indentation)));
-  const ContactFacts known = arguments.premises.facts(arguments.material);
+  const ContactParameters known = arguments.assumptions.parameters(arguments.material);
   const std::vector<ViscoelasticLoss> losses =
       losses_of(arguments, law, prony, indentation, session);
-  PremiseReport premises{.list = true, .body = "relaxed elastic body"};
+  AssumptionReport assumptions{.list = true, .body = "relaxed elastic body"};
   for (const Oscillation& motion : arguments.motion.motions())
-    premises.cases.push_back(premises_of(law, indentation, motion,
+    assumptions.cases.push_back(assumptions_of(law, indentation, motion,
                                          at_state(known, law, nullptr, indentation,
                                                   indentation + detail::normal_amplitude(motion))));
 
@@ -146,7 +146,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   write_tables(session, "viscoelastic", answer, {table});
   for (const ResultColumn& column : table.columns) answer[column.name] = column.values;
   if (session.has_plot()) session.plot(loss_figure(table));
-  premises.answer(session, answer);
+  assumptions.answer(session, answer);
 }
 
 }  // namespace
@@ -183,7 +183,7 @@ void add_viscoelastic_command(Program& program) {
   command
       .add_option("--springs", arguments->springs, "in the ring that opens and closes; default 200")
       ->range(8, 1000000);
-  arguments->premises.add_to(command);
+  arguments->assumptions.add_to(command);
 }
 
 }  // namespace salebra::cli

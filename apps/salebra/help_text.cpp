@@ -147,7 +147,7 @@ constexpr std::array descriptions{
         "Writes pressure over clearance, with friction where its coefficient is given, as input of "
         "finite-element programs, or a joint as sliders in parallel. Of a study of several "
         "surfaces the mean and two whole surfaces, low and high. The header of each deck has "
-        "units, premises, range and what the clearance is counted from. Decks may be used in any "
+        "units, assumptions, range and what the clearance is counted from. Decks may be used in any "
         "program (MIT-0); docs/howto/decks.md says what each format is."},
     CommandHelp{
         "completion", "", "",

@@ -54,7 +54,7 @@ Figure amplitude_figure(const std::vector<SlidingPoint>& points, const SlidingPr
       for (std::size_t j = 0; j < amplitudes.size(); ++j) {
         const double value = points[j * along.size() + i].state.*member;
         image.values(Index(i), Index(j)) =
-            image.scale.logarithmic && !(value > 0) ? ContactFacts::unknown : value;
+            image.scale.logarithmic && !(value > 0) ? ContactParameters::unknown : value;
       }
     figure.panels.push_back(
         {.title = title,
@@ -91,7 +91,7 @@ Figure regime_figure(const RegimeMap& map, double omega) {
   for (std::size_t i = 0; i < map.velocity.size(); ++i) {
     cycle.y.push_back(2 * std::numbers::pi * map.velocity[i] / omega);
     no_slip.y.push_back(map.no_slip_excursion[i] > cycle.y.back() ? map.no_slip_excursion[i]
-                                                                  : ContactFacts::unknown);
+                                                                  : ContactParameters::unknown);
     sliding.y.push_back(std::max(map.sliding_excursion, cycle.y.back()));
   }
   PlotCurve critical{.name = "v_c", .style = PlotStyle::dotted, .color = 6};

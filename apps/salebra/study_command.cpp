@@ -71,7 +71,7 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
   material.add_to(command);
   add_conduction(command, conduction);
   motion.add_to(command);
-  premises.add_to(command);
+  assumptions.add_to(command);
   add_values(command, "--pressures", pressures, Dimension::pressure,
              "loads of the boundary elements, such as 1MPa:1GPa:16");
   add_quantity(command, "--target-precision", precision, Dimension::dimensionless,
@@ -288,10 +288,10 @@ StudyConfiguration StudyArguments::study() const {
                                         {relative_error.has_value(), "--relative-error"},
                                         {!seam_error.empty(), "--seam-error"}})
       require_that(!given, option, std::string(no_damping_with_adhesion));
-  const ContactFacts facts = premises.facts({});
-  for (double ContactFacts::*fact : {&ContactFacts::friction_coefficient, &ContactFacts::hardness,
-                                     &ContactFacts::density, &ContactFacts::excursion})
-    if (!std::isnan(facts.*fact)) study.known.*fact = facts.*fact;
+  const ContactParameters parameters = assumptions.parameters({});
+  for (double ContactParameters::*parameter : {&ContactParameters::friction_coefficient, &ContactParameters::hardness,
+                                     &ContactParameters::density, &ContactParameters::excursion})
+    if (!std::isnan(parameters.*parameter)) study.known.*parameter = parameters.*parameter;
   return study;
 }
 
@@ -760,8 +760,8 @@ std::string ensemble_remarks(const StudyResult& result) {
   return text;
 }
 
-PremiseReport premises_of(const StudySolution& answer, const StudyResult& result) {
-  return {.cases = answer.premises,
+AssumptionReport assumptions_of(const StudySolution& answer, const StudyResult& result) {
+  return {.cases = answer.assumptions,
           .list = true,
           .pressures = result.pressures,
           .slip_followed = answer.slips()};
@@ -822,7 +822,7 @@ void add_ensemble(Json& answer, const StudyResult& result, const StudySolution& 
     answer["first_loading"] = columns_json<FirstLoading>([&](const auto& number) {
       return result.mean([&](const Realisation& r) { return number(r.first_loading); });
     });
-  if (!result.configuration.adhesion) premises_of(found, result).add_to(answer);
+  if (!result.configuration.adhesion) assumptions_of(found, result).add_to(answer);
 }
 
 }  // namespace salebra::cli

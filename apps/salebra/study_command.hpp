@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "options.hpp"
-#include "premise_options.hpp"
+#include "assumption_options.hpp"
 #include "results/answer_json.hpp"
 #include "results/describe.hpp"
 #include "session.hpp"
@@ -24,7 +24,7 @@ struct StudyArguments {
   MaterialOptions material;
   Conduction conduction;
   MotionOptions motion;
-  PremiseOptions premises;
+  AssumptionOptions assumptions;
   std::vector<double> pressures;
   std::optional<double> precision, relative_error;
   std::optional<int> levels;
@@ -86,12 +86,12 @@ std::string in_words(const LawDescription& law, const std::string& what);
 std::string law_verdict(const StudyResult& result);
 /// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.
 std::string ensemble_remarks(const StudyResult& result);
-/// The premises of an answer with a list of pressures.
-PremiseReport premises_of(const StudySolution& answer, const StudyResult& result);
+/// The assumptions of an answer with a list of pressures.
+AssumptionReport assumptions_of(const StudySolution& answer, const StudyResult& result);
 /// γ and work of the motion as described, with the shares of slip.
 Json damping_json(const StudySolution& answer);
 /// Adds conductances and flow factors where the study asks for them, how many surfaces there are,
-/// what is wrong with them, their first loading where a hardness is known, and the premises.
+/// what is wrong with them, their first loading where a hardness is known, and the assumptions.
 void add_ensemble(Json& answer, const StudyResult& result, const StudySolution& found);
 
 }  // namespace salebra::cli

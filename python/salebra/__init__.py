@@ -39,7 +39,7 @@ __version__ = version()
 
 _COMMON = (
     "Grid2D", "Surface", "Material", "ForceCurve", "SelfAffineSpectrum", "EqualFrequency", "Drag", "TabulatedLaw", "ExponentialLaw",
-    "IndenterLaw", "GreenwoodWilliamsonLaw", "ContactFacts", "StudyConfiguration", "ResultReader",
+    "IndenterLaw", "GreenwoodWilliamsonLaw", "ContactParameters", "StudyConfiguration", "ResultReader",
     "read_surface", "write_surface", "random_phase", "filtered_noise", "exact_rms", "paraboloid_surface", "off_grid_center",
     "power_spectrum", "scan_spectrum", "SurfaceTwin", "after_first_loading", "press", "sweep_pressures",
     "boundary_element_levels", "fit_exponential", "test_exponential", "window_sensitivity",

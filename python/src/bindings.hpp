@@ -23,7 +23,7 @@ void bind_theories(nanobind::module_& module);
 void bind_law(nanobind::module_& module);
 void bind_mdr(nanobind::module_& module);
 void bind_motion(nanobind::module_& module);
-void bind_premises(nanobind::module_& module);
+void bind_assumptions(nanobind::module_& module);
 void bind_damping(nanobind::module_& module);
 void bind_surface_damping(nanobind::module_& module);
 void bind_trajectories(nanobind::module_& module);

@@ -12,7 +12,7 @@
 #include <salebra/analysis/slip.hpp>
 #include <salebra/damping/damper.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 
 #include "bindings.hpp"
 #include "damping/largest_motion.hpp"
@@ -26,8 +26,8 @@
 
 namespace salebra::python {
 
-void warn_of_unknown(const Motion& motion, const ContactFacts* facts, bool force_given) {
-  const std::string why = why_loss_unknown(motion, known(facts), force_given);
+void warn_of_unknown(const Motion& motion, const ContactParameters* parameters, bool force_given) {
+  const std::string why = why_loss_unknown(motion, known(parameters), force_given);
   if (!why.empty()) warn_user("the loss is unknown: " + why);
 }
 
@@ -39,25 +39,25 @@ DampingOptions damping_options(const Choice<Hold>& hold, const Choice<Amplitude>
 }
 
 std::string regime_of(const BoundDamping& one) {
-  const std::optional<Premises> premises = one.judged().premises;
-  return std::string(name_of(premises ? premises->regime : Regime::unknown));
+  const std::optional<Assumptions> assumptions = one.judged().assumptions;
+  return std::string(name_of(assumptions ? assumptions->regime : Regime::unknown));
 }
 
-/// An answer whose premises are still to be judged, of a law made of `curve` if there is one. Facts
+/// An answer whose assumptions are still to be judged, of a law made of `curve` if there is one. Parameters
 /// that cannot be are refused now. Called with the interpreter's lock.
 BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, const Motion& motion,
-                          const ContactFacts* facts, const ForceCurve* curve) {
+                          const ContactParameters* parameters, const ForceCurve* curve) {
   const double mean = result.indentation;
-  const ContactFacts all = std::visit(
+  const ContactParameters all = std::visit(
       [&](const auto& one) {
-        return at_state(known(facts), law, curve, mean, mean + one.normal_amplitude);
+        return at_state(known(parameters), law, curve, mean, mean + one.normal_amplitude);
       },
       motion);
   // The object keeps the law.
   return {result, {}, [&law, kept = nb::find(law), motion, mean, all] {
             return unlocked([&] {
               return with_motion(motion,
-                                 [&](const auto& one) { return premises_of(law, mean, one, all); });
+                                 [&](const auto& one) { return assumptions_of(law, mean, one, all); });
             });
           }};
 }
@@ -104,14 +104,14 @@ void bind_damping_result(nb::module_& m) {
            std::type_identity<DampingResult>{});
   bound.def_prop_ro("regime", &regime_of, "no slip, partial slip, sliding or unknown.");
   bound.def_prop_ro(
-      "premises", [](const BoundDamping& self) { return self.judged().premises; },
+      "assumptions", [](const BoundDamping& self) { return self.judged().assumptions; },
       "whether the contact may be taken for one without slip, yielding and inertia; None where "
       "they "
       "were not asked for.");
   value_methods(
       bound, [](const BoundDamping& self) { return self.judged(); },
       [](BoundDamping* self, JudgedDamping&& value) {
-        new (self) BoundDamping{value, std::move(value.premises), {}};
+        new (self) BoundDamping{value, std::move(value.assumptions), {}};
       });
 }
 
@@ -154,13 +154,13 @@ void bind_damping_curve(nb::module_& m) {
       .def_prop_ro(
           "validity",
           [](const BoundDampingCurve& self) {
-            std::vector<Premises> premises;
+            std::vector<Assumptions> assumptions;
             for (const BoundDamping& one : self.results)
-              if (const auto judged = one.judged().premises) premises.push_back(*judged);
-            if (premises.empty()) return std::string(name_of(Validity::not_checked));
+              if (const auto judged = one.judged().assumptions) assumptions.push_back(*judged);
+            if (assumptions.empty()) return std::string(name_of(Validity::not_checked));
             const bool slips = std::ranges::any_of(
                 self.results, [](const BoundDamping& one) { return !std::isnan(one.slip_work); });
-            return std::string(name_of(validity_of(conditions_of(premises, slips))));
+            return std::string(name_of(validity_of(verdicts_of(assumptions, slips))));
           },
           "One word for the assumptions of all losses.");
   salebra::for_each_number<DampingResult>(
@@ -184,7 +184,7 @@ void bind_damping_curve(nb::module_& m) {
       [](BoundDampingCurve* self, DampingCurve&& curve) {
         new (self) BoundDampingCurve{std::move(curve.coordinate), std::move(curve.values), {}};
         for (JudgedDamping& one : curve.results)
-          self->results.push_back({one, std::move(one.premises), {}});
+          self->results.push_back({one, std::move(one.assumptions), {}});
       });
   result_methods(bound, true);
 }
@@ -194,7 +194,7 @@ void bind_theorem(nb::module_& m) {
       "relaxation_damping",
       [](const ContactLaw& law, const Motion& motion, std::optional<double> indentation,
          std::optional<double> force, const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
-         double tolerance, const ContactFacts* facts, const ForceCurve* curve) {
+         double tolerance, const ContactParameters* parameters, const ForceCurve* curve) {
         cite({"popov2015"});
         const OperatingPoint point = operating_point_of(indentation, force);
         const DampingOptions options = damping_options(hold, amplitude, tolerance);
@@ -202,19 +202,19 @@ void bind_theorem(nb::module_& m) {
           DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping(law, point, one, options);
           });
-          add_slip(found, law, motion, known(facts));
+          add_slip(found, law, motion, known(parameters));
           return found;
         });
-        BoundDamping bound = to_be_judged(result, law, motion, facts, curve);
-        warn_of_unknown(motion, facts);
+        BoundDamping bound = to_be_judged(result, law, motion, parameters, curve);
+        warn_of_unknown(motion, parameters);
         warn_of_held_indentation(options.hold, {&result, 1});
         return bound;
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("facts") = nb::none(),
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("parameters") = nb::none(),
       nb::arg("curve") = nb::none(),
-      R"(Work lost per cycle by a contact that oscillates, at any amplitude: with slip where `facts` have a coefficient of friction.
+      R"(Work lost per cycle by a contact that oscillates, at any amplitude: with slip where `parameters` have a coefficient of friction.
 
 Without slip it is
 
@@ -242,13 +242,13 @@ amplitude : {"finite", "small"}
     "small": Eq. (12) or (15) with F'' of the law.
 tolerance : float
     Relative, of the quadrature of W; 1e-13 … 1e-2.
-facts : ContactFacts, optional
-    Friction, hardness, density and the like, by which the premises are judged. With friction the loss is that with slip; a slow motion
+parameters : ContactParameters, optional
+    Friction, hardness, density and the like, by which the assumptions are judged. With friction the loss is that with slip; a slow motion
     then needs its excursion. `damping_constant_without_slip` is the number without.
 curve : ForceCurve, optional
     The curve that the law is made of; says pressures and size.
 
-The result's `premises` are judged when they are read first, which takes about 10 ms.
+The result's `assumptions` are judged when they are read first, which takes about 10 ms.
 
 Raises
 ------
@@ -260,7 +260,7 @@ InvalidInput
       [](const ContactLaw& law, const std::vector<Oscillation>& motions,
          const std::optional<Values>& indentation, const std::optional<Values>& force,
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude, double tolerance,
-         const ContactFacts* facts, const ForceCurve* curve, bool premises,
+         const ContactParameters* parameters, const ForceCurve* curve, bool assumptions,
          const ProgressArgument& progress) {
         cite({"popov2015"});
         require_one(indentation.has_value(), "indentation", force.has_value(), "force");
@@ -285,29 +285,29 @@ InvalidInput
           const detail::StopCheck check([&] { return !options.on_progress({"damping"}); });
           std::vector<DampingResult> found = relaxation_damping(law, cases, options);
           for (std::size_t i = 0; i < count; ++i)
-            add_slip(found[i], law, described[i], known(facts));
+            add_slip(found[i], law, described[i], known(parameters));
           return found;
         });
         warn_of_held_indentation(options.hold, results);
         BoundDampingCurve curve_of = over(cases, force.has_value());
         for (std::size_t i = 0; i < count; ++i)
-          curve_of.results.push_back(premises
-                                         ? to_be_judged(results[i], law, described[i], facts, curve)
+          curve_of.results.push_back(assumptions
+                                         ? to_be_judged(results[i], law, described[i], parameters, curve)
                                          : BoundDamping{results[i], {}, {}});
         // One warning for all motions.
         const auto unknown = std::ranges::find_if(described, [&](const Motion& one) {
-          return !why_loss_unknown(one, known(facts)).empty();
+          return !why_loss_unknown(one, known(parameters)).empty();
         });
-        if (unknown != described.end()) warn_of_unknown(*unknown, facts);
+        if (unknown != described.end()) warn_of_unknown(*unknown, parameters);
         return curve_of;
       },
       nb::arg("law"), nb::arg("motions"), nb::kw_only(), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation",
-      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("facts") = nb::none(),
-      nb::arg("curve") = nb::none(), nb::arg("premises") = true, nb::arg("progress") = false,
+      nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10, nb::arg("parameters") = nb::none(),
+      nb::arg("curve") = nb::none(), nb::arg("assumptions") = true, nb::arg("progress") = false,
       R"(:func:`relaxation_damping` of many cases, in parallel: a list of motions, of operating points, or both of one length.
 
-`premises=False` leaves the premises out. Otherwise each result judges its own when they are read first.
+`assumptions=False` leaves the assumptions out. Otherwise each result judges its own when they are read first.
 
 Returns
 -------
@@ -317,18 +317,18 @@ DampingCurve
   m.def(
       "relaxation_damping_force_controlled",
       [](const ContactLaw& law, double mean_force, double force_amplitude, const Motion& motion,
-         const Choice<Amplitude>& amplitude, double tolerance, const ContactFacts* facts,
+         const Choice<Amplitude>& amplitude, double tolerance, const ContactParameters* parameters,
          const ForceCurve* curve) {
         cite({"popov2015"});
         const DampingOptions options{.amplitude = amplitude.value("amplitude"),
                                      .tolerance = tolerance};
-        warn_of_unknown(motion, facts, true);
+        warn_of_unknown(motion, parameters, true);
         const DampingResult result = unlocked([&] {
           DampingResult found = with_motion(motion, [&](const auto& one) {
             return relaxation_damping_force_controlled(law, mean_force, force_amplitude, one,
                                                        options);
           });
-          if (!std::isnan(known(facts).friction_coefficient)) found.forget();
+          if (!std::isnan(known(parameters).friction_coefficient)) found.forget();
           return found;
         });
         // The normal oscillation has the amplitude that the stiffness makes of the force's.
@@ -336,11 +336,11 @@ DampingCurve
         std::visit(
             [&](auto& one) { one.normal_amplitude = force_amplitude / result.normal_stiffness; },
             moved);
-        return to_be_judged(result, law, moved, facts, curve);
+        return to_be_judged(result, law, moved, parameters, curve);
       },
       nb::arg("law"), nb::arg("mean_force"), nb::arg("force_amplitude"), nb::arg("motion"),
       nb::kw_only(), nb::arg("amplitude") = "finite", nb::arg("tolerance") = 1e-10,
-      nb::arg("facts") = nb::none(), nb::arg("curve") = nb::none(),
+      nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
       "Normal motion by force, F = F0 + F_a cos ωt with 0 <= F_a <= F0, N; the motion's "
       "normal_amplitude is not used.");
   m.def("mean_force_of_cycle", &mean_force_of_cycle, nb::arg("law"), nb::arg("mean_indentation"),

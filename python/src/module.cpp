@@ -24,7 +24,7 @@ NB_MODULE(_core, m) {
   bind_mdr(m);
   bind_adhesion(m);
   bind_motion(m);
-  bind_premises(m);
+  bind_assumptions(m);
   bind_damping(m);
   bind_surface_damping(m);
   bind_trajectories(m);

@@ -230,7 +230,7 @@ void bind_result(nb::module_& m) {
           "solution",
           [](const StudyResult& self) { return unlocked([&] { return solution_of(self); }); },
           "The damping constant of the contact as described, with slip where the coefficient of "
-          "friction is known, its shares, its conditions and their verdict.")
+          "friction is known, its shares, its verdicts and their verdict.")
       .def(
           "surfaces_for",
           [](const StudyResult& self, double precision) { return surfaces_for(self, precision); },

@@ -23,15 +23,15 @@
 namespace salebra::python {
 namespace {
 
-/// The losses of a solution, whose premises are known.
+/// The losses of a solution, whose assumptions are known.
 BoundDampingCurve curve_of(const DampingSolution& solution, const std::vector<double>& pressures) {
   BoundDampingCurve curve{"pressure", pressures, {}};
   for (std::size_t i = 0; i < solution.results.size(); ++i)
-    curve.results.push_back({solution.results[i], solution.premises[i], {}});
+    curve.results.push_back({solution.results[i], solution.assumptions[i], {}});
   return curve;
 }
 
-/// The losses at the loads of a curve, without premises.
+/// The losses at the loads of a curve, without assumptions.
 BoundDampingCurve curve_of(const std::vector<SurfaceDamping>& losses, const ForceCurve& loads,
                            const Oscillation& motion) {
   BoundDampingCurve curve{"pressure", loads.column(&ForceSample::pressure), {}};
@@ -58,14 +58,14 @@ void bind_surface_damping(nb::module_& m) {
       "surface_damping",
       [](const BoundSurface& surface, const Material& material,
          const std::variant<EqualFrequency, Drag>& motion, const ForceCurve* curve,
-         const std::optional<Values>& pressures, const ContactFacts* facts,
+         const std::optional<Values>& pressures, const ContactParameters* parameters,
          const Choice<Hold>& hold, const Choice<Amplitude>& amplitude,
          const Choice<Boundary>& boundary, double relative_error,
          const std::optional<Choice<SeamCheck>>& seam, double friction_coefficient,
          double excursion, const ProgressArgument& progress) {
         cite({"popov2015"});
         require_one(curve != nullptr, "curve", pressures.has_value(), "pressures");
-        ContactFacts all = known(facts);
+        ContactParameters all = known(parameters);
         if (!std::isnan(friction_coefficient)) all.friction_coefficient = friction_coefficient;
         if (!std::isnan(excursion)) all.excursion = excursion;
         const Motion described = motion_of(oscillation(motion));
@@ -99,7 +99,7 @@ void bind_surface_damping(nb::module_& m) {
                                                                     .motions = {described},
                                                                     .hold = options.hold,
                                                                     .amplitude = options.amplitude,
-                                                                    .facts = all,
+                                                                    .parameters = all,
                                                                     .surface = options},
                                                      {.on_progress = std::move(told)});
               warnings = solution.contact.doubts;
@@ -111,7 +111,7 @@ void bind_surface_damping(nb::module_& m) {
         return found;
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("motion"), nb::arg("curve") = nb::none(),
-      nb::kw_only(), nb::arg("pressures") = nb::none(), nb::arg("facts") = nb::none(),
+      nb::kw_only(), nb::arg("pressures") = nb::none(), nb::arg("parameters") = nb::none(),
       nb::arg("hold") = "indentation", nb::arg("amplitude") = "finite",
       nb::arg("boundary") = "periodic", nb::arg("relative_error") = 0.0,
       nb::arg("seam") = nb::none(), nb::arg("friction_coefficient") = Loss::unknown,
@@ -127,13 +127,13 @@ surface : Surface
 material : Material
 motion : EqualFrequency or Drag
 curve : ForceCurve, optional
-    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer, whose premises are not judged. Where it
+    Of this surface and material, by sweep_pressures(); its loads are the loads of the answer, whose assumptions are not judged. Where it
     has K_t of stick solves, so have the contacts.
 pressures : float or array, optional
     Nominal pressures, Pa, in place of a curve: one is swept about each.
-facts : ContactFacts, optional
+parameters : ContactParameters, optional
     Friction, hardness, density and the like: a coefficient of friction makes the loss one with slip, a hardness loads the surface
-    plastically first, and the premises are judged by all.
+    plastically first, and the assumptions are judged by all.
 hold : {"indentation", "force"}
 amplitude : {"finite", "small"}
 boundary : {"periodic", "free"}
@@ -143,9 +143,9 @@ relative_error : float
 seam : {"window", "free"}, optional
     Solves once more without the seam of a surface that is not periodic, and counts the change as an error.
 friction_coefficient : float
-    As that of `facts`; NaN: infinite, no slip.
+    As that of `parameters`; NaN: infinite, no slip.
 excursion : float
-    Between the turning points of a Drag, m, as that of `facts`; with friction a Drag needs it.
+    Between the turning points of a Drag, m, as that of `parameters`; with friction a Drag needs it.
 
 Returns
 -------

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loss of a motion that the reader chooses, from the mean curve of the study. Its formulas are those of the library: contact/hermite.cpp,
-// contact/law/law.cpp, damping/level_loss.cpp, and damping/premises.cpp.
+// contact/law/law.cpp, damping/level_loss.cpp, and damping/assumptions.cpp.
 "use strict";
 
 /** A monotone cubic through points, x ↦ {value, slope}; slopes that are not given are those of the cubic through four neighbours. */
@@ -167,7 +167,7 @@ function slipsDownTo(middle, motion) {
   return middle - (Math.max(...angles.map((angle) => motion.place(angle) - limit(angle))) - Math.min(...angles.map((angle) => motion.place(angle) + limit(angle)))) / (2 * motion.stretch);
 }
 
-/** How much of the contact slips, as Premises::regime. */
+/** How much of the contact slips, as Assumptions::regime. */
 function regimeOf(law, middle, motion, loss) {
   if (!known(motion.stretch) || (motion.drag && !(motion.excursion >= motion.way))) return "unknown";
   const bottom = middle - motion.amplitude, changed = (slipping, stick) => !(Math.abs(slipping / stick - 1) <= 0.05);
@@ -186,23 +186,23 @@ const VERDICTS = ["holds", "doubtful", "broken", "unknown"];
 const RANKS = ["broken", "doubtful", "unknown", "holds"];
 const VALIDITY = {broken: "not valid", doubtful: "valid with care", unknown: "not checked", holds: "valid"};
 
-/** The conditions of this loss at load ‹k›, in the words of the library; those that no motion changes as the study has them. */
-function conditionsOf(point, k, law, middle, motion, loss) {
+/** The verdicts of this loss at load ‹k›, in the words of the library; those that no motion changes as the study has them. */
+function verdictsOf(point, k, law, middle, motion, loss) {
   const judge = (value, five, twenty) => (!known(value) ? "unknown" : value > twenty ? "broken" : value > five ? "doubtful" : "holds");
   const found = [], add = (name, verdict, value, limit, needs) => {
-    const words = point.premises[name];
+    const words = point.assumptions[name];
     if (verdict === "holds" && !known(value)) return;
     const fill = (text, number) => text.replace("{}", quantity(number, words.unit, 3));
-    found.push({name, verdict, condition: name === "plasticity" && limit === 1 ? "elastic again: loads below that of the first loading" : known(limit) ? fill(words.condition, limit) : words.condition.split(": ")[0], here: verdict === "unknown" ? (needs ? `\`${needs}\` not given` : "not known for such a motion") : fill(words.here, value), remedy: ["broken", "doubtful"].includes(verdict) ? words.remedy : ""});
+    found.push({name, verdict, assumption: name === "plasticity" && limit === 1 ? "elastic again: loads below that of the first loading" : known(limit) ? fill(words.assumption, limit) : words.assumption.split(": ")[0], here: verdict === "unknown" ? (needs ? `\`${needs}\` not given` : "not known for such a motion") : fill(words.here, value), remedy: ["broken", "doubtful"].includes(verdict) ? words.remedy : ""});
   };
-  // As conditions_of() has it, of a loss with slip.
-  if (regimeOf(law, middle, motion, loss) === "sliding") found.push({name: "regime", verdict: "broken", condition: "a damper: the contact does not slide as a whole", here: motion.drag ? "γ = µF/v: Coulomb friction, not a damper" : "γ = 4µF/(πωu_x): Coulomb friction, not a damper", remedy: motion.drag ? "use `salebra sliding`" : "use the energy dissipated in a cycle"});
+  // As verdicts_of() has it, of a loss with slip.
+  if (regimeOf(law, middle, motion, loss) === "sliding") found.push({name: "regime", verdict: "broken", assumption: "a damper: the contact does not slide as a whole", here: motion.drag ? "γ = µF/v: Coulomb friction, not a damper" : "γ = 4µF/(πωu_x): Coulomb friction, not a damper", remedy: motion.drag ? "use `salebra sliding`" : "use the energy dissipated in a cycle"});
   if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_levels", "slip_of_closed_levels"]) add(name, "unknown", null, null, "friction_coefficient");
   if (motion.drag) {
     const cost = costOfTurning(law, middle, motion.amplitude), cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
     add("slow_motion", known(cycles) ? judge(-cycles, -five, -twenty) : "unknown", cycles, five, "excursion");
   }
-  const stored = (name, column = "value") => point.premises[name][column][k];
+  const stored = (name, column = "value") => point.assumptions[name][column][k];
   add("plasticity", VERDICTS[stored("plasticity", "verdict")] ?? "unknown", stored("plasticity"), stored("plasticity", "onset"), "hardness");
   const waves = stored("inertia") * motion.omega / point.damping.angular_frequency, radiation = 0.58;
   const whole = 2 * point.damping.modulus_ratio * point.damping.contact_modulus * Math.max(point.surface.size_x, point.surface.size_y), stiffness = law.stiffness(middle + motion.amplitude);
@@ -217,38 +217,38 @@ function conditionsOf(point, k, law, middle, motion, loss) {
  * How far the curve between loads is off the contacts that the study solved within its own oscillation, beyond their error: one more condition. Null where it solved none.
  * A surface of which single spots decide may have a curve that is far off.
  */
-function curveCondition(point, k, law) {
+function curveVerdict(point, k, law) {
   const contacts = point.solution?.damping_constant;
   if (!contacts?.error?.some(known)) return null;
   const studied = studiedMotion(point), middle = meanIndentation(point, law, k, studied.normal_amplitude), motion = motionOf(law, middle, studied), slips = point.slip_followed === "yes";
   const loss = middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high ? losses(law, middle, motion) : {}, curve = (slips ? loss.relaxation + loss.slip : loss.stick) * motion.perWork;
   const off = curve / contacts.mean[k] - 1, error = contacts.error[k] / contacts.mean[k], beyond = Math.max(0, Math.abs(off) - error);
   const verdict = !known(beyond) ? "unknown" : beyond > 0.2 ? "broken" : beyond > 0.05 ? "doubtful" : "holds";
-  return {name: "curve", verdict, condition: `curve between loads: within 5${NARROW}% of contacts solved in the oscillation`, remedy: verdict === "holds" ? "" : "`study` with this motion solves them",
+  return {name: "curve", verdict, assumption: `curve between loads: within 5${NARROW}% of contacts solved in the oscillation`, remedy: verdict === "holds" ? "" : "`study` with this motion solves them",
     here: known(off) ? `${quantity(curve, "N s/m", 3)} and ${quantity(contacts.mean[k], "N s/m", 3)} to ${errorPercent(error)}, in the motion of the study` : "not known at this load"};
 }
 
 /** What the program says of a motion at load ‹k› of the mean curve; numbers that it does not give are NaN, and `why` says so. */
 function explore(point, k, set) {
   const law = lawOf(point), middle = meanIndentation(point, law, k, set.normal_amplitude), motion = motionOf(law, middle, set);
-  const nothing = (why) => ({work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", conditions: [], why});
+  const nothing = (why) => ({work_per_cycle: NaN, damping_constant: NaN, damping_constant_without_slip: NaN, relaxation_share: NaN, slip_share: NaN, regime: "unknown", validity: "not checked", verdicts: [], why});
   for (const name of ["normal_amplitude", "frequency", motion.drag ? "drag_velocity" : "tangential_amplitude"]) if (!(set[name] > 0)) return nothing(`\`${name}\` must be > 0.`);
   for (const name of ["friction_coefficient", "excursion"]) if (set[name] <= 0) return nothing(`\`${name}\` must be > 0.`);
   if (!known(middle)) return nothing("The contact at this load did not converge.");
   if (!(middle - motion.amplitude >= law.low && middle + motion.amplitude <= law.high)) return nothing("`normal_amplitude` leaves the curve’s range; reduce the amplitude or extend the curve.");
   const loss = losses(law, middle, motion), slips = known(motion.friction_coefficient);
-  const curve = curveCondition(point, k, law), conditions = [...(curve ? [curve] : []), ...conditionsOf(point, k, law, middle, motion, loss)].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)), worst = conditions.find((one) => one.name !== "coupling" || one.verdict !== "unknown");
+  const curve = curveVerdict(point, k, law), verdicts = [...(curve ? [curve] : []), ...verdictsOf(point, k, law, middle, motion, loss)].sort((a, b) => RANKS.indexOf(a.verdict) - RANKS.indexOf(b.verdict)), worst = verdicts.find((one) => one.name !== "coupling" || one.verdict !== "unknown");
   const why = motion.drag && slips && !known(motion.excursion) ? "`excursion` decides and is not given." : motion.drag && motion.excursion < motion.way ? "An excursion that one normal cycle covers is no slow motion."
     : curve?.verdict === "broken" ? "The curve between loads does not resolve this contact; `study` with this motion solves what it needs." : "";
   const work = why ? NaN : slips ? loss.relaxation + loss.slip : loss.stick;
   return {work_per_cycle: work, damping_constant: work * motion.perWork, damping_constant_without_slip: curve?.verdict === "broken" ? NaN : loss.stick * motion.perWork, relaxation_share: loss.relaxation / work, slip_share: loss.slip / work, regime: regimeOf(law, middle, motion, loss),
-    validity: VALIDITY[worst?.verdict ?? "holds"], conditions, why: why || (slipsDownTo(middle, motion) < law.low ? "Levels slip that touch below the lowest load of the study; there the curve is continued as an exponential." : "")};
+    validity: VALIDITY[worst?.verdict ?? "holds"], verdicts, why: why || (slipsDownTo(middle, motion) < law.low ? "Levels slip that touch below the lowest load of the study; there the curve is continued as an exponential." : "")};
 }
 
 /** The motion of the study, with what it knows of friction. */
 function studiedMotion(point) {
   const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, friction_coefficient} = point.damping, frequency = angular_frequency / (2 * Math.PI);
-  const excursion = point.premises.slip_of_closed_levels.value.find(known) ?? NaN;
+  const excursion = point.assumptions.slip_of_closed_levels.value.find(known) ?? NaN;
   return {normal_amplitude, frequency, ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion}), friction_coefficient: friction_coefficient ?? NaN};
 }
 
@@ -272,7 +272,7 @@ function explorer(body, point) {
       ["‹γ› without slip", quantity(answer.damping_constant_without_slip, "N s/m", 3)], ["regime", answer.regime], ["validity", answer.validity]];
     panel.replaceChildren(h("dl", {}, rows.map(([name, value]) => h("div", {}, h("dt", {}, rich(name)), h("dd", {}, value)))),
       answer.why ? h("p", {class: "why"}, coded(answer.why)) : "",
-      h("ul", {class: "conditions"}, answer.conditions.map((one) => h("li", {class: one.verdict}, h("strong", {}, `${one.verdict}: `), coded(one.condition), one.here ? [one.verdict === "unknown" || one.name === "curve" ? "; " : "; here ", coded(one.here)] : "", one.remedy ? [" – ", coded(one.remedy)] : ""))));
+      h("ul", {class: "verdicts"}, answer.verdicts.map((one) => h("li", {class: one.verdict}, h("strong", {}, `${one.verdict}: `), coded(one.assumption), one.here ? [one.verdict === "unknown" || one.name === "curve" ? "; " : "; here ", coded(one.here)] : "", one.remedy ? [" – ", coded(one.remedy)] : ""))));
     map?.redraw();
   };
   body.append(h("form", {class: "explorer card", onsubmit: (event) => event.preventDefault()},

@@ -20,7 +20,7 @@ const finding = (title, value, details, doubt) => h("div", {class: doubt ? "find
 /** Verdict, force law, and the damping constant at the load chosen. */
 function cards(point) {
   const fit = point.fit?.models?.bem, damping = point.damping, doubt = point.validity && point.validity !== "valid", found = [];
-  if (point.validity) found.push(finding("Validity", point.validity, ["the conditions stand below, worst first"], doubt));
+  if (point.validity) found.push(finding("Validity", point.validity, ["the verdicts stand below, worst first"], doubt));
   if (point.solution?.regime) found.push(finding("Regime", point.solution.regime[shownLoad(point)], ["at the load chosen"], point.solution.regime[shownLoad(point)] === "sliding"));
   if (known(fit?.decay_length?.mean)) {
     const ratio = fit.decay_length_over_rms_height, limits = [interval(fit.decay_length, "m"), interval(ratio, "1")];
@@ -70,12 +70,12 @@ function conclusion(main, point) {
     fill();
     const verdict = lawVerdict(point);
     if (verdict) element.append(h("p", {class: "verdict"}, h("strong", {}, verdict.poor ? "The law is a poor description. " : "The law is a fair description. "), rich(verdict.text)));
-    if (point.conditions) {
+    if (point.verdicts) {
       element.append(h("p", {class: "verdict"}, h("strong", {}, "Conditions of the damping constant. ")));
-      element.append(h("pre", {class: "conditions", tabindex: "0", role: "region", "aria-label": "Conditions"}, point.conditions.replaceAll("`", "")));
+      element.append(h("pre", {class: "verdicts", tabindex: "0", role: "region", "aria-label": "Conditions"}, point.verdicts.replaceAll("`", "")));
     }
     if (damping) {
-      const {excursion, friction_coefficient: friction} = point.premises ? studiedMotion(point) : {}, motion = describeMotion(damping);
+      const {excursion, friction_coefficient: friction} = point.assumptions ? studiedMotion(point) : {}, motion = describeMotion(damping);
       element.append(h("p", {class: "verdict"}, h("strong", {}, "Motion. "), `${motion[0].toUpperCase()}${motion.slice(1)}${known(excursion) ? `, excursion ${quantity(excursion, "m", 3)}` : ""}${known(friction) ? `, friction coefficient ${number(friction)}` : ""}.`));
     }
     element.append(h("p", {class: "verdict"}, h("strong", {}, "Intervals. "), `${point.fit?.interval_method ?? "95 %"}.`));
@@ -163,7 +163,7 @@ function heading(point) {
   const title = data.title || (file ? `Contact and damping of ${file}` : "") || (count > 1 ? `Contact and damping of ${count} rough surfaces` : "Contact and damping of a rough surface");
   const size = surface.nx ? `${count > 1 ? `${count} surfaces` : "1 surface"}, ${surface.nx} × ${surface.ny} points on ${quantity(surface.size_x, "m")} × ${quantity(surface.size_y, "m")}` : "";
   document.getElementById("head").replaceChildren(h("p", {class: "brand"}, "salebra report"), h("h1", {}, title), h("p", {class: "subtitle"}, [size, data.results, data.provenance?.created?.slice(0, 10)].filter(Boolean).join(" · ")));
-  const sections = {conclusion: "Conclusion", ...(point.premises ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
+  const sections = {conclusion: "Conclusion", ...(point.assumptions ? {explorer: "Another motion"} : {}), surface: "Surface", law: "Force law", contact: "Contact", models: "Models", ...(point.adhesion ? {} : {damping: "Damping"}), ...(point.convergence ? {ensemble: "Surfaces"} : {}), symbols: "Symbols", settings: "Settings"};
   document.getElementById("bar").replaceChildren(loadChooser(point, "load"), h("ul", {}, Object.entries(sections).map(([id, text]) => h("li", {}, h("a", {href: `#${id}`}, text)))));
 }
 
@@ -182,7 +182,7 @@ function show(index) {
     });
   }
   conclusion(main, point);
-  if (point.premises && point.damping && lawOf(point))
+  if (point.assumptions && point.damping && lawOf(point))
     section(main, "explorer", "Another motion", "What this contact loses in a motion that you set, recomputed here from the mean curve of the study by the formulas of the program.", (body) => explorer(body, point));
   section(main, "surface", "The surface", null, (body) => {
     if (point.picture) {

@@ -152,7 +152,7 @@ std::unique_ptr<const ContactLaw> law(const ExponentialContact& body, const Cont
                    context);
 }
 
-/// The premises know an indenter by its type, hence its profile looks whether to stop.
+/// The assumptions know an indenter by its type, hence its profile looks whether to stop.
 std::unique_ptr<const ContactLaw> law(const IndenterContact& body, const Context& context) {
   return std::make_unique<IndenterLaw>(stoppable(body.profile, context), body.material);
 }
@@ -223,24 +223,24 @@ std::size_t ContactSolution::load() const {
   return std::size_t(nearest - curve->samples.begin());
 }
 
-ContactFacts ContactSolution::facts_at(ContactFacts facts, double indentation,
+ContactParameters ContactSolution::parameters_at(ContactParameters parameters, double indentation,
                                        double deepest) const {
-  facts = at_state(facts, *law, curve ? &*curve : nullptr, indentation, deepest);
+  parameters = at_state(parameters, *law, curve ? &*curve : nullptr, indentation, deepest);
   if (first_loading && first_loading->yielded())
-    facts.first_load = first_loading->pressure * curve->nominal_area;
-  return facts;
+    parameters.first_load = first_loading->pressure * curve->nominal_area;
+  return parameters;
 }
 
-Premises ContactSolution::premises_beside_slip(double indentation, const Oscillation& motion,
-                                               const ContactFacts& known) const {
+Assumptions ContactSolution::assumptions_beside_slip(double indentation, const Oscillation& motion,
+                                               const ContactParameters& known) const {
   const double deepest = indentation + detail::normal_amplitude(motion);
-  Premises premises = premises_of(*law, indentation, motion, facts_at(known, indentation, deepest));
+  Assumptions assumptions = assumptions_of(*law, indentation, motion, parameters_at(known, indentation, deepest));
   // What slides on does not turn back, and the loss is that at its amplitude.
-  for (const auto premise : {&Premises::slip_of_opening_levels, &Premises::slip_of_closed_levels,
-                             &Premises::slow_motion, &Premises::amplitude})
-    premises.*premise = {.verdict = Verdict::holds};
-  premises.largest.clear();
-  return premises;
+  for (const auto assumption : {&Assumptions::slip_of_opening_levels, &Assumptions::slip_of_closed_levels,
+                             &Assumptions::slow_motion, &Assumptions::amplitude})
+    assumptions.*assumption = {.verdict = Verdict::holds};
+  assumptions.largest.clear();
+  return assumptions;
 }
 
 ContactSolution solve(ContactProblem problem, const Context& context) {

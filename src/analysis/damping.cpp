@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Losses of contacts in motions with a name, in measured ones, and as dampers, with their premises.
+// Losses of contacts in motions with a name, in measured ones, and as dampers, with their assumptions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace salebra {
 namespace {
 
-constexpr double not_known = ContactFacts::unknown;
+constexpr double not_known = ContactParameters::unknown;
 
 /// One of the cases.
 struct Case {
@@ -98,8 +98,8 @@ double small_over_exact(const DampingResult& result, const Motion& motion) {
 
 /// The normal oscillation of a case whose force is given has the amplitude that its stiffness makes
 /// of it.
-Premises premises_of_case(const ContactSolution& contact, const Case& one,
-                          const DampingResult& result, const ContactFacts& facts) {
+Assumptions assumptions_of_case(const ContactSolution& contact, const Case& one,
+                          const DampingResult& result, const ContactParameters& parameters) {
   Motion motion = one.motion;
   if (one.force_amplitude)
     std::visit(
@@ -109,9 +109,9 @@ Premises premises_of_case(const ContactSolution& contact, const Case& one,
   const double deepest = one.force_amplitude
                              ? contact.law->indentation_of(result.mean_force + *one.force_amplitude)
                              : result.indentation + amplitude;
-  const ContactFacts known = contact.facts_at(facts, result.indentation, deepest);
+  const ContactParameters known = contact.parameters_at(parameters, result.indentation, deepest);
   return std::visit(
-      [&](const auto& m) { return premises_of(*contact.law, result.indentation, m, known); },
+      [&](const auto& m) { return assumptions_of(*contact.law, result.indentation, m, known); },
       motion);
 }
 
@@ -142,13 +142,13 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
                         const Material& material, const Context& context,
                         DampingSolution& solution) {
   const Oscillation one = *oscillation_of(problem.motions.front());
-  const bool known = why_loss_unknown(problem.motions.front(), problem.facts).empty();
+  const bool known = why_loss_unknown(problem.motions.front(), problem.parameters).empty();
   const ForceCurve loads = loads_with_neighbours(*solution.contact.curve, pressures);
   SurfaceDampingOptions options = problem.surface;
   options.hold = problem.hold;
   options.amplitude = problem.amplitude;
-  options.friction_coefficient = problem.facts.friction_coefficient;
-  options.excursion = problem.facts.excursion;
+  options.friction_coefficient = problem.parameters.friction_coefficient;
+  options.excursion = problem.parameters.excursion;
   options.on_progress = context.on_progress;
   const std::vector<SurfaceDamping> found =
       surface_damping(*solution.contact.surface, material, one, loads, options);
@@ -170,14 +170,14 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
   }
 }
 
-bool slips(const DamperProblem& problem) { return !std::isnan(problem.facts.friction_coefficient); }
+bool slips(const DamperProblem& problem) { return !std::isnan(problem.parameters.friction_coefficient); }
 
 /// Why γ of a damper with friction is not known; empty: it is.
 std::string why_unknown(const DamperProblem& problem, double angular_frequency) {
   if (slips(problem) && std::isnan(problem.drag_velocity))
     return "with friction the damping constant depends on the `drag_velocity` and the `excursion` "
            "of the slow motion; give both";
-  return why_loss_unknown(Drag{0, problem.drag_velocity, angular_frequency}, problem.facts);
+  return why_loss_unknown(Drag{0, problem.drag_velocity, angular_frequency}, problem.parameters);
 }
 
 /// Returns the loss of a law about its mean indentation, whose γ without slip is known.
@@ -185,8 +185,8 @@ Loss loss_of(const DamperProblem& problem, const ContactLaw& law, double indenta
              const Drag& drag, double without_slip) {
   Loss loss;
   if (why_unknown(problem, drag.angular_frequency).empty())
-    loss = loss_with_slip(law, indentation, drag, problem.facts.friction_coefficient,
-                          problem.facts.excursion);
+    loss = loss_with_slip(law, indentation, drag, problem.parameters.friction_coefficient,
+                          problem.parameters.excursion);
   loss.damping_constant_without_slip = without_slip;
   return loss;
 }
@@ -203,8 +203,8 @@ class SurfaceDamper {
         about_(*solution.contact.curve) {
     options_ = {.hold = problem.hold,
                 .amplitude = problem.amplitude,
-                .friction_coefficient = problem.facts.friction_coefficient,
-                .excursion = problem.facts.excursion,
+                .friction_coefficient = problem.parameters.friction_coefficient,
+                .excursion = problem.parameters.excursion,
                 .on_progress = context.on_progress};
     const ForceSample load = about_.samples[solution.contact.load()];
     about_.samples = {load};
@@ -337,27 +337,27 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     DampingResult& result = solution.results[i];
     solution.motions.push_back(one.motion);
     const std::string why =
-        why_loss_unknown(one.motion, problem.facts, one.force_amplitude.has_value());
+        why_loss_unknown(one.motion, problem.parameters, one.force_amplitude.has_value());
     if (unknown.empty()) unknown = why;
     if (!why.empty())
       result.forget();
     else if (!surface)
-      add_slip(result, law, one.motion, problem.facts, problem.steps, context);
+      add_slip(result, law, one.motion, problem.parameters, problem.steps, context);
     solution.ratio.push_back(1 / small_over_exact(result, one.motion));
-    solution.premises.push_back(premises_of_case(solution.contact, one, result, problem.facts));
+    solution.assumptions.push_back(assumptions_of_case(solution.contact, one, result, problem.parameters));
     if (const auto* two = std::get_if<TwoFrequencies>(&one.motion)) {
       solution.periods.push_back(common_period(*two));
       solution.slow_limit_power.push_back(slow_limit_power(law, one, options));
     }
     const auto* drag = std::get_if<Drag>(&one.motion);
     if (drag == nullptr) continue;
-    if (const double way = drag->way_per_cycle(); problem.facts.excursion >= way)
-      solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.facts.excursion /
+    if (const double way = drag->way_per_cycle(); problem.parameters.excursion >= way)
+      solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.parameters.excursion /
                                              way);
     if (!doubts.empty()) continue;
     const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
     doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
-                            spot_radius(problem.facts, law, curve, result.indentation));
+                            spot_radius(problem.parameters, law, curve, result.indentation));
   }
   if (!unknown.empty()) doubts.insert(doubts.begin(), unknown);
   solution.doubts.insert(solution.doubts.end(), doubts.begin(), doubts.end());
@@ -385,7 +385,7 @@ FrictionMap friction_map_of(const DampingSolution& solution, std::vector<double>
 
 PathSolution solve(const PathProblem& problem, const Context& context) {
   const auto law = law_of(problem.contact, context);
-  const double friction = problem.facts.friction_coefficient;
+  const double friction = problem.parameters.friction_coefficient;
   const bool planar = !problem.transverse.empty();
   require(!planar || std::isnan(friction), "friction_coefficient", friction,
           "cannot be combined with a trajectory in two directions, whose slip is not followed; "
@@ -404,11 +404,11 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
   PathSolution solution;
   solution.loss = planar ? trajectory_damping(*law, problem.path, problem.transverse)
                          : trajectory_damping(*law, problem.path, options);
-  solution.premises = premises_of(*law, problem.path,
-                                  at_state(problem.facts, *law, nullptr, 0.5 * (low + high), high));
+  solution.assumptions = assumptions_of(*law, problem.path,
+                                  at_state(problem.parameters, *law, nullptr, 0.5 * (low + high), high));
   if (!planar) return solution;
   // Slip is judged along x alone, where it is one of the vector.
-  Premises& judged = solution.premises;
+  Assumptions& judged = solution.assumptions;
   judged.slip_of_opening_levels = judged.slip_of_closed_levels = {};
   judged.largest.clear();
   judged.regime = Regime::unknown;
@@ -475,9 +475,9 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
     rested.push_back(relaxation_damping(law, point, motion, options));
     indentations.push_back(rested.back().indentation);
     motion.drag_velocity = problem.drag_velocity;
-    solution.premises.push_back(
-        premises_of(law, indentations.back(), motion,
-                    solution.contact.facts_at(problem.facts, indentations.back(),
+    solution.assumptions.push_back(
+        assumptions_of(law, indentations.back(), motion,
+                    solution.contact.parameters_at(problem.parameters, indentations.back(),
                                               indentations.back() + amplitude)));
   }
   if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, rested))

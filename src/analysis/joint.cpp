@@ -24,7 +24,7 @@ std::vector<JointLoss> simulate(const JointProblem& problem, const Surface& surf
                                 const Material& material, double indentation,
                                 const Context& context) {
   const PressureLevels levels = boundary_element_pressures(surface, material.contact_modulus);
-  CycleOptions options{.friction_coefficient = problem.facts.friction_coefficient,
+  CycleOptions options{.friction_coefficient = problem.parameters.friction_coefficient,
                        .steps = *problem.direct_steps,
                        .max_periods = 20};
   options.on_progress = context.on_progress;
@@ -69,7 +69,7 @@ std::vector<TangentialOscillation> of_sample(std::vector<TangentialOscillation> 
 /// By the springs of the law.
 std::vector<JointLoss> losses_of_law(const JointProblem& problem, const ContactLaw& law,
                                      const OperatingPoint& point, const Context& context) {
-  const double friction = problem.facts.friction_coefficient;
+  const double friction = problem.parameters.friction_coefficient;
   std::vector<JointLoss> losses;
   const auto of_all = [&](ProgressReport report) {
     report.fraction = (double(losses.size()) + report.fraction) / double(problem.motions.size());
@@ -112,7 +112,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
           fmt::format("{} operating points", solution.contact.points.size()),
           "are given; a joint takes one, and several tangential forces or amplitudes");
   if (!remark.empty()) solution.remarks.push_back(remark);
-  const double friction = problem.facts.friction_coefficient;
+  const double friction = problem.parameters.friction_coefficient;
   const OperatingPoint of_body = solution.contact.points.front();
   std::shared_ptr<const ContactLaw> sample;  // where the surface is not the part
   if (ratio != 1) {
@@ -171,7 +171,7 @@ JointSolution solve(JointProblem problem, const Context& context) {
   EqualFrequency judged = solution.largest;
   if (!oscillates)
     judged.normal_amplitude = 1e-6 * solution.state.force / solution.state.normal_stiffness;
-  solution.premises = solution.contact.premises_beside_slip(indentation, judged, problem.facts);
+  solution.assumptions = solution.contact.assumptions_beside_slip(indentation, judged, problem.parameters);
   return solution;
 }
 

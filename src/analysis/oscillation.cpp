@@ -308,34 +308,34 @@ CouplingEffect coupling_effect(const OscillationOutcome& outcome) {
           .tangential_force_change = change(coupled, frictional, &CycleSample::tangential_force)};
 }
 
-Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts) {
+Assumptions assumptions_of(const OscillationOutcome& outcome, ContactParameters parameters) {
   const OscillationCase& run = outcome.run;
   const ForceCurve& curve = outcome.levels.curve;
   const Grid2D& grid = run.body.surface.grid;
   const double contact = curve.samples.back().contact_area_fraction * grid.area();
   const bool spot = run.body.boundary == Boundary::free;
-  facts.contact_modulus = run.material.contact_modulus;
-  facts.mean_contact_pressure = curve.samples.back().force / contact;
-  facts.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
-  facts.nominal_pressure = outcome.levels.force / (spot ? contact : grid.area());
+  parameters.contact_modulus = run.material.contact_modulus;
+  parameters.mean_contact_pressure = curve.samples.back().force / contact;
+  parameters.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
+  parameters.nominal_pressure = outcome.levels.force / (spot ? contact : grid.area());
   if (run.first_loading && run.first_loading->yielded())
-    facts.first_load = run.first_loading->pressure * grid.area();
+    parameters.first_load = run.first_loading->pressure * grid.area();
   const auto touching = std::ranges::count_if(curve.samples, [](const ForceSample& sample) {
     return sample.converged && sample.force > 0;
   });
-  Premises premises;
+  Assumptions assumptions;
   if (touching >= 4)
-    premises = premises_of(TabulatedLaw(curve, run.material.modulus_ratio()), run.indentation,
-                           run.motion, facts);
+    assumptions = assumptions_of(TabulatedLaw(curve, run.material.modulus_ratio()), run.indentation,
+                           run.motion, parameters);
   // The coupling that was computed, not one of other contacts.
   if (outcome.coupled && !std::holds_alternative<Drag>(run.motion)) {
-    Premise& coupling = premises.coupling;
+    Assumption& coupling = assumptions.coupling;
     coupling.value =
         std::abs(outcome.coupled->work_per_cycle / outcome.frictional->work_per_cycle - 1);
     coupling.verdict = Verdict::unknown;
     detail::judge(coupling);
   }
-  return premises;
+  return assumptions;
 }
 
 }  // namespace salebra

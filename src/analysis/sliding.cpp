@@ -119,7 +119,7 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& cont
     const auto found = surface_sliding(*contact.surface, material, *contact.curve, contact.load(),
                                        motion, context.on_progress);
     for (std::size_t i = 0; i < velocities; ++i) {
-      // The indentations of the law, by which the premises are judged, are those of its cells.
+      // The indentations of the law, by which the assumptions are judged, are those of its cells.
       const double indentation = points[i].state.indentation;
       std::tie(points[i].state, points[i].errors) = found[i];
       points[i].state.indentation = indentation;

@@ -7,8 +7,8 @@
 
 namespace salebra {
 
-std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts, bool force_given) {
-  if (std::isnan(facts.friction_coefficient)) return {};
+std::string why_loss_unknown(const Motion& motion, const ContactParameters& parameters, bool force_given) {
+  if (std::isnan(parameters.friction_coefficient)) return {};
   if (force_given)
     return "slip is not followed where `force_amplitude` is given; give the `normal_amplitude`";
   const auto* two = std::get_if<TwoFrequencies>(&motion);
@@ -16,20 +16,20 @@ std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts, bo
     return "slip is not followed in a motion that never repeats; give frequencies with a common "
            "period";
   const auto* drag = std::get_if<Drag>(&motion);
-  if (drag && std::isnan(facts.excursion))
+  if (drag && std::isnan(parameters.excursion))
     return "with friction the loss of a slow motion depends on its `excursion`; give it";
-  if (drag && facts.excursion < drag->way_per_cycle())
+  if (drag && parameters.excursion < drag->way_per_cycle())
     return "the motion turns back within one normal cycle: it is not slow; give a longer "
            "`excursion`, or a motion of equal frequencies";
   return {};
 }
 
 void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion,
-              const ContactFacts& facts, int steps, const Context& context) {
-  const double friction = facts.friction_coefficient;
+              const ContactParameters& parameters, int steps, const Context& context) {
+  const double friction = parameters.friction_coefficient;
   if (std::isnan(friction)) return;
   result.forget();
-  if (!why_loss_unknown(motion, facts).empty()) return;
+  if (!why_loss_unknown(motion, parameters).empty()) return;
   const auto take = [&](const auto& loss) {
     result.work_per_cycle = loss.work_per_cycle;
     result.damping_constant = loss.damping_constant;
@@ -37,7 +37,7 @@ void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion
     result.slip_work = loss.slip_work;
   };
   if (const auto* drag = std::get_if<Drag>(&motion)) {
-    take(loss_with_slip(law, result.indentation, *drag, friction, facts.excursion));
+    take(loss_with_slip(law, result.indentation, *drag, friction, parameters.excursion));
     result.power = closed_form::power(result.work_per_cycle, *drag);
   } else {
     const TrajectoryDamping cycle =

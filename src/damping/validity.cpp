@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 
 namespace salebra {
 namespace {
@@ -49,46 +49,46 @@ int rank_of(Verdict verdict) {
   return 3;
 }
 
-double first_limit(const Premise& premise) {
-  return std::isnan(premise.onset) ? premise.limit_5_percent : premise.onset;
+double first_limit(const Assumption& assumption) {
+  return std::isnan(assumption.onset) ? assumption.limit_5_percent : assumption.onset;
 }
 
 /// How far beyond its limit, either way.
-double distance(const Premise& premise) {
-  return std::abs(std::log(premise.value / first_limit(premise)));
+double distance(const Assumption& assumption) {
+  return std::abs(std::log(assumption.value / first_limit(assumption)));
 }
 
 /// The case that decides: of the worst verdict the one farthest from its limit, of those that hold
 /// the nearest.
-const Premise& worst_of(const PremiseName& name, std::span<const Premises> cases) {
-  const auto worse = [&](const Premises& one, const Premises& other) {
-    const Premise &a = one.*name.premise, &b = other.*name.premise;
+const Assumption& worst_of(const AssumptionName& name, std::span<const Assumptions> cases) {
+  const auto worse = [&](const Assumptions& one, const Assumptions& other) {
+    const Assumption &a = one.*name.assumption, &b = other.*name.assumption;
     if (rank_of(a.verdict) != rank_of(b.verdict)) return rank_of(a.verdict) < rank_of(b.verdict);
     if (std::isnan(distance(a)) || std::isnan(distance(b))) return std::isnan(distance(b));
     return a.verdict == Verdict::holds ? distance(a) < distance(b) : distance(a) > distance(b);
   };
-  return (*std::ranges::min_element(cases, worse)).*name.premise;
+  return (*std::ranges::min_element(cases, worse)).*name.assumption;
 }
 
-std::string condition_text(const PremiseName& name, const Premise& premise) {
+std::string assumption_text(const AssumptionName& name, const Assumption& assumption) {
   // Where load and first load are compared, flow begins at 1.
-  if (premise.onset == 1) return "elastic again: loads below that of the first loading";
+  if (assumption.onset == 1) return "elastic again: loads below that of the first loading";
   // No motion at this velocity, none at all, keeps it.
-  if (premise.limit_20_percent == 0) return std::string(name.meaning) + " at any motion";
+  if (assumption.limit_20_percent == 0) return std::string(name.meaning) + " at any motion";
   // Without a limit, what comes before it.
-  if (!std::isfinite(first_limit(premise)) ||
-      (premise.verdict == Verdict::unknown && premise.needs.empty()))
-    return std::string(name.condition.substr(0, name.condition.find(": ")));
-  return fmt::format(fmt::runtime(name.condition),
-                     format_quantity(first_limit(premise), name.value_dimension, 3));
+  if (!std::isfinite(first_limit(assumption)) ||
+      (assumption.verdict == Verdict::unknown && assumption.needs.empty()))
+    return std::string(name.assumption.substr(0, name.assumption.find(": ")));
+  return fmt::format(fmt::runtime(name.assumption),
+                     format_quantity(first_limit(assumption), name.value_dimension, 3));
 }
 
-Condition condition_of(const PremiseName& name, std::span<const Premises> cases,
+Condition verdict_of(const AssumptionName& name, std::span<const Assumptions> cases,
                        std::span<const double> pressures) {
-  const Premise& worst = worst_of(name, cases);
-  Condition one{.name = std::string(name.name),
+  const Assumption& worst = worst_of(name, cases);
+  AssumptionVerdict one{.name = std::string(name.name),
                 .verdict = worst.verdict,
-                .condition = condition_text(name, worst)};
+                .assumption = assumption_text(name, worst)};
   if (worst.verdict == Verdict::unknown) {
     one.here = worst.needs.empty() ? "not known for such a motion"
                                    : fmt::format("`{}` not given", given_as(worst.needs));
@@ -100,25 +100,25 @@ Condition condition_of(const PremiseName& name, std::span<const Premises> cases,
   if (worst.verdict == Verdict::holds) return one;
   one.remedy = name.remedy;
   std::vector<bool> objected;
-  for (const Premises& premises : cases)
-    objected.push_back((premises.*name.premise).verdict == worst.verdict);
+  for (const Assumptions& assumptions : cases)
+    objected.push_back((assumptions.*name.assumption).verdict == worst.verdict);
   if (const std::string which = which_of(objected, pressures); !which.empty())
     one.here += ", " + which;
   return one;
 }
 
 /// Slow motions alone have a number of normal cycles in their excursion.
-bool is_slow_motion(const Premises& premises) { return !std::isnan(premises.slow_motion.value); }
+bool is_slow_motion(const Assumptions& assumptions) { return !std::isnan(assumptions.slow_motion.value); }
 
 /// The condition that a contact which slides as a whole breaks: its loss is right, but its γ is no
 /// damping constant.
-Condition no_damper(std::span<const Premises> cases, std::span<const double> pressures) {
-  Condition one{.name = "regime",
+Condition no_damper(std::span<const Assumptions> cases, std::span<const double> pressures) {
+  AssumptionVerdict one{.name = "regime",
                 .verdict = Verdict::broken,
-                .condition = "a damper: the contact does not slide as a whole"};
+                .assumption = "a damper: the contact does not slide as a whole"};
   std::vector<bool> sliding;
-  for (const Premises& premises : cases) sliding.push_back(premises.regime == Regime::sliding);
-  const Premises& first = *std::ranges::find(cases, Regime::sliding, &Premises::regime);
+  for (const Assumptions& assumptions : cases) sliding.push_back(assumptions.regime == Regime::sliding);
+  const Assumptions& first = *std::ranges::find(cases, Regime::sliding, &Assumptions::regime);
   one.here = is_slow_motion(first) ? "γ = µF/v: Coulomb friction, not a damper"
                                    : "γ = 4µF/(πωu_x): Coulomb friction, not a damper";
   one.remedy =
@@ -130,54 +130,54 @@ Condition no_damper(std::span<const Premises> cases, std::span<const double> pre
 
 }  // namespace
 
-std::span<const PremiseName> premise_names() {
+std::span<const AssumptionName> assumption_names() {
   static const auto names = [] {
-    std::vector<PremiseName> all;
+    std::vector<AssumptionName> all;
     describe(
         [&]<class Line>(auto member, const Line& line) {
-          if constexpr (std::is_same_v<Line, PremiseWords>) all.push_back({line, member});
+          if constexpr (std::is_same_v<Line, AssumptionWords>) all.push_back({line, member});
         },
-        std::type_identity<Premises>{});
+        std::type_identity<Assumptions>{});
     return all;
   }();
   return names;
 }
 
-std::string given_as(const std::string& fact) {
+std::string given_as(const std::string& parameter) {
   // A law given by its formula has neither size nor pressure.
-  if (fact == "loaded_size" || fact == "largest_pressure") return "curve";
-  return fact == "angular_frequency" ? "frequency" : fact;
+  if (parameter == "loaded_size" || parameter == "largest_pressure") return "curve";
+  return parameter == "angular_frequency" ? "frequency" : fact;
 }
 
-std::vector<Condition> conditions_of(std::span<const Premises> cases, bool slip_followed,
+std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, bool slip_followed,
                                      std::span<const double> pressures) {
-  std::vector<Condition> conditions;
-  for (const PremiseName& name : premise_names()) {
-    const bool slip = name.premise == &Premises::slip_of_opening_levels ||
-                      name.premise == &Premises::slip_of_closed_levels;
-    if ((slip && slip_followed) || name.premise == &Premises::amplitude) continue;
+  std::vector<AssumptionVerdict> verdicts;
+  for (const AssumptionName& name : assumption_names()) {
+    const bool slip = name.assumption == &Assumptions::slip_of_opening_levels ||
+                      name.assumption == &Assumptions::slip_of_closed_levels;
+    if ((slip && slip_followed) || name.assumption == &Assumptions::amplitude) continue;
     // A motion that is not slow by kind has no such condition.
-    Condition one = condition_of(name, cases, pressures);
+    AssumptionVerdict one = verdict_of(name, cases, pressures);
     if (one.verdict == Verdict::holds && one.here.empty()) continue;
-    conditions.push_back(std::move(one));
+    verdicts.push_back(std::move(one));
   }
-  if (slip_followed && std::ranges::count(cases, Regime::sliding, &Premises::regime) > 0)
-    conditions.push_back(no_damper(cases, pressures));
-  std::ranges::stable_sort(conditions, {},
-                           [](const Condition& one) { return rank_of(one.verdict); });
-  return conditions;
+  if (slip_followed && std::ranges::count(cases, Regime::sliding, &Assumptions::regime) > 0)
+    verdicts.push_back(no_damper(cases, pressures));
+  std::ranges::stable_sort(verdicts, {},
+                           [](const AssumptionVerdict& one) { return rank_of(one.verdict); });
+  return verdicts;
 }
 
-Condition closed_form_condition(std::span<const Premises> cases,
+Condition closed_form_verdict(std::span<const Assumptions> cases,
                                 std::span<const double> pressures) {
   const auto name = std::ranges::find_if(
-      premise_names(), [](const PremiseName& one) { return one.premise == &Premises::amplitude; });
-  return condition_of(*name, cases, pressures);
+      assumption_names(), [](const AssumptionName& one) { return one.assumption == &Assumptions::amplitude; });
+  return verdict_of(*name, cases, pressures);
 }
 
-Validity validity_of(std::span<const Condition> conditions) {
+Validity validity_of(std::span<const AssumptionVerdict> verdicts) {
   int worst = rank_of(Verdict::holds);
-  for (const Condition& one : conditions) {
+  for (const AssumptionVerdict& one : verdicts) {
     // No fact settles it: what is not modelled (docs/limits.md) is said once, in its line.
     if (one.name == "coupling" && one.verdict == Verdict::unknown) continue;
     worst = std::min(worst, rank_of(one.verdict));
@@ -188,17 +188,17 @@ Validity validity_of(std::span<const Condition> conditions) {
                                                : Validity::valid;
 }
 
-std::string in_words(std::span<const Condition> conditions) {
+std::string in_words(std::span<const AssumptionVerdict> verdicts) {
   constexpr std::size_t width = 78, margin = 6;
   std::string text;
-  for (const Condition& one : conditions) {
+  for (const AssumptionVerdict& one : verdicts) {
     const char* mark = one.verdict == Verdict::broken     ? "no"
                        : one.verdict == Verdict::doubtful ? "!"
                        : one.verdict == Verdict::unknown  ? "?"
                                                           : "ok";
     const std::string here =
         one.verdict == Verdict::unknown || one.here.empty() ? one.here : "here " + one.here;
-    const std::string line = fmt::format("  {:<2}  {}", mark, one.condition);
+    const std::string line = fmt::format("  {:<2}  {}", mark, one.assumption);
     // The widths count bytes: of "µ" and "ω" one too many, which is too early by a column.
     if (here.empty())
       text += line + "\n";
@@ -212,12 +212,12 @@ std::string in_words(std::span<const Condition> conditions) {
   return text;
 }
 
-std::string regimes_in_words(std::span<const Premises> cases, std::span<const double> pressures) {
+std::string regimes_in_words(std::span<const Assumptions> cases, std::span<const double> pressures) {
   std::string text;
   for (const Regime regime :
        {Regime::sliding, Regime::partial_slip, Regime::no_slip, Regime::unknown}) {
     std::vector<bool> here;
-    for (const Premises& premises : cases) here.push_back(premises.regime == regime);
+    for (const Assumptions& assumptions : cases) here.push_back(assumptions.regime == regime);
     const auto count = std::ranges::count(here, true);
     if (count == 0 || (regime == Regime::unknown && text.empty())) continue;
     const std::string which = which_of(here, pressures);
@@ -227,9 +227,9 @@ std::string regimes_in_words(std::span<const Premises> cases, std::span<const do
   return text;
 }
 
-std::string motion_without_slip(std::span<const Premises> cases) {
+std::string motion_without_slip(std::span<const Assumptions> cases) {
   const auto judged =
-      std::ranges::find_if(cases, [](const Premises& p) { return !p.largest.empty(); });
+      std::ranges::find_if(cases, [](const Assumptions& p) { return !p.largest.empty(); });
   if (judged == cases.end()) return "";
   const auto quantity = [](double value, Dimension dimension) {
     return format_quantity(value, dimension, 3);
@@ -237,7 +237,7 @@ std::string motion_without_slip(std::span<const Premises> cases) {
   std::string none, text;
   for (std::size_t i = 0; i < judged->largest.size(); ++i) {
     double velocity = HUGE_VAL, amplitude = HUGE_VAL, excursion = HUGE_VAL;
-    for (const Premises& p : cases) {
+    for (const Assumptions& p : cases) {
       if (p.largest.empty()) continue;
       velocity = std::fmin(velocity, p.largest[i].drag_velocity);
       amplitude = std::fmin(amplitude, p.largest[i].tangential_amplitude);

@@ -293,7 +293,7 @@ std::vector<std::string> opening(const DeckProblem& problem) {
   if (!problem.provenance.command_line.empty())
     lines.push_back("Made by: " + problem.provenance.command_line);
   lines.emplace_back(
-      "Premises: quasi-static, nested contact sets, the same law on loading and unloading; no "
+      "Assumptions: quasi-static, nested contact sets, the same law on loading and unloading; no "
       "adhesion, no wear.");
   if (!problem.remark.empty()) lines.push_back(problem.remark);
   const DeckContact& first = problem.contacts.front();

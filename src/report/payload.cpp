@@ -9,7 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/results/quantity.hpp>
 #include <salebra/study/realisation.hpp>
 #include <span>
@@ -96,7 +96,7 @@ class Point {
     add(json, "damping", damping());
     add(json, "adhesion", adhesion());
     if (has(solution("pressure"))) {
-      for (const char* name : {"validity", "conditions", "slip_followed"})
+      for (const char* name : {"validity", "verdicts", "slip_followed"})
         if (const auto text = file_.text_attribute(where_ + solution_, name)) json[name] = *text;
       json["solution"] = {
           {"damping_constant", estimate(solution("damping_constant"), 0, pressures_.size())}};
@@ -105,7 +105,7 @@ class Point {
       json["solution"]["slip_share"] = list(required(solution("slip_share")));
       if (has(solution("regime"))) json["solution"]["regime"] = regimes();
     }
-    add(json, "premises", premises());
+    add(json, "assumptions", assumptions());
     add(json, "spots", spots());
     const std::string work = without_slip("work_per_cycle");
     Json over_bem =
@@ -401,19 +401,19 @@ class Point {
   }
 
   /// What judges another motion of the same contact, in the words of the library.
-  Json premises() const {
+  Json assumptions() const {
     Json json;
-    for (const PremiseName& name : premise_names()) {
-      const std::string place = "premises/" + std::string(name.name);
+    for (const AssumptionName& name : assumption_names()) {
+      const std::string place = "assumptions/" + std::string(name.name);
       if (!has(place + "_verdict")) continue;
-      Json& premise = json[std::string(name.name)];
-      premise = {{"condition", std::string(name.condition)},
+      Json& assumption = json[std::string(name.name)];
+      assumption = {{"assumption", std::string(name.assumption)},
                  {"here", std::string(name.here)},
                  {"remedy", std::string(name.remedy)},
                  {"unit", std::string(si_unit(name.value_dimension))},
                  {"value", list(required(place))},
                  {"verdict", list(required(place + "_verdict"))}};
-      if (has(place + "_onset")) premise["onset"] = list(required(place + "_onset"));
+      if (has(place + "_onset")) assumption["onset"] = list(required(place + "_onset"));
     }
     return json;
   }

@@ -62,13 +62,13 @@ std::string law(const Json& point) {
                        "here; use the computed curve.</p>");
 }
 
-/// The verdict, and a paragraph for each line on the conditions.
+/// The verdict, and a paragraph for each line on the verdicts.
 std::string validity(const Json& point) {
   const Json* word = find(point, {"validity"});
-  const Json* conditions = find(point, {"conditions"});
-  if (word == nullptr || conditions == nullptr) return "";
+  const Json* verdicts = find(point, {"verdicts"});
+  if (word == nullptr || verdicts == nullptr) return "";
   std::string text = "<p><strong>Validity: " + escaped(word->text()) + ".</strong></p>";
-  std::istringstream stream(conditions->text());
+  std::istringstream stream(verdicts->text());
   for (std::string line; std::getline(stream, line);) {
     std::erase(line, '`');
     if (!line.empty()) text += "<p>" + escaped(line) + "</p>";

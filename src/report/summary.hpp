@@ -11,7 +11,7 @@ namespace salebra::detail {
 /// Text as HTML shows it.
 std::string escaped(std::string_view text);
 
-/// Decay length, verdict, premises and damping constants of a report's payload as HTML. The page's script
+/// Decay length, verdict, assumptions and damping constants of a report's payload as HTML. The page's script
 /// puts its sections in their place.
 std::string summary_of(const Json& payload);
 

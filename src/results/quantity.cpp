@@ -12,7 +12,7 @@
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/level_quadrature.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/stress_map.hpp>
@@ -45,7 +45,7 @@ const Column* entry_of(std::string_view name) {
       NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, LawDescription,
       WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
       CycleFrame, CycleMesh, LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
-      EqualFrequency, Drag, DampingResult, CommonPeriod, ContactFacts, LargestMotion, Premise, Loss,
+      EqualFrequency, Drag, DampingResult, CommonPeriod, ContactParameters, LargestMotion, Assumption, Loss,
       TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider, SliderMotion,
       SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap, RegimeMap,
       PronyTerm, PronySeries, ViscoelasticLoss, SurfaceDamping, Anisotropy, NonGaussianSurface,

@@ -223,15 +223,15 @@ MeasuredSurface detail::read_measured(TomlTable& table, const std::filesystem::p
 
 namespace {
 
-// What is known of the bodies and of the motion, for the premises of the damping.
+// What is known of the bodies and of the motion, for the assumptions of the damping.
 double read_fact(TomlTable& table, const char* key, Dimension dimension) {
   const auto value = table.quantity(key, dimension);
-  if (!value) return ContactFacts::unknown;
+  if (!value) return ContactParameters::unknown;
   check_positive(table, key, *value);
   return *value;
 }
 
-Material read_material(TomlTable table, ContactFacts& known) {
+Material read_material(TomlTable table, ContactParameters& known) {
   known.friction_coefficient = read_fact(table, "friction_coefficient", Dimension::dimensionless);
   known.hardness = read_fact(table, "hardness", Dimension::pressure);
   known.density = read_fact(table, "density", Dimension::mass_density);

@@ -259,7 +259,7 @@ void write_solution(Table table, const StudyResult& result, const StudySolution&
   });
   std::vector<double> errors, regimes;
   for (const StatedMean& stated : answer.damping_constant) errors.push_back(stated.error);
-  for (const Premises& one : answer.premises) regimes.push_back(double(one.regime));
+  for (const Assumptions& one : answer.assumptions) regimes.push_back(double(one.regime));
   table.put(
       {"damping_constant_error", Dimension::damping, "numerical error of the damping constant"},
       errors, {"pressure"});
@@ -269,16 +269,16 @@ void write_solution(Table table, const StudyResult& result, const StudySolution&
     table.put(find_quantity(name), *values, {"pressure"});
   ResultGroup& group = table.group();
   group.attribute("validity", std::string(name_of(answer.validity)));
-  group.attribute("conditions", in_words(answer.conditions));
+  group.attribute("verdicts", in_words(answer.verdicts));
   group.attribute("slip_followed", answer.slip_followed ? "yes" : "no");
 }
 
-void write_premises(ResultGroup group, const StudyResult& result, const StudySolution& answer) {
+void write_assumptions(ResultGroup group, const StudyResult& result, const StudySolution& answer) {
   group.coordinate("pressure", result.pressures, "Pa", "nominal pressure");
-  for (const PremiseName& name : premise_names())
-    for_each_column<Premise>([&](const auto& column, const Quantity& quantity) {
-      // Flow has an onset, the other premises have limits.
-      const bool flows = name.premise == &Premises::plasticity;
+  for (const AssumptionName& name : assumption_names())
+    for_each_column<Assumption>([&](const auto& column, const Quantity& quantity) {
+      // Flow has an onset, the other assumptions have limits.
+      const bool flows = name.assumption == &Assumptions::plasticity;
       if (quantity.name == (flows ? "limit_5_percent" : "onset") ||
           (flows && quantity.name == "limit_20_percent"))
         return;
@@ -287,13 +287,13 @@ void write_premises(ResultGroup group, const StudyResult& result, const StudySol
         dataset += "_" + std::string(quantity.name);
         meaning += ", " + std::string(quantity.long_name);
       }
-      if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(column(Premise()))>>) {
+      if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(column(Assumption()))>>) {
         unit = "1";
         meaning = "0 holds, 1 doubtful, 2 broken, 3 unknown";
       }
       std::vector<double> values;
-      for (const Premises& one : answer.premises)
-        values.push_back(double(column(one.*name.premise)));
+      for (const Assumptions& one : answer.assumptions)
+        values.push_back(double(column(one.*name.assumption)));
       group.dataset(dataset, values, {"pressure"}, unit, meaning);
     });
 }
@@ -426,7 +426,7 @@ void write_study_groups(ResultFile& output, const std::string& where, const Stud
     const StudySolution answer = solution_of(result);
     write_damping(table("damping"), result);
     write_solution(table("solution"), result, answer);
-    write_premises(output.group(where + "premises"), result, answer);
+    write_assumptions(output.group(where + "assumptions"), result, answer);
   } else if (!result.configuration.adhesion->cycle.empty()) {
     write_adhesion(table("adhesion"), result);
   }

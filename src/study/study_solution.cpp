@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answer of a study: the loss of the motion as described, and its conditions.
+// Answer of a study: the loss of the motion as described, and its verdicts.
 #include <algorithm>
 #include <cmath>
 #include <salebra/analysis/slip.hpp>
@@ -34,17 +34,17 @@ ForceCurve mean_curve(const StudyResult& result) {
   return curve;
 }
 
-/// Facts of the configuration, with what the surfaces say.
-ContactFacts facts_of(const StudyResult& result) {
-  ContactFacts facts = result.configuration.known;
-  facts.contact_modulus = result.configuration.material.contact_modulus;
-  facts.loaded_size = std::max(result.grid.lx, result.grid.ly);
-  facts.rms_slope = result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
+/// Parameters of the configuration, with what the surfaces say.
+ContactParameters parameters_of(const StudyResult& result) {
+  ContactParameters parameters = result.configuration.known;
+  parameters.contact_modulus = result.configuration.material.contact_modulus;
+  parameters.loaded_size = std::max(result.grid.lx, result.grid.ly);
+  parameters.rms_slope = result.mean([](const Realisation& r) { return r.moments.rms_slope(); }).mean;
   for (const Realisation& realisation : result.realisations)
     if (realisation.first_loading.yielded())
-      facts.first_load =
-          std::fmin(facts.first_load, realisation.first_loading.pressure * result.grid.area());
-  return facts;
+      parameters.first_load =
+          std::fmin(parameters.first_load, realisation.first_loading.pressure * result.grid.area());
+  return parameters;
 }
 
 /// Parts of the mean work, where slip is followed.
@@ -68,32 +68,32 @@ StudySolution solution_of(const StudyResult& result) {
       .damping_constant = result.stated("damping_constant"),
       .work_per_cycle = result.stated("work_per_cycle"),
       .damping_constant_without_slip = result.stated("damping_constant_without_slip"),
-      .relaxation_share = std::vector<double>(count, ContactFacts::unknown),
-      .slip_share = std::vector<double>(count, ContactFacts::unknown),
+      .relaxation_share = std::vector<double>(count, ContactParameters::unknown),
+      .slip_share = std::vector<double>(count, ContactParameters::unknown),
       .thermal_conductance = result.conductance(&Conductances::thermal_conductance),
       .electrical_conductance = result.conductance(&Conductances::electrical_conductance),
       .slip_followed = !std::isnan(configuration.known.friction_coefficient),
-      .premises = std::vector<Premises>(count)};
+      .assumptions = std::vector<Assumptions>(count)};
   if (configuration.adhesion) return solution;
   solution.unknown = why_loss_unknown(motion_of(configuration.motion), configuration.known);
   if (solution.slips()) set_shares(solution, result);
   const ForceCurve curve = mean_curve(result);
   if (std::ranges::count(curve.samples, true, &ForceSample::converged) >= 4) {
     const TabulatedLaw law(curve, configuration.material.modulus_ratio());
-    const ContactFacts known = facts_of(result);
+    const ContactParameters known = parameters_of(result);
     const double amplitude = detail::normal_amplitude(configuration.motion);
     for (std::size_t k = 0; k < count; ++k) {
       const ForceSample& sample = curve.samples[k];
       if (!sample.converged) continue;
-      ContactFacts facts =
+      ContactParameters parameters =
           at_state(known, law, &curve, -sample.mean_gap, amplitude - sample.mean_gap);
-      facts.nominal_pressure = sample.pressure;
-      facts.loaded_size = known.loaded_size;
-      solution.premises[k] = premises_of(law, -sample.mean_gap, configuration.motion, facts);
+      parameters.nominal_pressure = sample.pressure;
+      parameters.loaded_size = known.loaded_size;
+      solution.assumptions[k] = assumptions_of(law, -sample.mean_gap, configuration.motion, parameters);
     }
   }
-  solution.conditions = conditions_of(solution.premises, solution.slips(), result.pressures);
-  solution.validity = validity_of(solution.conditions);
+  solution.verdicts = verdicts_of(solution.assumptions, solution.slips(), result.pressures);
+  solution.validity = validity_of(solution.verdicts);
   return solution;
 }
 

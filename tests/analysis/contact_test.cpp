@@ -97,9 +97,9 @@ TEST_CASE("A paraboloid as an indenter and as a surface is one contact", "[analy
   // The radius of contact is a = 20 µm. Contacts that repeat at L = 1 mm are stiffer by some 2.8 a/L
   // = 6 %, and a is known to a fraction of its 2.5 cells.
   CHECK(cells.law->normal_stiffness(indentation_of(cells)) == Approx(stiffness).epsilon(0.15));
-  const ContactFacts facts = hertz.facts_at({}, indentation_of(hertz), indentation_of(hertz));
-  CHECK(facts.contact_modulus == Approx(1e9).epsilon(1e-12));
-  CHECK(facts.loaded_size == Approx(stiffness / 2e9).epsilon(1e-9));
+  const ContactParameters parameters = hertz.parameters_at({}, indentation_of(hertz), indentation_of(hertz));
+  CHECK(parameters.contact_modulus == Approx(1e9).epsilon(1e-12));
+  CHECK(parameters.loaded_size == Approx(stiffness / 2e9).epsilon(1e-9));
 }
 
 TEST_CASE("Where a law is evaluated the caller's wish to stop is looked at", "[analysis]") {

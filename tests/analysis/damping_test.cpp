@@ -35,9 +35,9 @@ TEST_CASE("A damping constant does not ask for the velocity of the slow motion",
 TEST_CASE("Much friction is no slip, and little of it loses less by relaxation", "[analysis]") {
   const EqualFrequency motion{5e-9, 2e-9, pi / 3, omega};
   const auto with = [&](double friction) {
-    ContactFacts facts;
-    facts.friction_coefficient = friction;
-    return solve(DampingProblem{.contact = contact, .motions = {motion}, .facts = facts});
+    ContactParameters parameters;
+    parameters.friction_coefficient = friction;
+    return solve(DampingProblem{.contact = contact, .motions = {motion}, .parameters = parameters});
   };
   const DampingSolution much = with(1e5), little = with(0.1);
   // 2000 straight steps, of second order.
@@ -53,12 +53,12 @@ TEST_CASE("Much friction is no slip, and little of it loses less by relaxation",
 }
 
 TEST_CASE("What decides and is missing leaves the loss unknown, with what to give", "[analysis]") {
-  ContactFacts facts;
-  facts.friction_coefficient = 0.3;
+  ContactParameters parameters;
+  parameters.friction_coefficient = 0.3;
   const double way = 2 * pi * 1e-5 / omega;  // of one normal cycle
   const auto ask_of = [&](const Motion& motion, const std::string& why) {
     const DampingSolution solution =
-        solve(DampingProblem{.contact = contact, .motions = {motion}, .facts = facts});
+        solve(DampingProblem{.contact = contact, .motions = {motion}, .parameters = parameters});
     CHECK(std::isnan(solution.results.at(0).work_per_cycle) == !why.empty());
     CHECK(std::isnan(solution.results.at(0).damping_constant) == !why.empty());
     CHECK(std::isnan(solution.results.at(0).slip_share()) == !why.empty());
@@ -68,9 +68,9 @@ TEST_CASE("What decides and is missing leaves the loss unknown, with what to giv
   };
   const Drag slow{2e-8, 1e-5, omega};
   ask_of(slow, "`excursion`; give it");
-  facts.excursion = 0.9 * way;
+  parameters.excursion = 0.9 * way;
   ask_of(slow, "turns back within one normal cycle");
-  facts.excursion = 100 * way;
+  parameters.excursion = 100 * way;
   const DampingResult back = ask_of(slow, "");
   CHECK(back.damping_constant ==
         Approx(back.work_per_cycle * omega / (2 * pi) / 1e-10).epsilon(1e-12));
@@ -87,7 +87,7 @@ TEST_CASE("A joint is that of its law, and what a surface alone has is refused o
           "[analysis]") {
   JointProblem problem{.contact = contact,
                        .motions = {TangentialAmplitude{2e-9}, TangentialForce{0.05}}};
-  problem.facts.friction_coefficient = 0.3;
+  problem.parameters.friction_coefficient = 0.3;
   const JointSolution constant = solve(problem);
   const ExponentialLaw law(1, 1e-7, ratio);
   for (std::size_t i = 0; i < 2; ++i)

@@ -412,8 +412,8 @@ TEST_CASE("joint answers what its table says", "[joint]") { Table().check("joint
 TEST_CASE("oscillate answers what its table says", "[oscillate]") {
   Table().check("oscillate.txt");
 }
-TEST_CASE("A loss answers for its premises as their table says", "[premises]") {
-  Table().check("premises.txt");
+TEST_CASE("A loss answers for its assumptions as their table says", "[assumptions]") {
+  Table().check("assumptions.txt");
 }
 TEST_CASE("statistics answers what its table says", "[statistics]") {
   Table().check("statistics.txt");

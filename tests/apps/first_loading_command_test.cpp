@@ -45,14 +45,14 @@ TEST_CASE("Every command that presses a surface takes the hardness", "[first_loa
     CHECK(number(flowed, "first_loading", "yielded_area_fraction") > 0.01);
     // The oscillation belongs to the first loading.
     CHECK(number(flowed, "first_loading", "first_loading_pressure") > 2.001e7);
-    const json& premise = flowed["premises"]["plasticity"];
-    CHECK(premise["verdict"] == "holds");
+    const json& assumption = flowed["assumptions"]["plasticity"];
+    CHECK(assumption["verdict"] == "holds");
     // Judged at the deepest point, which the first loading has reached.
-    CHECK(premise["value"] <= 1.001);
-    CHECK(premise["value"] > 0.9);
-    CHECK(plain["premises"]["plasticity"]["verdict"] == "unknown");
+    CHECK(assumption["value"] <= 1.001);
+    CHECK(assumption["value"] > 0.9);
+    CHECK(plain["assumptions"]["plasticity"]["verdict"] == "unknown");
     for (json* answer : {&same, &plain, &flowed}) {
-      for (const char* key : {"first_loading", "premises", "conditions", "validity"})
+      for (const char* key : {"first_loading", "assumptions", "verdicts", "validity"})
         answer->erase(key);
     }
     CHECK(same == plain);

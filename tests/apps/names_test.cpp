@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What holds for every command: options, files and answers call each quantity what its description
-// says, a file has the numbers of its answer and replaces no other, a loss has its premises.
+// says, a file has the numbers of its answer and replaces no other, a loss has its assumptions.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <regex>
 #include <salebra/analysis/damping.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/export/deck.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
@@ -144,11 +144,11 @@ std::string stem(const std::string& name) {
   return whole;
 }
 
-/// Numbers for which a premise stands, whose unit is its own.
-const std::set<std::string>& premise_keys() {
+/// Numbers for which an assumption stands, whose unit is its own.
+const std::set<std::string>& assumption_keys() {
   static const std::set<std::string> keys = [] {
     std::set<std::string> all;
-    for (const PremiseName& name : premise_names()) all.emplace(name.name);
+    for (const AssumptionName& name : assumption_names()) all.emplace(name.name);
     return all;
   }();
   return keys;
@@ -161,7 +161,7 @@ void check_file(const ResultReader& reader, const std::string& path = "") {
     const std::string where = path + "/" + dataset;
     INFO(where);
     CHECK_FALSE(is_old(dataset));
-    if (indices.contains(dataset) || path.ends_with("premises") || reader.holds_labels(where))
+    if (indices.contains(dataset) || path.ends_with("assumptions") || reader.holds_labels(where))
       continue;
     const std::string parent = path.substr(path.rfind('/') + 1);
     // "hurst" has value, low and high; "psd" and "contact" are groups too.
@@ -195,7 +195,7 @@ void check_numbers(const json& object, const std::string& parent) {
     const bool numbers =
         value.is_number() || (value.is_array() && !value.empty() && value[0].is_number());
     if (numbers)
-      CHECK((is_listed(key) || is_listed(parent) || premise_keys().contains(parent) ||
+      CHECK((is_listed(key) || is_listed(parent) || assumption_keys().contains(parent) ||
              indices.contains(key) || counts.contains(key)));
     if (value.is_object()) check_numbers(value, key);
     if (value.is_array())
@@ -252,18 +252,18 @@ bool has_loss(const json& answer) {
   return false;
 }
 
-/// Every premise has its verdicts, which do not contradict the limits beside them.
-void check_premises(const json& object) {
-  REQUIRE(object.contains("premises"));
+/// Every assumption has its verdicts, which do not contradict the limits beside them.
+void check_assumptions(const json& object) {
+  REQUIRE(object.contains("assumptions"));
   std::set<std::string> names;
-  for (const auto& [name, premise] : object["premises"].items()) {
-    INFO(name << ' ' << premise.dump());
+  for (const auto& [name, assumption] : object["assumptions"].items()) {
+    INFO(name << ' ' << assumption.dump());
     names.insert(name);
-    CHECK(keys(premise) == "value limit_5_percent limit_20_percent onset verdict needs");
-    CHECK(premise["value"].is_array() == premise["verdict"].is_array());
+    CHECK(keys(assumption) == "value limit_5_percent limit_20_percent onset verdict needs");
+    CHECK(assumption["value"].is_array() == assumption["verdict"].is_array());
     const auto listed = [](const json& one) { return one.is_array() ? one : json::array({one}); };
-    const json verdicts = listed(premise["verdict"]), values = listed(premise["value"]),
-               limits = listed(premise["limit_5_percent"]);
+    const json verdicts = listed(assumption["verdict"]), values = listed(assumption["value"]),
+               limits = listed(assumption["limit_5_percent"]);
     const bool large_is_good = name == "slip_of_opening_levels" || name == "slow_motion";
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
       CHECK(words("holds doubtful broken unknown").contains(verdicts[k]));
@@ -272,7 +272,7 @@ void check_premises(const json& object) {
       CHECK((verdicts[k] == "holds") == (large_is_good ? values[k] >= limit : values[k] <= limit));
     }
   }
-  CHECK(names == premise_keys());
+  CHECK(names == assumption_keys());
 }
 
 /// The unit that an option's line of help begins with; numbers, words and lists of them are told in
@@ -306,7 +306,7 @@ TEST_CASE("Every dataset of a comparison has the name, unit and meaning of its d
   const ResultReader reader(test.folder() / "grid.h5");
   check_group(reader, "ensemble", "ensemble");
   for (const std::string& group : reader.groups("points/1"))
-    if (group != "picture" && group != "premises") check_group(reader, "points/1/" + group, group);
+    if (group != "picture" && group != "assumptions") check_group(reader, "points/1/" + group, group);
   // The answer has the same, with a mean and its limits for each.
   const json point = run["points"][1];
   check_keys(point["spots"], groups.at("spots"));
@@ -357,7 +357,7 @@ TEST_CASE("Every column of a sweep has the name and unit of its description", "[
 }
 
 TEST_CASE("Every number that the program writes has the name, unit and meaning of the table",
-          "[names][premises]") {
+          "[names][assumptions]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3, 4]"));
   std::string shell;
@@ -378,7 +378,7 @@ TEST_CASE("Every number that the program writes has the name, unit and meaning o
     check_numbers(answer, "");
     if (has_loss(answer)) {
       with_loss.insert(command);
-      check_premises(answer);
+      check_assumptions(answer);
     }
     static const std::regex named(" (?:-o|--plot) (\\S+)");
     for (std::sregex_iterator found(run.begin(), run.end(), named), end; found != end; ++found) {

@@ -166,8 +166,8 @@ class Twin {
   std::istringstream text_;
 };
 
-/// The table alone: premises are told in words below it.
-std::string without_premises(std::string text) {
+/// The table alone: assumptions are told in words below it.
+std::string without_assumptions(std::string text) {
   for (const char* first : {"\n\nWithout slip up to ", "\n\nValidity: "})
     if (const std::size_t begin = text.find(first); begin != std::string::npos)
       text.resize(begin + 1);
@@ -220,10 +220,10 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
     REQUIRE(text.status == 0);
     ordered_json answer = ordered_json::parse(json.out);
     for (const std::string& table : tables) answer.erase(table);
-    for (const char* key : {"premises", "validity", "conditions"}) answer.erase(key);
+    for (const char* key : {"assumptions", "validity", "verdicts"}) answer.erase(key);
     answer.erase("largest_motion");
     answer.erase("regime");
-    Twin twin(without_premises(text.out));
+    Twin twin(without_assumptions(text.out));
     twin.check(answer);
     // The words of fit and the tables of statistics follow.
     CHECK((twin.at_end() || command.starts_with("fit") || command.starts_with("statistics")));
@@ -243,7 +243,7 @@ TEST_CASE("A damper's map names amplitude and frequency of each constant", "[dam
       map.push_back({{"normal_amplitude", answer["normal_amplitude"][i]},
                      {"angular_frequency", answer["angular_frequency"][j]},
                      {"damping_constant", answer["damping_constant"][i][j]}});
-  const std::string tables = without_premises(text.out);
+  const std::string tables = without_assumptions(text.out);
   const std::size_t border = tables.find("\n\n");
   REQUIRE(border != std::string::npos);
   Twin pairs(tables.substr(0, border + 1)), least(tables.substr(border + 2));

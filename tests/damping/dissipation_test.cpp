@@ -9,7 +9,7 @@
 #include <salebra/damping/contact_element.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/friction_map.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <salebra/damping/viscoelastic_damping.hpp>
@@ -176,13 +176,13 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
   refuses([&](double f) { return mean_force_of_cycle(law, 0, f * possible); }, about_rest);
   refuses([&](double f) { return loss_with_slip(law, 0, slow_drag(f * possible), 0.3, 1e-6); },
           about_rest);
-  refuses([&](double f) { return premises_of(law, 0, slow_drag(f * possible)); }, about_rest);
+  refuses([&](double f) { return assumptions_of(law, 0, slow_drag(f * possible)); }, about_rest);
   refuses([&](double f) { return regime_map(law, 0, {f * possible, 1e5}, {1e-6}, {1e-4}, 0.3); },
           about_rest);
   refuses([&](double f) { return friction_map(law, 0, f * possible, 1e-9, {1}, {pi / 2}); },
           about_rest);
   refuses([&](double f) { return trajectory_damping(law, path_to(f * possible)); }, of_path);
-  refuses([&](double f) { return premises_of(law, path_to(f * possible)); }, of_path);
+  refuses([&](double f) { return assumptions_of(law, path_to(f * possible)); }, of_path);
   refuses([&](double f) { return LawLevels(law, -2 * possible, f * possible); }, of_path);
   CHECK_THROWS_WITH(LawLevels(law, 0, 1e5 * decay_length), Catch::Contains("at most 249 nm"));
   // Under a held mean force the same amplitudes lie about a lower mean indentation.

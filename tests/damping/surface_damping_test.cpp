@@ -10,7 +10,7 @@
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/filtered_noise.hpp>

@@ -282,7 +282,7 @@ TEST_CASE("Decks name license, units, source, revision, window and what the clea
     CHECK_THAT(solve(problem).text,
                Contains("MIT-0") && Contains("Units: mm, kg, ms. The unit of force is 1000 N") &&
                    Contains("of pressure 1e+09 Pa") && Contains("curve.h5") && Contains("abc123") &&
-                   Contains("Window: ") && Contains("mean planes") && Contains("Premises"));
+                   Contains("Window: ") && Contains("mean planes") && Contains("Assumptions"));
   }
 }
 

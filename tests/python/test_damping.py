@@ -55,57 +55,57 @@ def test_position_is_given_once() -> None:
         salebra.relaxation_damping(law, DRAG, force=1.0, indentation=0.0)
 
 
-def test_a_damping_constant_carries_its_premises() -> None:
+def test_a_damping_constant_carries_its_assumptions() -> None:
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), salebra.Material(1e9, poisson=0.3))
     fast = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-2, angular_frequency=1e5)
-    told = salebra.relaxation_damping(law, fast, indentation=1e-6).premises
+    told = salebra.relaxation_damping(law, fast, indentation=1e-6).assumptions
     assert told.slip_of_opening_levels.verdict == "unknown"
     assert told.slip_of_opening_levels.needs == "friction_coefficient"
     assert [motion.friction_coefficient for motion in told.largest] == [0.1, 0.3, 1.0]
-    facts = salebra.ContactFacts(friction_coefficient=0.3)
-    result = salebra.relaxation_damping(law, fast, indentation=1e-6, facts=facts)
-    slip = result.premises.slip_of_opening_levels
+    parameters = salebra.ContactParameters(friction_coefficient=0.3)
+    result = salebra.relaxation_damping(law, fast, indentation=1e-6, parameters=parameters)
+    slip = result.assumptions.slip_of_opening_levels
     # M = μ u_z ω/(g v), g = G*/E* = 2(1-ν)/(2-ν).
     assert slip.value == pytest.approx(0.3 * 1e-8 * 1e5 / (1.4 / 1.7 * 1e-2), rel=1e-12)
     assert slip.verdict == "broken" and slip.value < slip.limit_20_percent < slip.limit_5_percent
     assert "slip_of_opening_levels broken" in repr(result)
-    assert result.premises.validity == "not valid"
-    assert result.premises.conditions()[0].name == "slip_of_opening_levels"
-    assert all("slip" not in one.name for one in result.premises.conditions(slip_followed=True))
-    assert result.premises == salebra.premises_of(law, fast, indentation=1e-6, facts=facts)
+    assert result.assumptions.validity == "not valid"
+    assert result.assumptions.verdicts()[0].name == "slip_of_opening_levels"
+    assert all("slip" not in one.name for one in result.assumptions.verdicts(slip_followed=True))
+    assert result.assumptions == salebra.assumptions_of(law, fast, indentation=1e-6, parameters=parameters)
     regimes = salebra.regime_map(law, 1e-6, 1e-8, 1e5, [1e-9, 1e-2], [1e-8, 1e-3], friction_coefficient=0.3)
     # v_c = (μ/g)u_z ω; a paraboloid slides from Cattaneo's and Mindlin's X on.
     assert regimes.critical_velocity == pytest.approx(0.3 / (1.4 / 1.7) * 1e-3, rel=1e-12)
     assert regimes.regime == [["partial slip", "sliding"], ["unknown", "sliding"]]
     assert regimes.loss_ratio.shape == (2, 2) and np.isnan(regimes.loss_ratio[1, 0])
     assert regimes.to_xarray()["regime"].values[0, 1] == "sliding"
-    facts = salebra.ContactFacts(friction_coefficient=0.3, excursion=1e-8)
+    parameters = salebra.ContactParameters(friction_coefficient=0.3, excursion=1e-8)
     drag = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-9, angular_frequency=1e5)
-    assert salebra.premises_of(law, drag, indentation=1e-6, facts=facts).regime == "partial slip"
-    facts = salebra.ContactFacts(friction_coefficient=0.3)
+    assert salebra.assumptions_of(law, drag, indentation=1e-6, parameters=parameters).regime == "partial slip"
+    parameters = salebra.ContactParameters(friction_coefficient=0.3)
     # At the largest velocity the loss with slip is 5 % off: a chord of 360 steps is good to 1e-3 of it.
-    slow = salebra.Drag(normal_amplitude=1e-8, drag_velocity=result.premises.largest[0].drag_velocity, angular_frequency=1e5)
+    slow = salebra.Drag(normal_amplitude=1e-8, drag_velocity=result.assumptions.largest[0].drag_velocity, angular_frequency=1e5)
     loss = salebra.loss_with_slip(law, slow, 1e-6, friction_coefficient=0.3)
     assert abs(loss.relaxation_work / loss.work_per_cycle_without_slip - 1) == pytest.approx(0.05, rel=0.02)
-    assert salebra.damping_curve(law, [fast], indentation=[1e-6], premises=False)[0].premises is None
-    assert salebra.damping_curve(law, [fast], indentation=[1e-6], facts=facts)[0] == result
+    assert salebra.damping_curve(law, [fast], indentation=[1e-6], assumptions=False)[0].assumptions is None
+    assert salebra.damping_curve(law, [fast], indentation=[1e-6], parameters=parameters)[0] == result
     with pytest.raises(salebra.InvalidInput, match="friction_coefficient: -0.3"):
-        salebra.relaxation_damping(law, fast, indentation=1e-6, facts=salebra.ContactFacts(friction_coefficient=-0.3))
+        salebra.relaxation_damping(law, fast, indentation=1e-6, parameters=salebra.ContactParameters(friction_coefficient=-0.3))
 
 
-def test_a_curve_says_pressures_and_size_for_the_premises() -> None:
+def test_a_curve_says_pressures_and_size_for_the_assumptions() -> None:
     surface, material = generated(32), salebra.Material(1e9, poisson=0.3)
     curve = salebra.sweep_pressures(surface, material, np.geomspace(1e5, 5e6, 6))
     law = salebra.TabulatedLaw(curve, material.modulus_ratio)
-    facts = salebra.ContactFacts(hardness=1e9, contact_modulus=1e9)
+    parameters = salebra.ContactParameters(hardness=1e9, contact_modulus=1e9)
     motion = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-6, angular_frequency=1e5)
     place = float(curve.force[3])
-    with_curve = salebra.relaxation_damping(law, motion, force=place, facts=facts, curve=curve)
+    with_curve = salebra.relaxation_damping(law, motion, force=place, parameters=parameters, curve=curve)
     # 1.5 mean pressures of the contact over the hardness.
-    assert with_curve.premises.plasticity.value == pytest.approx(
+    assert with_curve.assumptions.plasticity.value == pytest.approx(
         1.5 * curve.pressure[3] / curve.contact_area_fraction[3] / 1e9, rel=1e-9
     )
-    assert salebra.relaxation_damping(law, motion, force=place, facts=facts).premises.plasticity.verdict == "unknown"
+    assert salebra.relaxation_damping(law, motion, force=place, parameters=parameters).assumptions.plasticity.verdict == "unknown"
 
 
 def test_damping_of_a_surface_has_its_error_and_needs_no_interpolation() -> None:
@@ -485,28 +485,28 @@ def test_an_oscillation_stops_the_stick_slip_of_a_slider() -> None:
         salebra.slider_motion(law, slider, friction_coefficient=0.3, force=0.02, start="walking")  # type: ignore[arg-type]
 
 
-def test_premises_are_judged_when_they_are_read() -> None:
+def test_assumptions_are_judged_when_they_are_read() -> None:
     law = salebra.ExponentialLaw(1.0, 1e-7, 0.8)
     motion = salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=1e5)
-    facts = salebra.ContactFacts(friction_coefficient=0.3)
+    parameters = salebra.ContactParameters(friction_coefficient=0.3)
 
     def seconds(count: int, read: bool) -> float:
         start = time.process_time()
         for _ in range(count):
-            result = salebra.relaxation_damping(law, motion, force=1.0, facts=facts)
+            result = salebra.relaxation_damping(law, motion, force=1.0, parameters=parameters)
             if read:
-                assert result.premises is not None
+                assert result.assumptions is not None
         return (time.process_time() - start) / count
 
-    # The constant takes microseconds, the premises milliseconds: a factor of 100, of which 5 is left to a busy machine.
+    # The constant takes microseconds, the assumptions milliseconds: a factor of 100, of which 5 is left to a busy machine.
     assert seconds(100, read=False) < seconds(5, read=True) / 5
-    result = salebra.relaxation_damping(law, motion, force=1.0, facts=facts)
-    expected = salebra.premises_of(law, motion, force=1.0, facts=facts)
+    result = salebra.relaxation_damping(law, motion, force=1.0, parameters=parameters)
+    expected = salebra.assumptions_of(law, motion, force=1.0, parameters=parameters)
     law = None  # type: ignore[assignment]  # the result keeps it
     gc.collect()
-    assert result.premises == expected and pickle.loads(pickle.dumps(result)) == result
+    assert result.assumptions == expected and pickle.loads(pickle.dumps(result)) == result
     with pytest.raises(salebra.InvalidInput, match="hardness: -1 must be a finite number > 0"):
-        salebra.relaxation_damping(salebra.ExponentialLaw(1.0, 1e-7, 0.8), motion, force=1.0, facts=salebra.ContactFacts(hardness=-1.0))
+        salebra.relaxation_damping(salebra.ExponentialLaw(1.0, 1e-7, 0.8), motion, force=1.0, parameters=salebra.ContactParameters(hardness=-1.0))
 
 
 def test_a_curve_without_stiffness_is_refused(surface: salebra.Surface, material: salebra.Material) -> None:

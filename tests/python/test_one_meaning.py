@@ -59,7 +59,7 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
             "DampingPoint": [getattr(one, name) for one in result.realisations[0].bem.damping],
         }
         curve = result.realisations[0].bem.curve
-        facts = salebra.ContactFacts(friction_coefficient=0.3, excursion=20e-9)
+        parameters = salebra.ContactParameters(friction_coefficient=0.3, excursion=20e-9)
         motion = salebra.Drag(normal_amplitude=20e-9, drag_velocity=1e-6, frequency=20e3)
         surface = salebra.random_phase(
             salebra.Grid2D(64, 64, 1e-3, 1e-3),
@@ -67,7 +67,7 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
         )  # fmt: skip
         material = salebra.Material(1e9, poisson=0.3)
         # The function gives a number beside an error that exceeds it, the study does not.
-        losses = salebra.surface_damping(surface, material, motion, curve, facts=facts)
+        losses = salebra.surface_damping(surface, material, motion, curve, parameters=parameters)
         found["surface_damping"] = [value if np.isfinite(number) else number for value, number in zip(getattr(losses, name), expected)]
         printed = program("study", file)["damping"]
         found["study --json"] = printed[name]["mean"]
@@ -99,8 +99,8 @@ def test_every_face_gives_one_number_under_one_name(tmp_path: Path, program: Cal
 def test_a_law_and_a_single_case_have_the_same_meaning(program: Callable[..., Any]) -> None:
     law = salebra.ExponentialLaw(1.0, 1e-7, salebra.Material(1e9, poisson=0.3).modulus_ratio)
     motion = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-6, frequency=20e3)
-    facts = salebra.ContactFacts(friction_coefficient=0.3, excursion=1e-8)
-    slip = salebra.relaxation_damping(law, motion, force=1.0, facts=facts)
+    parameters = salebra.ContactParameters(friction_coefficient=0.3, excursion=1e-8)
+    slip = salebra.relaxation_damping(law, motion, force=1.0, parameters=parameters)
     stuck = salebra.relaxation_damping(law, motion, force=1.0)
     loss = salebra.loss_with_slip(law, motion, slip.indentation, friction_coefficient=0.3, excursion=1e-8)
     printed = program(
@@ -113,9 +113,9 @@ def test_a_law_and_a_single_case_have_the_same_meaning(program: Callable[..., An
     for name in ("damping_constant", "work_per_cycle"):
         assert getattr(slip, f"{name}_without_slip") == getattr(stuck, name) == getattr(stuck, f"{name}_without_slip")
         assert printed[f"{name}_without_slip"] == pytest.approx(getattr(stuck, name), rel=1e-12)
-    curve = salebra.damping_curve(law, [motion], force=[0.5, 1.0], facts=facts)
+    curve = salebra.damping_curve(law, [motion], force=[0.5, 1.0], parameters=parameters)
     assert curve.damping_constant[1] == slip.damping_constant
     assert list(curve.force) == [0.5, 1.0] and curve.regime == ["partial slip"] * 2
     with pytest.warns(UserWarning, match="excursion"):
-        unknown = salebra.relaxation_damping(law, motion, force=1.0, facts=salebra.ContactFacts(friction_coefficient=0.3))
+        unknown = salebra.relaxation_damping(law, motion, force=1.0, parameters=salebra.ContactParameters(friction_coefficient=0.3))
     assert np.isnan(unknown.damping_constant) and unknown.damping_constant_without_slip == stuck.damping_constant

@@ -152,7 +152,7 @@ LONG = {
     "at": "[model.at(0.0) for model in [interacting()] for k in range(1000000)]",
     # What reports no progress, or none within an item.
     "damping_curve": "salebra.damping_curve(law, [salebra.Drag(normal_amplitude=1e-9, drag_velocity=1e-3, angular_frequency=1e5)] * 300000, force=1.0)",
-    "premises_of": "[salebra.damping_curve(law, [motion], force=1.0)[0].premises for k in range(1000000)]",
+    "assumptions_of": "[salebra.damping_curve(law, [motion], force=1.0)[0].assumptions for k in range(1000000)]",
     "regime_map": "salebra.regime_map(law, 0.0, 1e-9, 1e5, [k * 1e-6 for k in range(1, 4000)], [k * 1e-9 for k in range(1, 4000)], friction_coefficient=0.3)",
     "monte_carlo_curve": "salebra.monte_carlo_curve(ensemble, material, 1e-6, [1e-8 * k for k in range(20)], realisations=100000)",
     "curve_at_separations": "salebra.curve_at_separations(deterministic, [1e-12 * k - 1e-7 for k in range(60000)])",

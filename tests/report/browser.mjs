@@ -363,7 +363,7 @@ for (const [name, sets] of Object.entries(motions)) {
         check(Math.abs(readBack(shown[label]) / 100 - share) < 0.01, `${where}: ${shown[label]} ${label}, by the program ${share}`);
       check(shown.regime === asked.regime[i], `${where}: the regime is ${shown.regime}, by the program ${asked.regime[i]}`);
       // With a coefficient of friction slip is followed, and no condition.
-      const verdicts = Object.entries(asked.premises).filter(([premise, one]) => !/^slip_|^amplitude/.test(premise) && !(premise === "coupling" && one.verdict[i] === "unknown")).map(([, one]) => one.verdict[i]);
+      const verdicts = Object.entries(asked.assumptions).filter(([assumption, one]) => !/^slip_|^amplitude/.test(assumption) && !(assumption === "coupling" && one.verdict[i] === "unknown")).map(([, one]) => one.verdict[i]);
       if (asked.regime[i] === "sliding") verdicts.push("broken");  // no damper
       const validity = [["broken", "not valid"], ["doubtful", "valid with care"], ["unknown", "not checked"], ["holds", "valid"]].find(([verdict]) => verdicts.includes(verdict))[1];
       check(shown.validity === validity, `${where}: is ${shown.validity}, by the program ${validity}`);
@@ -391,7 +391,7 @@ const judged = await full.evaluate(() => { const point = data.points[0], {mean, 
   const other = structuredClone(point);
   Object.assign(other.solution.damping_constant, {mean: mean.map((value) => value && value / 3), error: error.map((value) => value && value / 3)});
   return point.pressure.map((_, k) => ({k, mean: mean[k], error: error[k], mine: of(point, k), other: of(other, k)})).filter((one) => known(one.mean) && !/range/.test(one.mine.why)); });
-const curveOf = (answer) => answer.conditions.find((one) => one.name === "curve").verdict;
+const curveOf = (answer) => answer.verdicts.find((one) => one.name === "curve").verdict;
 for (const {k, mean, error, mine} of judged)
   check(curveOf(mine) === "broken" ? Number.isNaN(mine.damping_constant) : Math.abs(mine.damping_constant / mean - 1) <= error / mean + (curveOf(mine) === "holds" ? 0.05 : 0.2), `full.html, load ${k}: ${mine.damping_constant} by the curve, ${mean} ± ${error} by contacts, which is ${curveOf(mine)}`);
 check(judged.length > 5 && judged.every(({other}) => curveOf(other) === "broken" && Number.isNaN(other.damping_constant) && other.validity === "not valid" && /does not resolve/.test(other.why)), "full.html: has numbers of a curve that contacts do not confirm");

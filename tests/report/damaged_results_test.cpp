@@ -37,5 +37,5 @@ TEST_CASE("Results with parts missing, empty or short are refused, not read beyo
           [&] { hostile::set_numbers(file, "fit/law_off_closest", {}); });
   refused("picture/heights has 1 values",
           [&] { hostile::set_numbers(file, "picture/heights", {1e-9}); });
-  refused("premises/inertia is missing", [&] { hostile::remove(file, "premises/inertia"); });
+  refused("assumptions/inertia is missing", [&] { hostile::remove(file, "assumptions/inertia"); });
 }

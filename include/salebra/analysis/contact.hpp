@@ -14,7 +14,7 @@
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/operating_point.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <string>
 #include <variant>
 #include <vector>
@@ -80,11 +80,11 @@ struct ContactSolution {
   double nominal_area() const { return curve ? curve->nominal_area : 0; }  ///< m²; 0: not known
   /// Adds to the contact parameters, at a mean and at the deepest indentation, those that the law,
   /// the curve and the first loading determine.
-  ContactFacts facts_at(ContactFacts facts, double indentation, double deepest) const;
+  ContactParameters parameters_at(ContactParameters parameters, double indentation, double deepest) const;
   /// Checks a loss that includes slip and finite amplitude: the assumptions of slip, slow motion
   /// and small amplitude hold without a value, and the others are checked.
-  Premises premises_beside_slip(double indentation, const Oscillation& motion,
-                                const ContactFacts& known) const;
+  Assumptions assumptions_beside_slip(double indentation, const Oscillation& motion,
+                                const ContactParameters& known) const;
 };
 
 /// Computes the law and the operating points of a contact.

@@ -11,7 +11,7 @@
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/stress_map.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <string>
@@ -32,7 +32,7 @@ struct DampingProblem {
   Hold hold = Hold::indentation;
   Amplitude amplitude = Amplitude::finite;
   /// Used to check the assumptions; with a coefficient of friction the loss includes slip.
-  ContactFacts facts = {};
+  ContactParameters parameters = {};
   int steps = 2000;  ///< straight steps per normal cycle to compute slip; >= 8
   /// For a surface: boundary, relative error and seam; the members above replace the others.
   SurfaceDampingOptions surface = {};
@@ -55,7 +55,7 @@ struct DampingSolution {
   std::vector<double> slow_limit_power = {};  ///< for two frequencies, without slip, W
   /// For a slow motion with a known excursion X: W·2X/w with w = 2πv/ω, J.
   std::vector<double> work_there_and_back = {};
-  std::vector<Premises> premises = {};
+  std::vector<Assumptions> assumptions = {};
   std::vector<std::string> doubts = {};  ///< warnings besides those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
@@ -100,7 +100,7 @@ struct PathProblem {
   ContactProblem contact;  ///< its operating points are ignored
   SampledMotion path;
   std::vector<double> transverse = {};  ///< y at the samples, without slip, m; empty: none
-  ContactFacts facts = {};              ///< a coefficient of friction adds slip
+  ContactParameters parameters = {};              ///< a coefficient of friction adds slip
 };
 constexpr void describe(auto&& visit, std::type_identity<PathProblem>) {
   visit(&PathProblem::transverse,
@@ -110,7 +110,7 @@ constexpr void describe(auto&& visit, std::type_identity<PathProblem>) {
 /// The loss of a path and the check of its assumptions.
 struct PathSolution {
   TrajectoryDamping loss;
-  Premises premises;
+  Assumptions assumptions;
 };
 PathSolution solve(const PathProblem& problem, const Context& context = {});
 
@@ -125,9 +125,9 @@ struct DamperProblem {
   std::optional<TangentialOscillator> oscillator = {};  ///< for one amplitude and one ω
   std::optional<double> falling_slope = {};  ///< slope b of a falling friction force, N s/m
   double largest_amplitude = 0;              ///< end of the search for stability, m
-  /// Velocity of the slow motion, m/s; with friction γ depends on it and on facts.excursion.
-  double drag_velocity = ContactFacts::unknown;
-  ContactFacts facts = {};
+  /// Velocity of the slow motion, m/s; with friction γ depends on it and on parameters.excursion.
+  double drag_velocity = ContactParameters::unknown;
+  ContactParameters parameters = {};
 };
 
 /// The damping constant over amplitude and frequency, and its effect on an oscillator or a slider.
@@ -146,7 +146,7 @@ struct DamperSolution {
   std::vector<double> stabilising_amplitude_error = {};  ///< for a surface, m
   /// For each amplitude at the highest frequency: slip does not depend on frequency, inertia grows
   /// with it.
-  std::vector<Premises> premises = {};
+  std::vector<Assumptions> assumptions = {};
   std::vector<std::string> doubts = {};  ///< warnings besides those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
@@ -181,7 +181,7 @@ struct JointProblem {
   double normal_amplitude = 0;   ///< u_z of δ + u_z cos ωt, m; 0: the normal force is constant
   double phase = 0;              ///< φ0 of the tangential motions against the normal one, rad
   double angular_frequency = 0;  ///< to check inertia, rad/s; 0: not known
-  ContactFacts facts = {};       ///< including the coefficient of friction
+  ContactParameters parameters = {};       ///< including the coefficient of friction
   int steps = 2000;              ///< steps per cycle with a normal oscillation; >= 16
   /// Nominal area of the joint, m²: the law of a curve or a surface is scaled to it; for another
   /// law it is the area that has this law. NaN: no scaling.
@@ -199,7 +199,7 @@ struct JointSolution {
   std::vector<JointLoss> losses = {};
   std::vector<JointLoss> simulated = {};  ///< the same, simulated cell by cell
   EqualFrequency largest = {};            ///< largest of the motions
-  Premises premises = {};                 ///< for the largest motion
+  Assumptions assumptions = {};                 ///< for the largest motion
   std::vector<std::string> remarks = {};  ///< warnings about the losses and their error
 };
 
@@ -207,7 +207,7 @@ struct JointSolution {
 ///
 ///     JointSolution joint = solve(JointProblem{.contact = ExponentialContact{30e-9, 0.8, {100}},
 ///                                           .motions = {TangentialForce{20}},
-///                                           .facts = {.friction_coefficient = 0.5}});
+///                                           .parameters = {.friction_coefficient = 0.5}});
 ///
 /// throws  InvalidInput for several operating points, no motion, direct steps without a surface,
 ///         and as solve(ContactProblem) and the functions of joint.hpp; NotConverged where an

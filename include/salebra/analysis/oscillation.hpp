@@ -6,7 +6,7 @@
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/cycle.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <string>
 #include <vector>
 
@@ -119,6 +119,6 @@ SlipEffect slip_effect(const OscillationOutcome& outcome);
 CouplingEffect coupling_effect(const OscillationOutcome& outcome);
 /// Checks the assumptions by the forces of the level quadrature and by the coupled cycle where
 /// there is one; only by the contact parameters where fewer than four of its contacts touch.
-Premises premises_of(const OscillationOutcome& outcome, ContactFacts facts);
+Assumptions assumptions_of(const OscillationOutcome& outcome, ContactParameters parameters);
 
 }  // namespace salebra

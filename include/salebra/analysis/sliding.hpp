@@ -3,7 +3,7 @@
 
 #include <optional>
 #include <salebra/analysis/contact.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <string>

@@ -4,7 +4,7 @@
 #include <salebra/analysis/contact.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 #include <string>
 
@@ -14,7 +14,7 @@ namespace salebra {
 /// Returns a sentence on why the loss of a motion with a known coefficient of friction is unknown
 /// and which input is missing; empty if it is known, or friction is infinite. force_given: the normal
 /// force oscillates by a given amplitude.
-std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts,
+std::string why_loss_unknown(const Motion& motion, const ContactParameters& parameters,
                              bool force_given = false);
 
 /// Turns the loss of a law without slip into that of the motion as described: with slip where the
@@ -28,7 +28,7 @@ std::string why_loss_unknown(const Motion& motion, const ContactFacts& facts,
 /// Throws InvalidInput as loss_with_slip() and trajectory_damping(), and Interrupted.
 /// Cost: some milliseconds; one step of the law for each of `steps`.
 void add_slip(DampingResult& result, const ContactLaw& law, const Motion& motion,
-              const ContactFacts& facts, int steps = 2000, const Context& context = {});
+              const ContactParameters& parameters, int steps = 2000, const Context& context = {});
 
 /// One period of a motion about a mean indentation, and the loss along it: the data of a plot.
 struct DampingCycle {

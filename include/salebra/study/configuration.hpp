@@ -12,7 +12,7 @@
 #include <salebra/contact/normal/conductance.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/oscillation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/surface_damping.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/read_surface.hpp>
@@ -190,7 +190,7 @@ struct StudyConfiguration {
   /// Friction, hardness, density and excursion, for the assumptions of the damping. With a hardness
   /// each surface is first loaded to the largest pressure (after_first_loading()), and the study is
   /// that of the residual surface.
-  ContactFacts known;
+  ContactParameters known;
   /// Intervals between the contacts inside the oscillation, SurfaceDampingOptions::levels; empty:
   /// 4, doubled for a single surface where they do not suffice. With 0 the loss of the boundary
   /// elements, as that of every other model, is computed from their curve between loads, without an

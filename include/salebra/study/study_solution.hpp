@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/study/study.hpp>
 #include <string>
 #include <vector>
@@ -26,8 +26,8 @@ struct StudySolution {
   std::vector<EnsembleMean> thermal_conductance = {}, electrical_conductance = {};
   bool slip_followed = false;  ///< the coefficient of friction is known
   std::string unknown = {};    ///< why_loss_unknown(); empty: the loss is known
-  std::vector<Premises> premises = {};
-  std::vector<Condition> conditions = {};  ///< worst first
+  std::vector<Assumptions> assumptions = {};
+  std::vector<AssumptionVerdict> verdicts = {};  ///< worst first
   Validity validity = Validity::not_checked;
 
   /// Whether damping_constant includes slip.
@@ -49,9 +49,9 @@ constexpr void describe(auto&& visit, std::type_identity<StudySolution>) {
                  "electrical conductance over nominal area"});
   visit(&S::slip_followed, Kept{"slip_followed", "whether the coefficient of friction is known"});
   visit(&S::unknown, Kept{"unknown", "why the loss is unknown; empty: it is known"});
-  visit(&S::premises, Kept{"premises", "premises at each pressure"});
-  visit(&S::conditions, Kept{"conditions", "premises in words, worst first"});
-  visit(&S::validity, Kept{"validity", "one word for all conditions"});
+  visit(&S::assumptions, Kept{"assumptions", "assumptions at each pressure"});
+  visit(&S::verdicts, Kept{"verdicts", "assumptions in words, worst first"});
+  visit(&S::validity, Kept{"validity", "one word for all verdicts"});
 }
 
 /// Evaluates a study for its motion.

@@ -4,35 +4,35 @@
 #include <functional>
 #include <optional>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <string>
 #include <vector>
 
 namespace salebra::python {
 
-/// A damping constant with the premises behind it.
+/// A damping constant with the assumptions behind it.
 struct JudgedDamping : DampingResult {
-  std::optional<Premises> premises;
+  std::optional<Assumptions> assumptions;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<JudgedDamping>) {
   describe(visit, std::type_identity<DampingResult>{});
-  visit(&JudgedDamping::premises, Kept{"premises",
+  visit(&JudgedDamping::assumptions, Kept{"assumptions",
                                        "whether the contact may be taken for one without slip, "
                                        "yielding and inertia; None where they were not asked for"});
 }
 
-/// The same as Python knows it. The premises take far longer than the constant and are therefore
+/// The same as Python knows it. The assumptions take far longer than the constant and are therefore
 /// judged when they are read for the first time.
 struct BoundDamping : DampingResult {
-  mutable std::optional<Premises> premises;
-  mutable std::function<Premises()>
-      judge;  ///< empty: the premises are known, or were not asked for
+  mutable std::optional<Assumptions> assumptions;
+  mutable std::function<Assumptions()>
+      judge;  ///< empty: the assumptions are known, or were not asked for
 
   JudgedDamping judged() const {
-    if (judge) premises = judge();
+    if (judge) assumptions = judge();
     judge = nullptr;
-    return {*this, premises};
+    return {*this, assumptions};
   }
 };
 
@@ -54,12 +54,12 @@ struct BoundDampingCurve {
   std::vector<BoundDamping> results;
 };
 
-inline ContactFacts known(const ContactFacts* facts) { return facts ? *facts : ContactFacts{}; }
+inline ContactParameters known(const ContactParameters* parameters) { return parameters ? *parameters : ContactParameters{}; }
 
 /// Warns of a loss that is NaN because friction is known and another input is not.
-void warn_of_unknown(const Motion& motion, const ContactFacts* facts, bool force_given = false);
+void warn_of_unknown(const Motion& motion, const ContactParameters* parameters, bool force_given = false);
 
 /// "slip_of_opening_levels broken, amplitude doubtful", or that none is.
-std::string verdicts(const Premises& premises);
+std::string verdicts(const Assumptions& assumptions);
 
 }  // namespace salebra::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Premises of a damping constant without slip, and the loss with slip, from the springs of a
+// Assumptions of a damping constant without slip, and the loss with slip, from the springs of a
 // contact law.
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <salebra/base/error.hpp>
 #include <salebra/contact/mdr/mdr.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/tangential_contact.hpp>
 #include <type_traits>
 
@@ -126,7 +126,7 @@ class OpeningLevels final : public ContactLaw {
   double bottom_, force_, stiffness_;
 };
 
-// A motion as the premises see it.
+// A motion as the assumptions see it.
 struct JudgedMotion {
   double mean = 0, amplitude = 0;  // δ0, u_z
   double displacement = 0;         // that M counts: u_x, or v/ω of a drag
@@ -477,24 +477,24 @@ double cost_of_turning(const ContactLaw& law, double mean, double amplitude) {
   return ways > no_loss * cells * closed ? squares / (pi * ways) : 0;
 }
 
-Premise slow_motion_of(const ContactLaw& law, const JudgedMotion& motion,
-                       const ContactFacts& facts) {
-  Premise premise;
+Assumption slow_motion_of(const ContactLaw& law, const JudgedMotion& motion,
+                       const ContactParameters& parameters) {
+  Assumption assumption;
   if (!motion.drag) {
-    premise.verdict = Verdict::holds;
-    return premise;
+    assumption.verdict = Verdict::holds;
+    return assumption;
   }
   const double cost = cost_of_turning(law, motion.mean, motion.amplitude);
   // On less than the way of one cycle the motion is not slow, however short the contacts are.
-  premise.limit_5_percent = std::max(1.0, cost / 0.05);
-  premise.limit_20_percent = std::max(1.0, cost / 0.2);
-  premise.value = facts.excursion / (2 * pi * std::abs(motion.displacement));
+  assumption.limit_5_percent = std::max(1.0, cost / 0.05);
+  assumption.limit_20_percent = std::max(1.0, cost / 0.2);
+  assumption.value = parameters.excursion / (2 * pi * std::abs(motion.displacement));
   if (std::isnan(motion.displacement))
-    premise.needs = "drag_velocity";
-  else if (std::isnan(facts.excursion))
-    premise.needs = "excursion";
-  judge(premise, true);
-  return premise;
+    assumption.needs = "drag_velocity";
+  else if (std::isnan(parameters.excursion))
+    assumption.needs = "excursion";
+  judge(assumption, true);
+  return assumption;
 }
 
 void check(const NormalOscillation& normal, const std::vector<double>& velocities,
@@ -506,17 +506,17 @@ void check(const NormalOscillation& normal, const std::vector<double>& velocitie
   for (const double excursion : excursions) require_positive(excursion, "excursion");
 }
 
-void check(const ContactFacts& facts) {
-  for (const auto& [value, field] : {std::pair{facts.friction_coefficient, "friction_coefficient"},
-                                     {facts.hardness, "hardness"},
-                                     {facts.density, "density"},
-                                     {facts.excursion, "excursion"},
-                                     {facts.contact_modulus, "contact_modulus"},
-                                     {facts.loaded_size, "loaded_size"},
-                                     {facts.first_load, "first_load"}})
+void check(const ContactParameters& parameters) {
+  for (const auto& [value, field] : {std::pair{parameters.friction_coefficient, "friction_coefficient"},
+                                     {parameters.hardness, "hardness"},
+                                     {parameters.density, "density"},
+                                     {parameters.excursion, "excursion"},
+                                     {parameters.contact_modulus, "contact_modulus"},
+                                     {parameters.loaded_size, "loaded_size"},
+                                     {parameters.first_load, "first_load"}})
     if (!std::isnan(value)) require_positive(value, field);
-  if (facts.nominal_pressure > facts.hardness && std::isnan(facts.first_load))
-    require(false, "hardness", facts.hardness,
+  if (parameters.nominal_pressure > parameters.hardness && std::isnan(parameters.first_load))
+    require(false, "hardness", parameters.hardness,
             "Pa is below the mean pressure of the contact, where all of it would flow; reduce the "
             "load or give the hardness in Pa");
 }
@@ -524,92 +524,92 @@ void check(const ContactFacts& facts) {
 // Poisson's ratio of one elastic body with this G*/E* = 2(1 − ν)/(2 − ν).
 double poisson_of(double modulus_ratio) { return (2 - 2 * modulus_ratio) / (2 - modulus_ratio); }
 
-void judge_flow(Premise& premise) {
-  if (std::isnan(premise.value)) return;
-  premise.verdict = premise.value > 1               ? Verdict::broken
-                    : premise.value > premise.onset ? Verdict::doubtful
+void judge_flow(Assumption& assumption) {
+  if (std::isnan(assumption.value)) return;
+  assumption.verdict = assumption.value > 1               ? Verdict::broken
+                    : assumption.value > assumption.onset ? Verdict::doubtful
                                                     : Verdict::holds;
 }
 
 // peak_force: at the deepest indentation.
-Premise plasticity_of(const ContactFacts& facts, double peak_force) {
-  if (!std::isnan(facts.first_load)) {
+Assumption plasticity_of(const ContactParameters& parameters, double peak_force) {
+  if (!std::isnan(parameters.first_load)) {
     // A first loading ends at the peak of the oscillation, whose force a law through some loads
     // has to this accuracy.
     constexpr double accuracy = 0.02;
-    const double share = peak_force / facts.first_load;
-    Premise premise{.value = std::abs(share - 1) < accuracy ? 1 : share, .onset = 1};
-    judge_flow(premise);
-    return premise;
+    const double share = peak_force / parameters.first_load;
+    Assumption assumption{.value = std::abs(share - 1) < accuracy ? 1 : share, .onset = 1};
+    judge_flow(assumption);
+    return assumption;
   }
   // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
-  Premise premise{.onset = 0.6};
+  Assumption assumption{.onset = 0.6};
   // A paraboloid has this ratio.
   constexpr double largest_over_mean = 1.5;
   double stress = unknown;
-  for (const double one : {facts.largest_pressure, largest_over_mean * facts.mean_contact_pressure,
-                           facts.contact_modulus * facts.rms_slope})
+  for (const double one : {parameters.largest_pressure, largest_over_mean * parameters.mean_contact_pressure,
+                           parameters.contact_modulus * parameters.rms_slope})
     stress = std::fmax(stress, one);
-  premise.value = stress / facts.hardness;
-  if (std::isnan(facts.hardness))
-    premise.needs = "hardness";
+  assumption.value = stress / parameters.hardness;
+  if (std::isnan(parameters.hardness))
+    assumption.needs = "hardness";
   else if (std::isnan(stress))
-    premise.needs = "largest_pressure";
-  judge_flow(premise);
-  return premise;
+    assumption.needs = "largest_pressure";
+  judge_flow(assumption);
+  return assumption;
 }
 
 // drag: what the coupling changes of a slow motion was never computed.
-Premise coupling_of(const ContactLaw& law, bool indenter, bool drag, const ContactFacts& facts) {
-  Premise premise{.limit_5_percent = 0.05, .limit_20_percent = 0.2};
-  if (drag) return premise;
+Assumption coupling_of(const ContactLaw& law, bool indenter, bool drag, const ContactParameters& parameters) {
+  Assumption assumption{.limit_5_percent = 0.05, .limit_20_percent = 0.2};
+  if (drag) return assumption;
   const double poisson = poisson_of(law.modulus_ratio());
   const double dundurs =
-      std::isnan(facts.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : facts.dundurs;
+      std::isnan(parameters.dundurs) ? (1 - 2 * poisson) / (2 * (1 - poisson)) : parameters.dundurs;
   // The largest of direct simulations at ν = 0.3 (β = 0.286) and 0 (β = 0.5): 12 and 52 % of a
   // paraboloid at 45°, 4 and 18 % of rough surfaces (docs/direct_simulation.md).
-  premise.value =
+  assumption.value =
       indenter ? 3.2 * std::pow(std::abs(dundurs), 2.62) : 1.16 * std::pow(std::abs(dundurs), 2.69);
-  judge(premise);
-  return premise;
+  judge(assumption);
+  return assumption;
 }
 
 // stick: loss for u_x = 1 m.
-Premise inertia_of(const ContactLaw& law, const JudgedMotion& motion, double stick,
-                   const ContactFacts& facts) {
+Assumption inertia_of(const ContactLaw& law, const JudgedMotion& motion, double stick,
+                   const ContactParameters& parameters) {
   // A stuck circle on a half-space: K(1 + 0.58i a0) for small a0 = ωa/c_s.
   constexpr double radiation = 0.58;
   const auto change_of_modulus = [](double change) {
     return std::sqrt((1 + change) * (1 + change) - 1) / radiation;
   };
-  Premise premise{.limit_5_percent = change_of_modulus(0.05),
+  Assumption assumption{.limit_5_percent = change_of_modulus(0.05),
                   .limit_20_percent = change_of_modulus(0.2)};
   if (!(motion.fastest > 0)) {
-    premise.needs = "angular_frequency";
-    return premise;
+    assumption.needs = "angular_frequency";
+    return assumption;
   }
-  for (const auto& [value, field] : {std::pair{facts.density, "density"},
-                                     {facts.contact_modulus, "contact_modulus"},
-                                     {facts.loaded_size, "loaded_size"}})
-    if (std::isnan(value) && premise.needs.empty()) premise.needs = field;
-  if (!premise.needs.empty()) return premise;
+  for (const auto& [value, field] : {std::pair{parameters.density, "density"},
+                                     {parameters.contact_modulus, "contact_modulus"},
+                                     {parameters.loaded_size, "loaded_size"}})
+    if (std::isnan(value) && assumption.needs.empty()) assumption.needs = field;
+  if (!assumption.needs.empty()) return assumption;
   const double ratio = law.modulus_ratio(), poisson = poisson_of(ratio);
-  const double shear = ratio * facts.contact_modulus * (2 - poisson) / 4;
-  premise.value = motion.fastest * facts.loaded_size / std::sqrt(shear / facts.density);
+  const double shear = ratio * parameters.contact_modulus * (2 - poisson) / 4;
+  assumption.value = motion.fastest * parameters.loaded_size / std::sqrt(shear / parameters.density);
   if (!motion.drag && stick > 0) {
     const double stiffness = law.tangential_stiffness(motion.mean + motion.amplitude);
-    const double whole = 2 * ratio * facts.contact_modulus * facts.loaded_size;
+    const double whole = 2 * ratio * parameters.contact_modulus * parameters.loaded_size;
     const double radiated = pi * radiation * stiffness * std::min(1.0, stiffness / whole);
-    premise.limit_5_percent = std::min(premise.limit_5_percent, 0.05 * stick / radiated);
-    premise.limit_20_percent = std::min(premise.limit_20_percent, 0.2 * stick / radiated);
+    assumption.limit_5_percent = std::min(assumption.limit_5_percent, 0.05 * stick / radiated);
+    assumption.limit_20_percent = std::min(assumption.limit_20_percent, 0.2 * stick / radiated);
   }
-  judge(premise);
-  return premise;
+  judge(assumption);
+  return assumption;
 }
 
-Premise amplitude_of(const ContactLaw& law, const JudgedMotion& motion, double length,
+Assumption amplitude_of(const ContactLaw& law, const JudgedMotion& motion, double length,
                      double stick) {
-  Premise premise{.value = motion.amplitude};
+  Assumption assumption{.value = motion.amplitude};
   // The limit of W/u_z for small u_z, not F'' itself: that of a table jumps at its samples.
   const double least = 1e-4 * length;
   const double range =
@@ -621,14 +621,14 @@ Premise amplitude_of(const ContactLaw& law, const JudgedMotion& motion, double l
     const Limits limits = first_crossings(
         [&](double amplitude) { return std::abs(slope * amplitude / motion.loss(amplitude) - 1); },
         least, most);
-    premise.limit_5_percent = limits.five;
-    premise.limit_20_percent = limits.twenty;
+    assumption.limit_5_percent = limits.five;
+    assumption.limit_20_percent = limits.twenty;
   }
-  judge(premise);
+  judge(assumption);
   // No limit within the law's range, and a motion that leaves it.
-  if (slope > 0 && std::isnan(premise.limit_5_percent) && motion.amplitude > 1.001 * most)
-    premise.verdict = Verdict::unknown;
-  return premise;
+  if (slope > 0 && std::isnan(assumption.limit_5_percent) && motion.amplitude > 1.001 * most)
+    assumption.verdict = Verdict::unknown;
+  return assumption;
 }
 
 // A length of the law's own where it stands: F/K, or u_z where there is no contact in the mean.
@@ -637,20 +637,20 @@ double length_of(const ContactLaw& law, double mean, double amplitude) {
   return force > 0 && stiffness > 0 ? force / stiffness : amplitude;
 }
 
-void set_limits(Premise& premise, const Limits& limits, double unit) {
-  premise.limit_5_percent = unit * limits.five;
-  premise.limit_20_percent = unit * limits.twenty;
+void set_limits(Assumption& assumption, const Limits& limits, double unit) {
+  assumption.limit_5_percent = unit * limits.five;
+  assumption.limit_20_percent = unit * limits.twenty;
 }
 
 // The largest motions without slip, for μ or, where it is not known, for three of them.
 // displacement: that of 5 % in units of μ/g. closed_limits: of the levels that stay closed, for a
 // μ/g.
 template <class ClosedLimits>
-std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const ContactFacts& facts,
+std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const ContactParameters& parameters,
                                            double stiffness_ratio, double displacement,
                                            const ClosedLimits& closed_limits) {
-  std::vector<double> coefficients{facts.friction_coefficient};
-  if (std::isnan(facts.friction_coefficient)) coefficients = {0.1, 0.3, 1};
+  std::vector<double> coefficients{parameters.friction_coefficient};
+  if (std::isnan(parameters.friction_coefficient)) coefficients = {0.1, 0.3, 1};
   std::vector<LargestMotion> motions;
   for (const double coefficient : coefficients) {
     const double limit = coefficient / stiffness_ratio;
@@ -667,41 +667,41 @@ std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const Con
 }
 
 // By the verdicts on the slip of both kinds of levels. stretch: μ/g.
-Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Premises& premises,
+Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assumptions& assumptions,
                  double stretch, double stick) {
-  const Premise& opening = premises.slip_of_opening_levels;
-  const Premise& closed = premises.slip_of_closed_levels;
+  const Assumption& opening = assumptions.slip_of_opening_levels;
+  const Assumption& closed = assumptions.slip_of_closed_levels;
   if (opening.verdict == Verdict::unknown || closed.verdict == Verdict::unknown)
-    return premises.regime;
+    return assumptions.regime;
   if (opening.verdict == Verdict::holds && closed.verdict == Verdict::holds) return Regime::no_slip;
   return slides(law, motion, std::abs(motion.displacement) / stretch, closed.value / stretch, stick)
              ? Regime::sliding
              : Regime::partial_slip;
 }
 
-Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
-                      const ContactFacts& facts) {
-  check(facts);
+Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
+                      const ContactParameters& parameters) {
+  check(parameters);
   const ContinuedLaw law(given);
   const double amplitude = motion.amplitude;
   require_positive(amplitude, "normal_amplitude");
   detail::require_possible(given, motion.mean, amplitude);
   const double length = length_of(law, motion.mean, amplitude);
-  Premises premises;
-  premises.plasticity = plasticity_of(
-      facts, law.force(std::min(motion.mean + amplitude, given.highest_indentation())));
-  premises.coupling =
-      coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr, motion.drag, facts);
-  premises.slow_motion = slow_motion_of(law, motion, facts);
-  Premise& opening = premises.slip_of_opening_levels;
-  Premise& closed = premises.slip_of_closed_levels;
+  Assumptions assumptions;
+  assumptions.plasticity = plasticity_of(
+      parameters, law.force(std::min(motion.mean + amplitude, given.highest_indentation())));
+  assumptions.coupling =
+      coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr, motion.drag, parameters);
+  assumptions.slow_motion = slow_motion_of(law, motion, parameters);
+  Assumption& opening = assumptions.slip_of_opening_levels;
+  Assumption& closed = assumptions.slip_of_closed_levels;
   const double ratio = law.stiffness_ratio(motion.mean);
-  const double stretch = facts.friction_coefficient / ratio;
+  const double stretch = parameters.friction_coefficient / ratio;
   const double displacement = std::abs(motion.displacement);
   opening.value = stretch * amplitude / displacement;
-  closed.value = std::isnan(facts.excursion) && !motion.drag ? displacement : facts.excursion;
+  closed.value = std::isnan(parameters.excursion) && !motion.drag ? displacement : parameters.excursion;
   if (std::isnan(displacement)) opening.needs = "drag_velocity";
-  if (std::isnan(facts.friction_coefficient)) opening.needs = "friction_coefficient";
+  if (std::isnan(parameters.friction_coefficient)) opening.needs = "friction_coefficient";
   closed.needs = opening.needs;
 
   double stick = 0;
@@ -718,15 +718,15 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   }
   if (opening.needs.empty()) judge(opening, true);
   // Without a path the loss is not known here, but there is one.
-  premises.amplitude = amplitude_of(given, motion, length, motion.path ? stick : 1);
-  premises.inertia = inertia_of(law, motion, stick, facts);
+  assumptions.amplitude = amplitude_of(given, motion, length, motion.path ? stick : 1);
+  assumptions.inertia = inertia_of(law, motion, stick, parameters);
 
   const auto closed_limits = [&](double limit) {
     const double moved = displacement / limit;
     return ClosedLevels(law, motion.mean - amplitude, amplitude, moved)
         .limits(stick * moved * moved, 100 * length);
   };
-  premises.largest = largest_motions(motion, facts, ratio, displacements.five, closed_limits);
+  assumptions.largest = largest_motions(motion, parameters, ratio, displacements.five, closed_limits);
   if (!motion.drag) {
     set_limits(closed, displacements, stretch);
   } else if (closed.needs.empty()) {
@@ -738,8 +738,8 @@ Premises all_premises(const ContactLaw& given, const JudgedMotion& motion,
   }
   if (closed.needs.empty()) judge(closed);
   if (!motion.drag || closed.value >= 2 * pi * displacement)
-    premises.regime = regime_of(law, motion, premises, stretch, stick);
-  return premises;
+    assumptions.regime = regime_of(law, motion, assumptions, stretch, stick);
+  return assumptions;
 }
 
 const ForceSample& nearest_load(const ForceCurve& curve, double force) {
@@ -750,52 +750,52 @@ const ForceSample& nearest_load(const ForceCurve& curve, double force) {
 
 }  // namespace
 
-ContactFacts at_state(ContactFacts facts, const ContactLaw& law, const ForceCurve* curve,
+ContactParameters at_state(ContactParameters parameters, const ContactLaw& law, const ForceCurve* curve,
                       double indentation, double deepest) {
-  check(facts);
+  check(parameters);
   // A motion may leave a table, which says nothing beyond its last load.
   deepest = std::min(deepest, law.highest_indentation());
   const double force = law.force(indentation), peak = law.force(deepest);
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law); indenter && peak > 0) {
     const auto pressure = [](double load, double radius) { return load / (pi * radius * radius); };
     const double radius = indenter->contact_radius(deepest);
-    facts.contact_modulus = indenter->contact_modulus();
-    facts.loaded_size = radius;
-    facts.mean_contact_pressure = pressure(peak, radius);
-    if (force > 0) facts.nominal_pressure = pressure(force, indenter->contact_radius(indentation));
+    parameters.contact_modulus = indenter->contact_modulus();
+    parameters.loaded_size = radius;
+    parameters.mean_contact_pressure = pressure(peak, radius);
+    if (force > 0) parameters.nominal_pressure = pressure(force, indenter->contact_radius(indentation));
   }
-  if (curve == nullptr || !(curve->nominal_area > 0)) return facts;
-  facts.loaded_size = std::sqrt(curve->nominal_area);
-  facts.nominal_pressure = force / curve->nominal_area;
+  if (curve == nullptr || !(curve->nominal_area > 0)) return parameters;
+  parameters.loaded_size = std::sqrt(curve->nominal_area);
+  parameters.nominal_pressure = force / curve->nominal_area;
   // Area and force grow almost in proportion: that of the nearest load will do.
   const ForceSample& nearest = nearest_load(*curve, peak);
-  facts.mean_contact_pressure =
+  parameters.mean_contact_pressure =
       nearest.force / (nearest.contact_area_fraction * curve->nominal_area);
-  return facts;
+  return parameters;
 }
 
-double spot_radius(const ContactFacts& facts, const ContactLaw& law, const ForceCurve* curve,
+double spot_radius(const ContactParameters& parameters, const ContactLaw& law, const ForceCurve* curve,
                    double indentation) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law))
     return indenter->contact_radius(indentation);
-  if (curve == nullptr) return ContactFacts::unknown;
+  if (curve == nullptr) return ContactParameters::unknown;
   const ForceSample& nearest = nearest_load(*curve, law.force(indentation));
-  return 2 * facts.contact_modulus * nearest.contact_area_fraction * curve->nominal_area /
+  return 2 * parameters.contact_modulus * nearest.contact_area_fraction * curve->nominal_area /
          (std::numbers::pi * nearest.normal_stiffness);
 }
 
-Premises premises_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
-                     const ContactFacts& facts) {
-  return all_premises(law, case_of(law, mean_indentation, motion), facts);
+Assumptions assumptions_of(const ContactLaw& law, double mean_indentation, const Oscillation& motion,
+                     const ContactParameters& parameters) {
+  return all_assumptions(law, case_of(law, mean_indentation, motion), parameters);
 }
 
-Premises premises_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
-                     const ContactFacts& facts) {
-  return all_premises(law, case_of(law, mean_indentation, motion), facts);
+Assumptions assumptions_of(const ContactLaw& law, double mean_indentation, const TwoFrequencies& motion,
+                     const ContactParameters& parameters) {
+  return all_assumptions(law, case_of(law, mean_indentation, motion), parameters);
 }
 
-Premises premises_of(const ContactLaw& law, const SampledMotion& path, const ContactFacts& facts) {
-  return all_premises(law, case_of(path), facts);
+Assumptions assumptions_of(const ContactLaw& law, const SampledMotion& path, const ContactParameters& parameters) {
+  return all_assumptions(law, case_of(path), parameters);
 }
 
 Loss loss_with_slip(const ContactLaw& given, double mean_indentation, const Oscillation& motion,

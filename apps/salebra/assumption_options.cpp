@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Options and answers of the premises behind a damping constant.
-#include "premise_options.hpp"
+// Options and answers of the assumptions behind a damping constant.
+#include "assumption_options.hpp"
 
 #include <fmt/format.h>
 
@@ -18,23 +18,23 @@ namespace salebra::cli {
 namespace {
 
 /// The option that gives a fact.
-Json option_of(const std::string& fact) {
-  std::string option = "--" + given_as(fact);
+Json option_of(const std::string& parameter) {
+  std::string option = "--" + given_as(parameter);
   std::ranges::replace(option, '_', '-');
   return option;
 }
 
 /// The largest motions of the first case that could be judged.
-const std::vector<LargestMotion>& any_largest(const std::vector<Premises>& cases) {
+const std::vector<LargestMotion>& any_largest(const std::vector<Assumptions>& cases) {
   const auto judged =
-      std::ranges::find_if(cases, [](const Premises& p) { return !p.largest.empty(); });
+      std::ranges::find_if(cases, [](const Assumptions& p) { return !p.largest.empty(); });
   return judged == cases.end() ? cases.front().largest : judged->largest;
 }
 
 }  // namespace
 
-void PremiseOptions::add_to(Command& command, bool excursion_judged) {
-  const std::string group = "Premises";
+void AssumptionOptions::add_to(Command& command, bool excursion_judged) {
+  const std::string group = "Assumptions";
   add_quantity(command, "--friction-coefficient", friction_coefficient, Dimension::dimensionless,
                "of the two bodies, by which slip is followed or judged")
       ->group(group);
@@ -53,77 +53,77 @@ void PremiseOptions::add_to(Command& command, bool excursion_judged) {
       ->group(group);
 }
 
-ContactFacts PremiseOptions::facts(const MaterialOptions& material,
+ContactParameters AssumptionOptions::parameters(const MaterialOptions& material,
                                    const std::optional<double>& followed) const {
-  ContactFacts facts;
+  ContactParameters parameters;
   for (const auto& [option, value, fact] :
-       {std::tuple{"--friction-coefficient", &friction_coefficient, &facts.friction_coefficient},
-        std::tuple{"--hardness", &hardness, &facts.hardness},
-        std::tuple{"--density", &density, &facts.density},
-        std::tuple{"--excursion", &excursion, &facts.excursion}}) {
+       {std::tuple{"--friction-coefficient", &friction_coefficient, &parameters.friction_coefficient},
+        std::tuple{"--hardness", &hardness, &parameters.hardness},
+        std::tuple{"--density", &density, &parameters.density},
+        std::tuple{"--excursion", &excursion, &parameters.excursion}}) {
     if (!*value) continue;
     require_positive(**value, option);
-    *fact = **value;
+    *parameter = **value;
   }
   if (followed && std::isfinite(*followed) && *followed > 0) {
     require(!friction_coefficient || *friction_coefficient == *followed, "--friction-coefficient",
-            facts.friction_coefficient, "differs from --friction; give one of them");
-    facts.friction_coefficient = *followed;
+            parameters.friction_coefficient, "differs from --friction; give one of them");
+    parameters.friction_coefficient = *followed;
   }
   if (material.contact_modulus || !material.young.empty())
-    facts.contact_modulus = material.material().contact_modulus;
+    parameters.contact_modulus = material.material().contact_modulus;
   if (material.young.size() == 2 && material.poisson.size() == 2)
-    facts.dundurs = std::numbers::pi * facts.contact_modulus * material.coupling_constant();
-  return facts;
+    parameters.dundurs = std::numbers::pi * parameters.contact_modulus * material.coupling_constant();
+  return parameters;
 }
 
-std::vector<Condition> PremiseReport::all_conditions() const {
-  std::vector<Condition> all = conditions_of(cases, slip_followed, pressures);
+std::vector<AssumptionVerdict> AssumptionReport::all_verdicts() const {
+  std::vector<AssumptionVerdict> all = verdicts_of(cases, slip_followed, pressures);
   // The loss of another body than the one judged is known without slip alone.
   if (!body.empty())
-    for (Condition& one : all)
+    for (AssumptionVerdict& one : all)
       if (!one.remedy.empty() && one.name.starts_with("slip_of"))
         one.remedy = "a smaller motion; slip is not followed here";
   return all;
 }
 
-void PremiseReport::add_to(Json& answer) const {
-  const std::vector<Condition> judged_conditions = all_conditions();
-  answer["validity"] = std::string(name_of(validity_of(judged_conditions)));
-  Json& conditions = answer["conditions"] = Json::array();
-  for (Condition one : judged_conditions) {
+void AssumptionReport::add_to(Json& answer) const {
+  const std::vector<AssumptionVerdict> judged = all_verdicts();
+  answer["validity"] = std::string(name_of(validity_of(judged)));
+  Json& verdicts = answer["verdicts"] = Json::array();
+  for (AssumptionVerdict one : judged) {
     one.here = in_options(one.here);
     one.remedy = in_options(one.remedy);
-    conditions.push_back(to_json(one));
+    verdicts.push_back(to_json(one));
   }
   const auto column = [&](const auto& value_of) -> Json {
     if (!list) return value_of(cases.front());
     Json all = Json::array();
-    for (const Premises& premises : cases) all.push_back(value_of(premises));
+    for (const Assumptions& assumptions : cases) all.push_back(value_of(assumptions));
     return all;
   };
   const auto of_cases = [&](const auto& all) { return list ? json_of(all) : json_of(all.front()); };
-  Json& object = answer["premises"] = Json::object();
-  for (const PremiseName& name : premise_names()) {
-    std::vector<Premise> premises;
-    for (const Premises& one : cases) premises.push_back(one.*name.premise);
-    Json& one = object[name.name] = of_cases(premises);
+  Json& object = answer["assumptions"] = Json::object();
+  for (const AssumptionName& name : assumption_names()) {
+    std::vector<Assumption> assumptions;
+    for (const Assumptions& one : cases) assumptions.push_back(one.*name.assumption);
+    Json& one = object[name.name] = of_cases(assumptions);
     const auto lacking = std::ranges::find_if(
-        premises, [](const Premise& premise) { return !premise.needs.empty(); });
-    one["needs"] = lacking == premises.end() ? Json() : option_of(lacking->needs);
+        assumptions, [](const Assumption& assumption) { return !assumption.needs.empty(); });
+    one["needs"] = lacking == assumptions.end() ? Json() : option_of(lacking->needs);
   }
-  if (!body.empty()) answer["premises_of"] = body;
+  if (!body.empty()) answer["assumptions_of"] = body;
   const std::vector<LargestMotion>& judged = any_largest(cases);
   const bool known =
-      std::ranges::any_of(cases, [](const Premises& p) { return p.regime != Regime::unknown; });
+      std::ranges::any_of(cases, [](const Assumptions& p) { return p.regime != Regime::unknown; });
   if (known || !judged.empty())
-    answer["regime"] = column([](const Premises& p) -> Json {
+    answer["regime"] = column([](const Assumptions& p) -> Json {
       return p.regime == Regime::unknown ? Json(nullptr) : Json(name_of(p.regime));
     });
   Json& largest = answer["largest_motion"] = Json::array();
   for (std::size_t i = 0; i < judged.size(); ++i) {
     std::vector<LargestMotion> motions;
-    for (const Premises& p : cases)
+    for (const Assumptions& p : cases)
       motions.push_back(p.largest.empty() ? LargestMotion{} : p.largest[i]);
     Json one = of_cases(motions);
     one["friction_coefficient"] = judged[i].friction_coefficient;
@@ -131,26 +131,26 @@ void PremiseReport::add_to(Json& answer) const {
   }
 }
 
-std::string PremiseReport::text() const {
-  const std::vector<Condition> conditions = all_conditions();
+std::string AssumptionReport::text() const {
+  const std::vector<AssumptionVerdict> verdicts = all_verdicts();
   std::string text;
   const std::string largest = motion_without_slip(cases);
-  const bool judged = std::ranges::any_of(conditions, [](const Condition& one) {
+  const bool judged = std::ranges::any_of(verdicts, [](const AssumptionVerdict& one) {
     return one.name == "slip_of_opening_levels" && one.verdict != Verdict::unknown;
   });
   if (!slip_followed && !judged && !largest.empty())
     text = wrapped("Without slip up to " + largest + "\n", text_width());
-  text += fmt::format("Validity: {}\n{}", name_of(validity_of(conditions)),
-                      in_options(in_words(conditions)));
+  text += fmt::format("Validity: {}\n{}", name_of(validity_of(verdicts)),
+                      in_options(in_words(verdicts)));
   if (const std::string regimes = regimes_in_words(cases, pressures);
       !regimes.empty() && warning().empty())
     text += wrapped("Regime: " + regimes + "\n", text_width());
-  if (!body.empty()) text += "The conditions are those of the " + body + "\n";
+  if (!body.empty()) text += "The verdicts are those of the " + body + "\n";
   return text;
 }
 
-std::string PremiseReport::warning() const {
-  for (const Condition& one : all_conditions())
+std::string AssumptionReport::warning() const {
+  for (const AssumptionVerdict& one : all_verdicts())
     if (one.name == "regime")
       return wrapped(
           in_options(fmt::format("Regime: {}. {}; {}\n", regimes_in_words(cases, pressures),
@@ -159,12 +159,12 @@ std::string PremiseReport::warning() const {
   return "";
 }
 
-void PremiseReport::answer(Session& session, Json object, const std::string& text) const {
+void AssumptionReport::answer(Session& session, Json object, const std::string& text) const {
   add_to(object);
   session.answer(object, warning() + text + "\n" + this->text());
 }
 
-void PremiseReport::answer(Session& session, Json object) const {
+void AssumptionReport::answer(Session& session, Json object) const {
   const std::string text = to_text(object);
   answer(session, std::move(object), text);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bindings of the premises behind a damping constant, of the loss with slip, of steady sliding, and
+// Bindings of the assumptions behind a damping constant, of the loss with slip, of steady sliding, and
 // of joints.
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
@@ -8,7 +8,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 
 #include "bindings.hpp"
@@ -22,10 +22,10 @@
 
 namespace salebra::python {
 
-std::string verdicts(const Premises& premises) {
+std::string verdicts(const Assumptions& assumptions) {
   std::string text;
-  for (const PremiseName& name : premise_names()) {
-    const Verdict verdict = (premises.*name.premise).verdict;
+  for (const AssumptionName& name : assumption_names()) {
+    const Verdict verdict = (assumptions.*name.assumption).verdict;
     if (verdict == Verdict::broken || verdict == Verdict::doubtful)
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name.name, name_of(verdict));
   }
@@ -42,54 +42,54 @@ void warn_of_held_indentation(const ContactLaw& law, double indentation, double 
   if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1})) warn_user(*doubt);
 }
 
-void bind_facts(nb::module_& m) {
-  auto facts = described_class<ContactFacts>(
-      m, "ContactFacts",
+void bind_contact_parameters(nb::module_& m) {
+  auto parameters = described_class<ContactParameters>(
+      m, "ContactParameters",
       "What is known of a contact in addition to its law and its motion. NaN: "
       "not known.");
-  keyword_constructor(facts, 0);
+  keyword_constructor(parameters, 0);
 }
 
-void bind_premise_classes(nb::module_& m) {
-  described_class<Premise>(m, "Premise", "One premise: its value, its limits, and what follows.");
-  described_class<Condition>(m, "Condition", "A premise in words, with what to do where it fails.");
+void bind_assumption_classes(nb::module_& m) {
+  described_class<Assumption>(m, "Assumption", "One assumption: its value, its limits, and what follows.");
+  described_class<AssumptionVerdict>(m, "AssumptionVerdict", "An assumption in words, with what to do where it fails.");
   described_class<LargestMotion>(m, "LargestMotion",
-                                 "The largest motion that keeps the premises of slip to 5 %.");
-  described_class<Premises>(
-      m, "Premises", "What a damping constant without slip takes for granted, each with a verdict.")
+                                 "The largest motion that keeps the assumptions of slip to 5 %.");
+  described_class<Assumptions>(
+      m, "Assumptions", "What a damping constant without slip takes for granted, each with a verdict.")
       .def(
-          "conditions",
-          [](const Premises& self, bool slip_followed) {
-            return conditions_of({&self, 1}, slip_followed);
+          "verdicts",
+          [](const Assumptions& self, bool slip_followed) {
+            return verdicts_of({&self, 1}, slip_followed);
           },
           nb::arg("slip_followed") = false,
-          "The conditions in words, worst first. slip_followed: the loss is that with slip, which "
+          "The verdicts in words, worst first. slip_followed: the loss is that with slip, which "
           "then is no condition.")
       .def_prop_ro(
           "validity",
-          [](const Premises& self) {
-            return std::string(name_of(validity_of(conditions_of({&self, 1}, false))));
+          [](const Assumptions& self) {
+            return std::string(name_of(validity_of(verdicts_of({&self, 1}, false))));
           },
           "'valid', 'valid with care', 'not valid' or 'not checked', of a loss without slip.")
-      .def("__repr__", [](const Premises& self) { return "Premises(" + verdicts(self) + ")"; });
+      .def("__repr__", [](const Assumptions& self) { return "Assumptions(" + verdicts(self) + ")"; });
   m.def(
-      "premises_of",
+      "assumptions_of",
       [](const ContactLaw& law, const Motion& motion, std::optional<double> indentation,
-         std::optional<double> force, const ContactFacts* facts, const ForceCurve* curve) {
+         std::optional<double> force, const ContactParameters* parameters, const ForceCurve* curve) {
         const OperatingPoint point = operating_point_of(indentation, force);
         return unlocked([&] {
           const double mean = indentation_of(law, point);
           const auto judged = [&](const auto& one) {
-            return premises_of(
+            return assumptions_of(
                 law, mean, one,
-                at_state(known(facts), law, curve, mean, mean + one.normal_amplitude));
+                at_state(known(parameters), law, curve, mean, mean + one.normal_amplitude));
           };
           return std::visit(judged, motion);
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::kw_only(), nb::arg("indentation") = nb::none(),
-      nb::arg("force") = nb::none(), nb::arg("facts") = nb::none(), nb::arg("curve") = nb::none(),
-      R"(The premises of relaxation_damping() for this contact and motion, with the limits at which the loss changes by 5 and 20 %.
+      nb::arg("force") = nb::none(), nb::arg("parameters") = nb::none(), nb::arg("curve") = nb::none(),
+      R"(The assumptions of relaxation_damping() for this contact and motion, with the limits at which the loss changes by 5 and 20 %.
 
 Parameters
 ----------
@@ -100,7 +100,7 @@ indentation : float, optional
     Mean indentation, m, on the law's own scale …
 force : float, optional
     … or the force at it, N; exactly one of the two.
-facts : ContactFacts, optional
+parameters : ContactParameters, optional
     What is known of friction, hardness, density and the like; without it the largest motions are those of μ = 0.1, 0.3 and 1.
 curve : ForceCurve, optional
     The curve that the law is made of; says pressures and size.
@@ -121,7 +121,7 @@ void bind_loss_with_slip(nb::module_& m) {
         });
       },
       nb::arg("law"), nb::arg("motion"), nb::arg("mean_indentation"), nb::kw_only(),
-      nb::arg("friction_coefficient"), nb::arg("excursion") = ContactFacts::unknown,
+      nb::arg("friction_coefficient"), nb::arg("excursion") = ContactParameters::unknown,
       "The loss of a cycle with slip. Case (b) without an excursion (m): sliding without end, all "
       "levels slip; with one: mean of a cycle on the way there and back, and over the phases of "
       "its "
@@ -210,9 +210,9 @@ of the tangential motion against it, and the springs of the law are followed ste
 
 }  // namespace
 
-void bind_premises(nb::module_& m) {
-  bind_facts(m);
-  bind_premise_classes(m);
+void bind_assumptions(nb::module_& m) {
+  bind_contact_parameters(m);
+  bind_assumption_classes(m);
   bind_loss_with_slip(m);
   bind_regime_map(m);
   bind_steady_sliding(m);

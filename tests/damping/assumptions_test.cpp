@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests of the premises of a damping constant against scaling laws, closed forms and simulated
+// Tests of the assumptions of a damping constant against scaling laws, closed forms and simulated
 // paths.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/premises.hpp>
+#include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/steady_sliding.hpp>
 #include <salebra/damping/trajectory_damping.hpp>
 
@@ -73,7 +73,7 @@ TurningLoss loss_of_turning(const ContactLaw& law, const Drag& drag, double mean
 
 }  // namespace
 
-TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or less", "[premises]") {
+TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or less", "[assumptions]") {
   const double mean = 1e-6;
   const PowerLaw cone(1e9, 2, ratio), paraboloid(1e7, 1.5, ratio);
   const ExponentialLaw exponential(1, 1e-7, ratio);
@@ -95,9 +95,9 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
       {&exponential, 0, Drag{3e-8, 1e-3, 1e5}, 0.2}};
   for (const Case& one : cases) {
     CAPTURE(&one - cases);
-    const Premises premises =
-        premises_of(*one.law, one.mean, one.motion, {.friction_coefficient = one.friction});
-    const Premise& opening = premises.slip_of_opening_levels;
+    const Assumptions assumptions =
+        assumptions_of(*one.law, one.mean, one.motion, {.friction_coefficient = one.friction});
+    const Assumption& opening = assumptions.slip_of_opening_levels;
     // Friction that puts the same motion at the limit's M.
     const auto change_at = [&](double limit) {
       const double friction = one.friction * limit / opening.value;
@@ -121,25 +121,25 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
   // law.
   for (const Oscillation& motion :
        {Oscillation(Drag{1e-7, 1e-3, 1e5}), Oscillation(equal(3e-8, 1))}) {
-    const ContactFacts facts{.friction_coefficient = 0.5};
+    const ContactParameters parameters{.friction_coefficient = 0.5};
     // Cubics through 5 samples in each l.
-    CHECK(premises_of(table, 0, motion, facts).slip_of_opening_levels.limit_5_percent ==
-          Approx(premises_of(exponential, 0, motion, facts).slip_of_opening_levels.limit_5_percent)
+    CHECK(assumptions_of(table, 0, motion, parameters).slip_of_opening_levels.limit_5_percent ==
+          Approx(assumptions_of(exponential, 0, motion, parameters).slip_of_opening_levels.limit_5_percent)
               .epsilon(1e-3));
   }
 }
 
-TEST_CASE("Limits of slip scale with mu/g and with the lengths of the contact", "[premises]") {
+TEST_CASE("Limits of slip scale with mu/g and with the lengths of the contact", "[assumptions]") {
   const auto limits = [](double scale, double modulus_ratio, double friction, double drag) {
     const ExponentialLaw law(7, 1e-7 * scale, modulus_ratio);
     Oscillation motion = EqualFrequency{2e-8 * scale, 1e-9 * scale, 1.0};
     if (drag > 0) motion = Drag{2e-8 * scale, drag * scale, 1e5};
-    return premises_of(law, 0, motion, {.friction_coefficient = friction});
+    return assumptions_of(law, 0, motion, {.friction_coefficient = friction});
   };
   for (const double drag : {0.0, 1e-8}) {
-    const Premises one = limits(1, 0.8, 0.3, drag), larger = limits(5, 0.8, 0.3, drag);
+    const Assumptions one = limits(1, 0.8, 0.3, drag), larger = limits(5, 0.8, 0.3, drag);
     const double more = 2 * (0.6 / 0.3) * (0.8 / 0.7) / 2;  // of μ/g
-    const Premises rougher = limits(1, 0.7, 0.6, drag * more);
+    const Assumptions rougher = limits(1, 0.7, 0.6, drag * more);
     // Bisected to 1e-6.
     CHECK(larger.slip_of_opening_levels.limit_5_percent ==
           Approx(one.slip_of_opening_levels.limit_5_percent).epsilon(1e-4));
@@ -154,18 +154,18 @@ TEST_CASE("Limits of slip scale with mu/g and with the lengths of the contact", 
   }
 }
 
-TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed", "[premises]") {
+TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed", "[assumptions]") {
   const IndenterLaw law(flat_punch_profile(1e-3), Material::of_contact_modulus(1e9, 0.3));
   const double mean = 1e-6, amplitude = 3e-7, stretch = 0.3 / law.modulus_ratio();
   // |x| <= (μ/g)(δ0 + u_z sin ωt) with x = u_x cos ωt at 90°: u_x = (μ/g)√(δ0² − u_z²).
-  const Premises equal = premises_of(law, mean, EqualFrequency{amplitude, 1e-8, pi / 2},
+  const Assumptions equal = assumptions_of(law, mean, EqualFrequency{amplitude, 1e-8, pi / 2},
                                      {.friction_coefficient = 0.3});
   const double onset = stretch * std::sqrt(mean * mean - amplitude * amplitude);
   CHECK(equal.slip_of_closed_levels.limit_5_percent == Approx(onset).epsilon(1e-3));
   CHECK(equal.slip_of_closed_levels.verdict == Verdict::holds);
   // Both turning points at the limit: X = 2(μ/g)δ_min.
-  const Premises drag =
-      premises_of(law, mean, Drag{amplitude, 1e-6, 1e5},
+  const Assumptions drag =
+      assumptions_of(law, mean, Drag{amplitude, 1e-6, 1e5},
                   {.friction_coefficient = 0.3, .excursion = 3 * stretch * (mean - amplitude)});
   CHECK(drag.slip_of_closed_levels.limit_5_percent ==
         Approx(2 * stretch * (mean - amplitude)).epsilon(1e-2));
@@ -173,7 +173,7 @@ TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed",
 }
 
 TEST_CASE("A table of constant stiffness has no levels but the noise of its last digits",
-          "[premises]") {
+          "[assumptions]") {
   ForceCurve punch;
   for (int i = 1; i <= 20; ++i) {
     ForceSample sample;
@@ -184,13 +184,13 @@ TEST_CASE("A table of constant stiffness has no levels but the noise of its last
   const TabulatedLaw law(punch, ratio);
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{5e-8, 1e-9, 1}), Oscillation(Drag{5e-8, 1e-9, 1})}) {
-    const Premises premises = premises_of(law, 1e-7, motion, {.friction_coefficient = 0.3});
-    CHECK(premises.amplitude.verdict == Verdict::holds);
-    CHECK(premises.slip_of_opening_levels.verdict != Verdict::unknown);
+    const Assumptions assumptions = assumptions_of(law, 1e-7, motion, {.friction_coefficient = 0.3});
+    CHECK(assumptions.amplitude.verdict == Verdict::holds);
+    CHECK(assumptions.slip_of_opening_levels.verdict != Verdict::unknown);
   }
 }
 
-TEST_CASE("The excursion of a slow motion is limited by slip of the closed levels", "[premises]") {
+TEST_CASE("The excursion of a slow motion is limited by slip of the closed levels", "[assumptions]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const double friction = 0.3;
   for (const int cycles : {3, 10, 40}) {
@@ -207,24 +207,24 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     // To first order in a normal cycle over the excursion; 360 steps lose 1e-3.
     CHECK(loss.slip_work == Approx(simulated.slip_work).epsilon(0.1 / (cycles * cycles) + 3e-3));
     CHECK(loss.work_per_cycle == Approx(simulated.work).epsilon(0.1 / (cycles * cycles) + 3e-3));
-    const Premises premises =
-        premises_of(law, 0, drag, {.friction_coefficient = friction, .excursion = excursion});
+    const Assumptions assumptions =
+        assumptions_of(law, 0, drag, {.friction_coefficient = friction, .excursion = excursion});
     // The share goes like X².
     const double steady = relaxation_damping(law, at_indentation(0), drag).work_per_cycle;
     const double expected = excursion * std::sqrt(0.05 * steady / simulated.slip_work);
-    CHECK(premises.slip_of_closed_levels.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
+    CHECK(assumptions.slip_of_closed_levels.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
   }
   // The example of many introductions: 1 mm/s, 1 nm, 20 kHz, l = 30 nm.
   const ExponentialLaw rough(1, 3e-8, ratio);
-  const Premises fast =
-      premises_of(rough, 0, Drag{1e-9, 1e-3, 2 * pi * 2e4}, {.friction_coefficient = 0.3});
+  const Assumptions fast =
+      assumptions_of(rough, 0, Drag{1e-9, 1e-3, 2 * pi * 2e4}, {.friction_coefficient = 0.3});
   CHECK(fast.slip_of_opening_levels.verdict == Verdict::broken);
   CHECK(fast.slip_of_closed_levels.verdict == Verdict::broken);
   CHECK(fast.slip_of_closed_levels.limit_20_percent == 0);
   CHECK(fast.largest.front().excursion == 0);
 }
 
-TEST_CASE("The turning points of a slow motion cost what the simulated path misses", "[premises]") {
+TEST_CASE("The turning points of a slow motion cost what the simulated path misses", "[assumptions]") {
   const double mean = 1e-6;
   const ExponentialLaw shallow(1, 1e-7, ratio), deep(1, 3e-8, ratio);
   const PowerLaw opened(1e7, 1.5, ratio), cone(1e9, 2, ratio);
@@ -239,8 +239,8 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
     const double way = 2 * pi * drag.drag_velocity / drag.angular_frequency;
     const double steady = relaxation_damping(*one.law, at_indentation(mean), drag).work_per_cycle;
     for (const int cycles : {2, 9}) {
-      const Premise slow =
-          premises_of(*one.law, mean, drag, {.excursion = cycles * way}).slow_motion;
+      const Assumption slow =
+          assumptions_of(*one.law, mean, drag, {.excursion = cycles * way}).slow_motion;
       CHECK(slow.value == Approx(cycles));
       constexpr int phases = 16, steps = 320;
       double loss = 0;
@@ -260,7 +260,7 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
   const double exact = 2.0 / 3 * (pi * pi - 6) / (pi * pi - 4);
   const auto judged = [&](double cycles) {
     const Drag drag{1e-7, 1e-6, 1e5};
-    return premises_of(cone, mean, drag, {.excursion = cycles * 2 * pi * 1e-11}).slow_motion;
+    return assumptions_of(cone, mean, drag, {.excursion = cycles * 2 * pi * 1e-11}).slow_motion;
   };
   CHECK(judged(2).limit_5_percent == Approx(exact / 0.05).epsilon(1e-4));
   CHECK(judged(9).verdict == Verdict::holds);
@@ -269,20 +269,20 @@ TEST_CASE("The turning points of a slow motion cost what the simulated path miss
   // A contact that touches for a moment loses little at a turning point, and still no way below w
   // is slow.
   const PowerLaw tip(1e7, 1.5, ratio);
-  const ContactFacts half{.excursion = 0.99 * 2 * pi * 1e-11};
-  const Premise brief = premises_of(tip, -9.9e-7, Drag{1e-6, 1e-6, 1e5}, half).slow_motion;
+  const ContactParameters half{.excursion = 0.99 * 2 * pi * 1e-11};
+  const Assumption brief = assumptions_of(tip, -9.9e-7, Drag{1e-6, 1e-6, 1e5}, half).slow_motion;
   CHECK(brief.limit_20_percent == 1);
   CHECK(brief.verdict == Verdict::broken);
   // Two frequencies and case (a) follow the motion itself.
-  CHECK(premises_of(cone, mean, EqualFrequency{1e-7, 1e-9, 1}, half).slow_motion.verdict ==
+  CHECK(assumptions_of(cone, mean, EqualFrequency{1e-7, 1e-9, 1}, half).slow_motion.verdict ==
         Verdict::holds);
   const Drag drag{1e-7, 1e-6, 1e5};
-  CHECK(premises_of(cone, mean, drag).slow_motion.needs == "excursion");
-  CHECK(premises_of(cone, mean, Drag{1e-7, ContactFacts::unknown, 1e5}, half).slow_motion.needs ==
+  CHECK(assumptions_of(cone, mean, drag).slow_motion.needs == "excursion");
+  CHECK(assumptions_of(cone, mean, Drag{1e-7, ContactParameters::unknown, 1e5}, half).slow_motion.needs ==
         "drag_velocity");
 }
 
-TEST_CASE("A sine is slow where a triangle is", "[premises]") {
+TEST_CASE("A sine is slow where a triangle is", "[assumptions]") {
   // Excursion 2u_x, v² the mean square of the velocity: X/w = √2 ω_z/(π ω_x). The triangle asks for
   // more, so that a sine within the limits is off by less.
   for (const auto& [change, limit] : {std::pair{0.05, 8.79}, std::pair{0.2, 2.198}}) {
@@ -291,7 +291,7 @@ TEST_CASE("A sine is slow where a triangle is", "[premises]") {
   }
 }
 
-TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
+TEST_CASE("The loss with slip is that of the simulated path", "[assumptions]") {
   const PowerLaw law(1e7, 1.5, ratio);
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
@@ -308,11 +308,11 @@ TEST_CASE("The loss with slip is that of the simulated path", "[premises]") {
 }
 
 TEST_CASE("The limit of amplitude is where the closed forms of the exponential law part",
-          "[premises]") {
+          "[assumptions]") {
   const double length = 1e-7;
   const ExponentialLaw law(1, length, ratio);
-  const Premises drag = premises_of(law, 0, Drag{1e-9, 1, 1e5}),
-                 equal = premises_of(law, 0, EqualFrequency{6e-8, 1e-9, pi / 2, 1e5});
+  const Assumptions drag = assumptions_of(law, 0, Drag{1e-9, 1, 1e5}),
+                 equal = assumptions_of(law, 0, EqualFrequency{6e-8, 1e-9, pi / 2, 1e5});
   const auto off = [&](const Oscillation& motion) {
     const DampingResult result = relaxation_damping(law, at_indentation(0), motion);
     return std::abs(result.small_amplitude_work / result.work_per_cycle - 1);
@@ -326,13 +326,13 @@ TEST_CASE("The limit of amplitude is where the closed forms of the exponential l
   CHECK(drag.amplitude.verdict == Verdict::holds);
   // F'' of a cone is constant: only a contact that opens changes it.
   const PowerLaw cone(1e9, 2, ratio);
-  CHECK(premises_of(cone, 1e-6, Drag{1e-7, 1, 1e5}).amplitude.limit_5_percent > 1e-6);
+  CHECK(assumptions_of(cone, 1e-6, Drag{1e-7, 1, 1e5}).amplitude.limit_5_percent > 1e-6);
 }
 
-TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[premises]") {
+TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be", "[assumptions]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};
-  const Premises bare = premises_of(law, 0, motion);
+  const Assumptions bare = assumptions_of(law, 0, motion);
   CHECK(bare.slip_of_opening_levels.needs == "friction_coefficient");
   CHECK(bare.slip_of_opening_levels.limit_5_percent > 1);
   CHECK(bare.plasticity.needs == "hardness");
@@ -340,22 +340,22 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
   REQUIRE(bare.largest.size() == 3);
   CHECK(bare.largest[2].drag_velocity == Approx(10 * bare.largest[0].drag_velocity));
   // v at the limit has M there.
-  ContactFacts facts{.friction_coefficient = 0.3};
+  ContactParameters parameters{.friction_coefficient = 0.3};
   Drag slow = motion;
   slow.drag_velocity = bare.largest[1].drag_velocity;
-  const Premise at_limit = premises_of(law, 0, slow, facts).slip_of_opening_levels;
+  const Assumption at_limit = assumptions_of(law, 0, slow, parameters).slip_of_opening_levels;
   CHECK(at_limit.value == Approx(at_limit.limit_5_percent).epsilon(1e-6));
-  CHECK(premises_of(law, 0, motion, facts).slip_of_closed_levels.needs == "excursion");
-  slow.drag_velocity = ContactFacts::unknown;
-  CHECK(premises_of(law, 0, slow, facts).slip_of_opening_levels.needs == "drag_velocity");
+  CHECK(assumptions_of(law, 0, motion, parameters).slip_of_closed_levels.needs == "excursion");
+  slow.drag_velocity = ContactParameters::unknown;
+  CHECK(assumptions_of(law, 0, slow, parameters).slip_of_opening_levels.needs == "drag_velocity");
 
-  facts = {.hardness = 1e9,
+  parameters = {.hardness = 1e9,
            .density = 8000,
            .contact_modulus = 1e11,
            .loaded_size = 1e-3,
            .nominal_pressure = 1e8,
            .mean_contact_pressure = 5e8};
-  const Premises known = premises_of(law, 0, motion, facts);
+  const Assumptions known = assumptions_of(law, 0, motion, parameters);
   CHECK(known.plasticity.value == Approx(0.75));
   CHECK(known.plasticity.verdict == Verdict::doubtful);
   CHECK(known.plasticity.onset == 0.6);
@@ -369,7 +369,7 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
                              .phase = std::numbers::pi / 4,
                              .angular_frequency = 1e5};
   const auto coupling = [&](const ContactLaw& contact, double at) {
-    return premises_of(contact, at, equal).coupling;
+    return assumptions_of(contact, at, equal).coupling;
   };
   CHECK(coupling(ExponentialLaw(1, 1e-7, 1), 0).verdict == Verdict::doubtful);
   CHECK(coupling(ExponentialLaw(1, 1e-7, 2.0 / 3), 0).value == Approx(0).margin(1e-12));
@@ -380,16 +380,16 @@ TEST_CASE("Premises name what they need, and refuse facts that cannot be", "[pre
   CHECK(coupling(ExponentialLaw(1, 1e-7, 2 * 0.7 / 1.7), 0).value == Approx(0.04).epsilon(0.02));
 
   for (const double bad : {0.0, -1.0, double(HUGE_VAL)}) {
-    CHECK_THROWS_AS(premises_of(law, 0, motion, {.friction_coefficient = bad}), InvalidInput);
-    CHECK_THROWS_AS(premises_of(law, 0, motion, {.hardness = bad}), InvalidInput);
-    CHECK_THROWS_AS(premises_of(law, 0, motion, {.density = bad}), InvalidInput);
-    CHECK_THROWS_AS(premises_of(law, 0, motion, {.excursion = bad}), InvalidInput);
+    CHECK_THROWS_AS(assumptions_of(law, 0, motion, {.friction_coefficient = bad}), InvalidInput);
+    CHECK_THROWS_AS(assumptions_of(law, 0, motion, {.hardness = bad}), InvalidInput);
+    CHECK_THROWS_AS(assumptions_of(law, 0, motion, {.density = bad}), InvalidInput);
+    CHECK_THROWS_AS(assumptions_of(law, 0, motion, {.excursion = bad}), InvalidInput);
   }
-  CHECK_THROWS_AS(premises_of(law, 0, motion, {.hardness = 1e6, .nominal_pressure = 2e6}),
+  CHECK_THROWS_AS(assumptions_of(law, 0, motion, {.hardness = 1e6, .nominal_pressure = 2e6}),
                   InvalidInput);
 }
 
-TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal", "[premises]") {
+TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal", "[assumptions]") {
   // Each of these took for ever, or all memory, where tables and searches had no last step.
   for (const double length : {1e308, 1e290, 1e-7, 1e-300})
     for (const double amplitude : {5e-324, 1e-9, 1e300})
@@ -399,7 +399,7 @@ TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal
         const Drag drag{amplitude, velocity, 1e5};
         for (const double excursion : {1e-6, 1e300}) {
           try {
-            premises_of(law, 0, drag, {.friction_coefficient = 0.3, .excursion = excursion});
+            assumptions_of(law, 0, drag, {.friction_coefficient = 0.3, .excursion = excursion});
           } catch (const Error&) {
           }
           try {
@@ -413,30 +413,30 @@ TEST_CASE("Numbers beyond what a double can square end in an answer or a refusal
                     Catch::Contains("beyond all measure"));
 }
 
-TEST_CASE("After a first loading the plasticity is the load over the first load", "[premises]") {
+TEST_CASE("After a first loading the plasticity is the load over the first load", "[assumptions]") {
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};
   // Pressures of the residual surface reach the hardness where the first loading did, and no
   // further.
-  ContactFacts facts{.hardness = 1e9, .mean_contact_pressure = 9e8, .rms_slope = 1};
-  facts.contact_modulus = 1e11;
-  CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::broken);
-  facts.first_load = 1.25;
-  const Premise below = premises_of(law, 0, motion, facts).plasticity;
+  ContactParameters parameters{.hardness = 1e9, .mean_contact_pressure = 9e8, .rms_slope = 1};
+  parameters.contact_modulus = 1e11;
+  CHECK(assumptions_of(law, 0, motion, parameters).plasticity.verdict == Verdict::broken);
+  parameters.first_load = 1.25;
+  const Assumption below = assumptions_of(law, 0, motion, parameters).plasticity;
   // That at the peak, F exp(u_z/l).
   CHECK(below.value == Approx(0.8 * std::exp(0.01)));
   CHECK(below.verdict == Verdict::holds);
-  facts.first_load = 1;
-  CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::holds);
-  facts.first_load = 0.99;
-  CHECK(premises_of(law, 0, motion, facts).plasticity.verdict == Verdict::broken);
-  facts.first_load = -1;
-  CHECK_THROWS_AS(premises_of(law, 0, motion, facts), InvalidInput);
+  parameters.first_load = 1;
+  CHECK(assumptions_of(law, 0, motion, parameters).plasticity.verdict == Verdict::holds);
+  parameters.first_load = 0.99;
+  CHECK(assumptions_of(law, 0, motion, parameters).plasticity.verdict == Verdict::broken);
+  parameters.first_load = -1;
+  CHECK_THROWS_AS(assumptions_of(law, 0, motion, parameters), InvalidInput);
 }
 
-TEST_CASE("A sampled path has the premises of the motion that it samples", "[premises]") {
+TEST_CASE("A sampled path has the assumptions of the motion that it samples", "[assumptions]") {
   const PowerLaw law(1e7, 1.5, ratio);
-  const ContactFacts facts{.friction_coefficient = 0.3};
+  const ContactParameters parameters{.friction_coefficient = 0.3};
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{3e-7, 1e-7, 1.0, 1e5}), Oscillation(Drag{3e-7, 1e-2, 1e5})}) {
     SampledMotion path = sample(motion, 1e-6, 360);
@@ -450,8 +450,8 @@ TEST_CASE("A sampled path has the premises of the motion that it samples", "[pre
     }
     for (auto* column : {&path.time, &path.indentation, &path.displacement})
       column->erase(column->begin(), column->begin() + 100);
-    const Premises whole = premises_of(law, 1e-6, motion, facts),
-                   sampled = premises_of(law, path, facts);
+    const Assumptions whole = assumptions_of(law, 1e-6, motion, parameters),
+                   sampled = assumptions_of(law, path, parameters);
     CHECK(sampled.slip_of_opening_levels.value ==
           Approx(whole.slip_of_opening_levels.value).epsilon(1e-3));
     CHECK(sampled.slip_of_opening_levels.limit_5_percent ==
@@ -503,7 +503,7 @@ TEST_CASE("Sliding begins at Cattaneo's and Mindlin's excursion, and at that of 
 }
 
 TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding loses the friction",
-          "[premises]") {
+          "[assumptions]") {
   const double length = 1e-7, friction = 0.3, omega = 1e5;
   const TabulatedLaw own(exponential_curve(length), ratio);
   const ExponentialLaw like(1, length, 1.1 * ratio);
@@ -538,7 +538,7 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
         Approx(friction * own.force(0) * (1 - std::exp(-3.5))).epsilon(1e-6));
 }
 
-TEST_CASE("A map of regimes has the borders of the premises, and they are monotone", "[regimes]") {
+TEST_CASE("A map of regimes has the borders of the assumptions, and they are monotone", "[regimes]") {
   const ExponentialLaw exponential(1, 1e-7, ratio);
   const TabulatedLaw table(exponential_curve(1e-7), ratio);
   const IndenterLaw punch(flat_punch_profile(1e-3), material);
@@ -574,10 +574,10 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
       double less = 0;
       for (std::size_t j = 0; j < excursions.size(); ++j) {
         CAPTURE(velocities[i], excursions[j]);
-        const Premises premises = premises_of(
+        const Assumptions assumptions = assumptions_of(
             *one.law, one.mean, Drag{one.amplitude, velocities[i], normal.angular_frequency},
             {.friction_coefficient = friction, .excursion = excursions[j]});
-        CHECK(name_of(map.regime[i][j]) == name_of(premises.regime));
+        CHECK(name_of(map.regime[i][j]) == name_of(assumptions.regime));
         const double loss = map.loss_ratio(Index(i), Index(j));
         if (excursions[j] < way) {
           CHECK(map.regime[i][j] == Regime::unknown);
@@ -589,12 +589,12 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
         CHECK_FALSE(loss < less * (1 - 1e-9));
         less = loss;
         if (map.regime[i][j] == Regime::no_slip && !std::isnan(loss)) {
-          // 5 % by each of both premises, beside what the turning points take.
-          const Premise& slow = premises.slow_motion;
+          // 5 % by each of both assumptions, beside what the turning points take.
+          const Assumption& slow = assumptions.slow_motion;
           const double taken = one.law == &punch ? 0 : 0.05 * slow.limit_5_percent / slow.value;
           CHECK(std::abs(loss - 1 + taken) < 0.1001);
-          CHECK(premises.slip_of_closed_levels.verdict == Verdict::holds);
-          CHECK(premises.slip_of_opening_levels.verdict == Verdict::holds);
+          CHECK(assumptions.slip_of_closed_levels.verdict == Verdict::holds);
+          CHECK(assumptions.slip_of_opening_levels.verdict == Verdict::holds);
         }
       }
     }
@@ -602,8 +602,8 @@ TEST_CASE("A map of regimes has the borders of the premises, and they are monoto
     // slips at the edge.
     if (one.law != &punch) {
       CHECK(map.regime[0][0] == Regime::no_slip);
-      const Premise slow =
-          premises_of(*one.law, one.mean,
+      const Assumption slow =
+          assumptions_of(*one.law, one.mean,
                       Drag{one.amplitude, velocities[0], normal.angular_frequency},
                       {.friction_coefficient = friction, .excursion = excursions[0]})
               .slow_motion;
@@ -668,7 +668,7 @@ TEST_CASE("A sheared contact slides where no anchor holds its levels", "[regimes
   const double mean = 1e-6, amplitude = 3e-7;
   const double kept = std::pow(0.05, 2.0 / 3) * (mean - amplitude);
   const auto regime = [&](double displacement, double phase) {
-    return premises_of(paraboloid, mean, EqualFrequency{amplitude, stretch * displacement, phase},
+    return assumptions_of(paraboloid, mean, EqualFrequency{amplitude, stretch * displacement, phase},
                        {.friction_coefficient = friction})
         .regime;
   };
@@ -682,9 +682,9 @@ TEST_CASE("A sheared contact slides where no anchor holds its levels", "[regimes
   CHECK(regime(1.001 * depth, 1e-6) == Regime::sliding);
   CHECK(regime(1e-3 * amplitude, pi / 2) == Regime::no_slip);
   // What is not known has no regime.
-  CHECK(premises_of(paraboloid, mean, EqualFrequency{amplitude, 1e-8, 1}).regime ==
+  CHECK(assumptions_of(paraboloid, mean, EqualFrequency{amplitude, 1e-8, 1}).regime ==
         Regime::unknown);
-  CHECK(premises_of(paraboloid, mean, Drag{amplitude, 1e-9, 1e5}, {.friction_coefficient = 0.3})
+  CHECK(assumptions_of(paraboloid, mean, Drag{amplitude, 1e-9, 1e5}, {.friction_coefficient = 0.3})
             .regime == Regime::unknown);
 }
 
@@ -699,38 +699,38 @@ TEST_CASE("Bad input of a map of regimes is refused", "[regimes][input]") {
 }
 
 TEST_CASE("Conditions name their limit, what holds, at which loads, and what to do, worst first",
-          "[premises][validity]") {
-  Premises fine;
-  for (const PremiseName& name : premise_names())
-    fine.*name.premise = {
+          "[assumptions][validity]") {
+  Assumptions fine;
+  for (const AssumptionName& name : assumption_names())
+    fine.*name.assumption = {
         .value = 0.5, .limit_5_percent = 1, .limit_20_percent = 2, .verdict = Verdict::holds};
-  std::vector<Premises> cases(5, fine);
+  std::vector<Assumptions> cases(5, fine);
   const std::vector<double> pressures{1e6, 2e6, 3e6, 4e6, 5e6};
   const auto validity = [&](bool slip_followed = false) {
-    return validity_of(conditions_of(cases, slip_followed, pressures));
+    return validity_of(verdicts_of(cases, slip_followed, pressures));
   };
   CHECK(validity() == Validity::valid);
   // The amplitude is a condition of the closed forms alone.
   cases[0].amplitude.verdict = Verdict::broken;
   CHECK(validity() == Validity::valid);
-  CHECK(closed_form_condition(cases).verdict == Verdict::broken);
+  CHECK(closed_form_verdict(cases).verdict == Verdict::broken);
   // Something not known leaves the whole open, and is less than what fails.
   cases[1].inertia = {.verdict = Verdict::unknown, .needs = "angular_frequency"};
   CHECK(validity() == Validity::not_checked);
-  CHECK(conditions_of(cases, false)[0].here == "`frequency` not given");
+  CHECK(verdicts_of(cases, false)[0].here == "`frequency` not given");
   for (const std::size_t k : {0u, 2u, 3u})
     cases[k].slow_motion = {.value = k + 2., .limit_5_percent = 9, .verdict = Verdict::doubtful};
   CHECK(validity() == Validity::valid_with_care);
-  const Condition slow = conditions_of(cases, false, pressures)[0];
+  const AssumptionVerdict slow = verdicts_of(cases, false, pressures)[0];
   CHECK(slow.name == "slow_motion");
-  CHECK(slow.condition == "slow: at least 9 normal cycles in an excursion");
+  CHECK(slow.assumption == "slow: at least 9 normal cycles in an excursion");
   CHECK(slow.here == "2, at 1 MPa, 3 MPa to 4 MPa");
   CHECK(!slow.remedy.empty());
-  CHECK_THAT(conditions_of(cases, false)[0].here, Catch::EndsWith(", in 3 of 5"));
+  CHECK_THAT(verdicts_of(cases, false)[0].here, Catch::EndsWith(", in 3 of 5"));
   // Slip that is followed is no condition.
-  for (Premises& one : cases) one.slip_of_opening_levels.verdict = Verdict::broken;
+  for (Assumptions& one : cases) one.slip_of_opening_levels.verdict = Verdict::broken;
   CHECK(validity() == Validity::not_valid);
-  CHECK_THAT(conditions_of(cases, false, pressures)[0].here, Catch::EndsWith(", at all loads"));
+  CHECK_THAT(verdicts_of(cases, false, pressures)[0].here, Catch::EndsWith(", at all loads"));
   CHECK(validity(true) == Validity::valid_with_care);
   // The limit comes from the case that bears least.
   cases[0].largest = {{.friction_coefficient = 0.3, .drag_velocity = 5e-6, .excursion = 2e-9}};
@@ -742,23 +742,23 @@ TEST_CASE("Conditions name their limit, what holds, at which loads, and what to 
   CHECK(motion_without_slip(cases) == "1 nm (\u00b5 = 0.1), 3 nm (\u00b5 = 0.3)");
 }
 
-TEST_CASE("Pressure and size are judged at the deepest point of the oscillation", "[premises]") {
+TEST_CASE("Pressure and size are judged at the deepest point of the oscillation", "[assumptions]") {
   const double modulus = 1e10, radius = 1e-3, rest = 1e-6, amplitude = 5e-6;
   const Drag motion{amplitude, 1e-6, 1e5};
   const auto judged = [&](const ContactLaw& law, const ForceCurve* curve, double rests,
                           const Drag& drag) {
-    ContactFacts facts{.hardness = 1e9, .density = 7800};
-    facts.contact_modulus = modulus;
-    return premises_of(law, rests, drag,
-                       at_state(facts, law, curve, rests, rests + drag.normal_amplitude));
+    ContactParameters parameters{.hardness = 1e9, .density = 7800};
+    parameters.contact_modulus = modulus;
+    return assumptions_of(law, rests, drag,
+                       at_state(parameters, law, curve, rests, rests + drag.normal_amplitude));
   };
   const Material material = Material::of_contact_modulus(modulus, 0.3);
   // Hertz: p0 = 2E*√(δ/R)/π = 1.5 times the mean, a = √(Rδ).
   const IndenterLaw ball(paraboloid_profile(radius), material);
-  const Premises found = judged(ball, nullptr, rest, motion);
+  const Assumptions found = judged(ball, nullptr, rest, motion);
   CHECK(found.plasticity.value ==
         Approx(2 * modulus / pi * std::sqrt((rest + amplitude) / radius) / 1e9).epsilon(1e-9));
-  const Premises still = judged(ball, nullptr, rest, Drag{1e-6 * rest, 1e-6, 1e5});
+  const Assumptions still = judged(ball, nullptr, rest, Drag{1e-6 * rest, 1e-6, 1e5});
   CHECK(found.inertia.value / still.inertia.value ==
         Approx(std::sqrt((rest + amplitude) / rest)).epsilon(1e-5));
   // The mean pressure of a cone is the same at all loads, that of a flat punch grows with δ.
@@ -780,22 +780,22 @@ TEST_CASE("Pressure and size are judged at the deepest point of the oscillation"
         Approx(1.5 * 1e8 * 2.25 / 1e9).epsilon(1e-9));
   CHECK(judged(table, &curve, 4 * length, Drag{2 * length, 1e-6, 1e5}).plasticity.value ==
         Approx(1.5 * 1e8 * 2.5 / 1e9).epsilon(1e-9));
-  CHECK(in_words(conditions_of({&found, 1}, true)).find("at peak") != std::string::npos);
+  CHECK(in_words(verdicts_of({&found, 1}, true)).find("at peak") != std::string::npos);
 }
 
 TEST_CASE("A contact that slides as a whole is no damper: its friction is that of the mean force",
-          "[premises][regimes]") {
+          "[assumptions][regimes]") {
   const double friction = 0.3, omega = 1e5;
   const Material material = Material::of_contact_modulus(1e9, 0.3);
   const IndenterLaw ball(paraboloid_profile(1e-3), material), cone(cone_profile(0.1), material);
   const ExponentialLaw exponential(10, 1e-7, ratio);
   const TabulatedLaw table(exponential_curve(1e-7), ratio);
-  const auto said = [](const Premises& premises) {
-    return in_words(conditions_of({&premises, 1}, true));
+  const auto said = [](const Assumptions& assumptions) {
+    return in_words(verdicts_of({&assumptions, 1}, true));
   };
-  const auto word = [](const Premises& premises) {
-    const auto conditions = conditions_of({&premises, 1}, true);
-    return std::ranges::any_of(conditions, [](const Condition& one) {
+  const auto word = [](const Assumptions& assumptions) {
+    const auto verdicts = verdicts_of({&assumptions, 1}, true);
+    return std::ranges::any_of(verdicts, [](const AssumptionVerdict& one) {
       return one.name == "regime" && one.verdict == Verdict::broken;
     });
   };
@@ -809,20 +809,20 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
     // stick: turning points and the force above δ_min change less than 1 %.
     const Drag drag{amplitude, 10 * friction * amplitude * omega, omega};
     const double excursion = 1e3 * friction * law->force(rest) / law->normal_stiffness(rest);
-    const Premises slides =
-        premises_of(*law, rest, drag, {.friction_coefficient = friction, .excursion = excursion});
+    const Assumptions slides =
+        assumptions_of(*law, rest, drag, {.friction_coefficient = friction, .excursion = excursion});
     CHECK(slides.regime == Regime::sliding);
     const Loss loss = loss_with_slip(*law, rest, drag, friction, excursion);
     CHECK(closed_form::damping_constant(loss.work_per_cycle, drag) ==
           Approx(friction * force / drag.drag_velocity).epsilon(0.01));
     CHECK(word(slides));
-    CHECK(validity_of(conditions_of({&slides, 1}, true)) == Validity::not_valid);
+    CHECK(validity_of(verdicts_of({&slides, 1}, true)) == Validity::not_valid);
     CHECK(said(slides).find("γ = µF/v: Coulomb friction, not a damper") != std::string::npos);
     CHECK(said(slides).find("use `salebra sliding`") != std::string::npos);
 
     // Case (a): W = 4µF u_x, less twice the elastic way.
     const EqualFrequency shear{amplitude, excursion, pi / 2, omega};
-    const Premises sheared = premises_of(*law, rest, shear, {.friction_coefficient = friction});
+    const Assumptions sheared = assumptions_of(*law, rest, shear, {.friction_coefficient = friction});
     CHECK(sheared.regime == Regime::sliding);
     const double work = loss_with_slip(*law, rest, shear, friction).work_per_cycle;
     // At φ0 = 90° the force has its mean where the velocity is largest, and ∮F|dx| = 4F̄u_x.
@@ -830,7 +830,7 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
     CHECK(said(sheared).find("γ = 4µF/(πωu_x)") != std::string::npos);
 
     // A short motion is a damper.
-    const Premises sticks = premises_of(*law, rest, EqualFrequency{amplitude, 1e-13, pi / 4, omega},
+    const Assumptions sticks = assumptions_of(*law, rest, EqualFrequency{amplitude, 1e-13, pi / 4, omega},
                                         {.friction_coefficient = friction});
     CHECK(sticks.regime == Regime::no_slip);
     CHECK_FALSE(word(sticks));
@@ -838,8 +838,8 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
   // Under a large oscillation what is always closed slides and is next to nothing: slowly dragged
   // the contact relaxes, and its force is far from µF.
   const Drag slow{5e-7, 0.1 * friction / ratio * 5e-7 * omega, omega};
-  const ContactFacts facts{.friction_coefficient = friction, .excursion = 1e-4};
-  CHECK(premises_of(exponential, 0, slow, facts).regime == Regime::partial_slip);
+  const ContactParameters parameters{.friction_coefficient = friction, .excursion = 1e-4};
+  CHECK(assumptions_of(exponential, 0, slow, parameters).regime == Regime::partial_slip);
   const double force =
       closed_form::damping_constant(
           loss_with_slip(exponential, 0, slow, friction, 1e-4).work_per_cycle, slow) *
@@ -847,15 +847,15 @@ TEST_CASE("A contact that slides as a whole is no damper: its friction is that o
   CHECK(force < 0.5 * friction * mean_force_of_cycle(exponential, 0, 5e-7));
   // A contact that lifts off slides in case (a) too.
   const EqualFrequency wide{2e-6, 1e-4, pi / 2, omega};
-  CHECK(premises_of(ball, 1e-6, wide, {.friction_coefficient = friction}).regime ==
+  CHECK(assumptions_of(ball, 1e-6, wide, {.friction_coefficient = friction}).regime ==
         Regime::sliding);
   // Over loads the line says which.
-  const Premises none{}, sliding = [] {
-    Premises one;
+  const Assumptions none{}, sliding = [] {
+    Assumptions one;
     one.regime = Regime::sliding;
     return one;
   }();
-  const std::vector<Premises> loads{none, sliding, sliding};
+  const std::vector<Assumptions> loads{none, sliding, sliding};
   const double pressures[] = {1e6, 2e6, 5e6};
   CHECK(regimes_in_words(loads, pressures) == "sliding at 2 MPa to 5 MPa, unknown at 1 MPa");
   CHECK(regimes_in_words({&none, 1}).empty());
