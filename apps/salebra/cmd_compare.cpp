@@ -190,10 +190,10 @@ std::string comparison_text(const StudyResult& result, const StudySolution& foun
   const std::string contact = heading(result) + slopes_table(result) + law_verdict(result) + "\n" +
                               loads_table(result) + "\n";
   if (result.configuration.adhesion)
-    return contact + pull_off_table(result) + ensemble_remarks(result);
+    return contact + pull_off_table(result) + ensemble_warnings(result);
   const AssumptionReport assumptions = assumptions_of(found, result);
   return contact + assumptions.warning() + damping_table(result, found) + "\n" + assumptions.text() +
-         "\n" + ensemble_remarks(result);
+         "\n" + ensemble_warnings(result);
 }
 
 struct CompareArguments {

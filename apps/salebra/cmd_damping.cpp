@@ -153,7 +153,7 @@ void answer_adhesion(const DampingArguments& arguments, Session& session) {
 void answer_at_rest(const DampingArguments& arguments, Session& session) {
   arguments.law.at.require_one("a contact at rest takes one, and damping needs a motion");
   const ContactSolution contact = solve(contact_of(arguments, session), session.context());
-  session.warn(contact.doubts);
+  session.warn(contact.warnings);
   const auto& law = static_cast<const IndenterLaw&>(*contact.law);
   const double indentation = indentation_of(law, contact.points.front());
   const Json object = json_of(state_of(law, indentation));
@@ -196,11 +196,11 @@ void lose(const DampingArguments& arguments, Session& session) {
             "takes one motion of equal frequencies or drag; give several --pressure, or a --curve");
   problem.contact = contact_of(arguments, session);
   const DampingSolution answer = solve(std::move(problem), session.context());
-  session.warn(answer.contact.doubts);
-  session.warn(answer.doubts);
+  session.warn(answer.contact.warnings);
+  session.warn(answer.warnings);
   const bool one = values.empty();
   if (one && !answer.periods.empty() && answer.periods.front().normal_cycles == 0)
-    session.note("the frequencies have no common period: power is the mean over a long time");
+    session.inform("the frequencies have no common period: power is the mean over a long time");
   Json object = Json::object();
   if (!one) object[quantity] = values;
   object.add(answer_json(answer, answer.contact.nominal_area()));
@@ -334,8 +334,8 @@ void damp(const DampingArguments& arguments, Session& session) {
           "is for a map over --normal-amplitude and --frequency");
   problem.contact = contact_of(arguments, session);
   const DamperSolution answer = solve(std::move(problem), session.context());
-  session.warn(answer.contact.doubts);
-  session.warn(answer.doubts);
+  session.warn(answer.contact.warnings);
+  session.warn(answer.warnings);
   Json object = Json::object();
   if (amplitudes.size() > 1) object["normal_amplitude"] = amplitudes;
   if (omega.size() > 1) object["angular_frequency"] = omega;

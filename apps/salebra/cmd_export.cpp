@@ -36,7 +36,7 @@ struct ExportArguments {
 /// Parameters of a study that its file holds and no option gave.
 struct StudyParameters {
   double modulus_ratio = DeckContact::unknown;
-  std::string remark = {};
+  std::string comment = {};
 };
 
 StudyParameters parameters_of(const std::filesystem::path& file) {
@@ -56,7 +56,7 @@ StudyParameters parameters_of(const std::filesystem::path& file) {
       require(parse_enum<Validity>(*validity).has_value(), file.string(), *validity,
               fmt::format("is no verdict of a study, in {}/validity; one of {}", solution,
                           fmt::join(names_of<Validity>(), ", ")));
-      parameters.remark = "Study: validity of its damping constant: " + *validity + ".";
+      parameters.comment = "Study: validity of its damping constant: " + *validity + ".";
     }
   return parameters;
 }
@@ -80,7 +80,7 @@ std::vector<DeckContact> contacts_of_file(const ExportArguments& arguments, cons
   require_finished(file);
   StudyParameters parameters = parameters_of(file);
   if (arguments.material.given()) parameters.modulus_ratio = arguments.material.modulus_ratio();
-  problem.remark = parameters.remark;
+  problem.comment = parameters.comment;
   const std::vector<OperatingPoints> at = arguments.law.at.given();
   require(at.size() < 2, "--normal-force", "several operating points", "are given; give one");
   std::vector<DeckContact> contacts;

@@ -102,7 +102,7 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
 void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
   require_memory(grid, static_cast<double>(bytes), "a surface", session.ranks());
   const NodeMemory memory = memory_of_nodes(static_cast<double>(bytes), session.ranks());
-  session.note(fmt::format("memory: {} needed, {} available{}", memory_text(memory.needed),
+  session.inform(fmt::format("memory: {} needed, {} available{}", memory_text(memory.needed),
                            memory_text(memory.available),
                            memory.nodes > 1 ? " on node " + memory.node : ""));
 }
@@ -211,7 +211,7 @@ void make_profile(const GenerateArguments& arguments, Session& session) {
                    rms_of(spectrum.lattice_moments(points, length))));
   answer["realised"] = rms_of(spectral_moments(line));
   if (!session.has_output())
-    session.note("no file was written; add --output FILE.csv, .json or .h5 to keep the profile");
+    session.inform("no file was written; add --output FILE.csv, .json or .h5 to keep the profile");
   write_tables(
       session, "generate", answer,
       {{"profile", {{"x", x}, {"heights", profile.heights}}, "periodic, " + profile.origin}});
@@ -254,7 +254,7 @@ void run(const GenerateArguments& arguments, Session& session) {
   if (arguments.profile) return make_profile(arguments, session);
   if (session.has_output()) require_surface_name(session.output());
   const Grid2D grid = grid_of(arguments);
-  session.warn(doubts_of_cells(grid));
+  session.warn(warnings_of_cells(grid));
   if (arguments.dry_run.dry_run) return estimate(arguments, grid, session);
   Json answer = Json::object();
   Surface surface;
@@ -268,11 +268,11 @@ void run(const GenerateArguments& arguments, Session& session) {
     surface = random_surface(arguments, grid, session, answer);
   }
   if (!arguments.composite.empty()) {
-    std::vector<std::string> remarks;
+    std::vector<std::string> warnings;
     ReadOptions options;
-    options.remarks = &remarks;
+    options.warnings = &warnings;
     const Surface second = read_surface(arguments.composite, options);
-    session.warn(remarks);
+    session.warn(warnings);
     surface = composite_surface(surface, second);
     answer["composite"] = arguments.composite;
   }
@@ -291,7 +291,7 @@ void run(const GenerateArguments& arguments, Session& session) {
     provenance.configuration = surface.origin;
     write_surface(session.output(), surface, provenance, session.write_options());
   } else {
-    session.note("no file was written; add --output FILE to keep the surface");
+    session.inform("no file was written; add --output FILE to keep the surface");
   }
   if (session.has_plot()) session.plot(surface_figure(surface, spectrum_of(surface)));
   Json whole = json_of(surface.grid);

@@ -196,7 +196,7 @@ void run(Arguments arguments, Session& session) {
                       fmt::format(fmt::runtime(rest), fmt::arg("amplitude", amplitude)),
                   session.write_options());
   session.answer(Json{{"file", arguments.file}},
-                 fmt::format("{0} is written, each key with a remark. Next:\n"
+                 fmt::format("{0} is written, each key with a comment. Next:\n"
                              "  salebra study {0} --dry-run\n  salebra study {0} -o {1}.h5\n",
                              arguments.file, fs::path(arguments.file).stem().string()));
 }

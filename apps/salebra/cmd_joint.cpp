@@ -112,8 +112,8 @@ void run(const JointArguments& arguments, Session& session) {
   for (const double amplitude : arguments.tangential_amplitudes)
     problem.motions.emplace_back(TangentialAmplitude{amplitude});
   const JointSolution found = solve(std::move(problem), session.context());
-  session.warn(found.contact.doubts);
-  for (const std::string& remark : found.remarks) session.note(remark);
+  session.warn(found.contact.warnings);
+  for (const std::string& warning : found.warnings) session.inform(warning);
 
   const double area = arguments.nominal_area.value_or(found.contact.nominal_area());
   Json answer = json_of(found.state);

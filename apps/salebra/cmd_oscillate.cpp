@@ -136,7 +136,7 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
   const double modulus = contact.material.contact_modulus;
   const OperatingPoint point = point_of(arguments.point, body);
   if (point.control == ControlQuantity::pressure)
-    session.doubt(doubt_of_pressure(point.value, modulus));
+    session.warn_if(warning_of_pressure(point.value, modulus));
   contact.indentation = mean_indentation(body, modulus, point);
   contact.motion = motion_of(arguments.motion, body, contact.indentation);
   arguments.friction.check(contact.motion, contact.indentation);

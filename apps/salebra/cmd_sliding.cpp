@@ -89,11 +89,11 @@ ContactSolution contact_of(const SlidingArguments& arguments, Session& session) 
   ContactSolution contact =
       arguments.law.contact(arguments.material, session, arguments.assumptions.hardness, largest);
   if (contact.surface && arguments.of_slider())
-    session.note(
+    session.inform(
         "n/a: the error of the motion. It is that on a law through some loads of the surface, and "
         "two laws within the error of one may lead to motions of another kind");
   if (contact.surface && !arguments.sliding.excursions.empty())
-    session.note(
+    session.inform(
         "n/a: the error of regimes and of no_slip_excursion, which are those of a law through some "
         "loads of the surface");
   return contact;
@@ -138,7 +138,7 @@ void slide(const SlidingArguments& arguments, Session& session) {
       solve(problem, contact,
             contact.surface ? arguments.material.material_with_tangential_modulus() : Material{},
             session.context());
-  session.warn(found.doubts);
+  session.warn(found.warnings);
 
   Json answer = Json::object(), columns = json_of(found.points);
   if (single) {

@@ -74,7 +74,7 @@ void note_asymmetry(const StatisticsArguments& arguments, double asymmetric, Ses
   const std::string waves =
       std::isinf(asymmetric) ? "no wave enters"
                              : fmt::format("waves below {:.3g} um do not enter", 1e6 * asymmetric);
-  session.note(
+  session.inform(
       "peaks and valleys differ, as under a scanning tip: " + waves +
       " the Hurst exponent; --tip-radius or --resolution says which waves the instrument shows");
 }
@@ -173,17 +173,17 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
   constexpr Index expected = 32;
   if (spectrum && std::min(surface.grid.nx, surface.grid.ny) >= expected) {
     if (!fit.hurst.found())
-      session.note(surface.periodic || spectrum->windowed ? no_hurst
+      session.inform(surface.periodic || spectrum->windowed ? no_hurst
                                                           : "no Hurst exponent without a window");
     note_asymmetry(arguments, spectrum->asymmetric_wavelength, session);
   }
   if (!spectrum)
-    session.note(fmt::format(
+    session.inform(fmt::format(
         "{} undefined points: no power spectrum; --fill fills them by the smoothest surface",
         undefined));
   Json whole = answer;
   if (all) {
-    if (!surface.ranks.alone()) session.note(needs_whole);
+    if (!surface.ranks.alone()) session.inform(needs_whole);
     const bool own = undefined == 0 && window == Window::automatic;
     whole["areal"] = json_of(other_statistics(surface, own ? &*spectrum : nullptr, tables));
     whole["differences"] = json_of(difference_moments(surface));
@@ -239,8 +239,8 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   answer["short_cutoff"] = fit.short_cutoff;
   if (arguments.tip_radius || arguments.resolution)
     answer["reliability"] = json_of(reliability(arguments, complete));
-  if (undefined > 0) session.note(fmt::format("{} undefined points were filled", undefined));
-  if (!fit.hurst.found()) session.note(no_hurst);
+  if (undefined > 0) session.inform(fmt::format("{} undefined points were filled", undefined));
+  if (!fit.hurst.found()) session.inform(no_hurst);
   note_asymmetry(arguments, detail::asymmetric_wavelength(complete), session);
   const std::vector<ResultTable> tables{
       psd_table("profile_psd_x", converted(psd, *parse_enum<PsdConvention>(arguments.convention)),
@@ -248,7 +248,7 @@ void analyse_profile(const StatisticsArguments& arguments, const Surface& profil
   write_tables(session, "statistics", answer, tables);
   session.answer(answer);
   if (fit.hurst.found())
-    session.note("An isotropic surface with such profiles: " + generation(profile.grid, fit));
+    session.inform("An isotropic surface with such profiles: " + generation(profile.grid, fit));
 }
 
 void run(const StatisticsArguments& arguments, Session& session) {

@@ -192,8 +192,8 @@ std::string law_line(const StudyResult& result) {
 
 std::string accuracy(const StudyResult& result) {
   std::string text;
-  for (const StudyFlag& flag : result.flags) {
-    std::string item = wrapped(flag.text, 72);
+  for (const EnsembleWarning& found : result.ensemble_warnings) {
+    std::string item = wrapped(found.text, 72);
     for (std::size_t at = 0; (at = item.find('\n', at)) != item.npos; ++at)
       if (at + 1 < item.size()) item.insert(at + 1, "      ");
     text += "  !   " + item + (item.ends_with('\n') ? "" : "\n");
@@ -303,7 +303,7 @@ std::string details(const StudyResult& result) {
                     sample ? interval(ratio, Dimension::dimensionless) : "n/a"});
   }
   return text + to_table(rows, 2, true) + "  (" + result.interval_method() + ")\n" +
-         law_verdict(result) + "\n" + ensemble_remarks(result);
+         law_verdict(result) + "\n" + ensemble_warnings(result);
 }
 
 void run(const StudyArguments& arguments, Session& session) {

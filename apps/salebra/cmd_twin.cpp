@@ -73,7 +73,7 @@ std::string twin_text(const SurfaceTwin& twin) {
     text += fmt::format("Without {}: {}\n", other.instrument,
                         other.agrees ? "nothing moves by more than chance explains"
                                      : "the others say something else; look at its calibration");
-  for (const std::string& note : twin.notes) text += wrapped(note + "\n", text_width());
+  for (const std::string& warning : twin.warnings) text += wrapped(warning + "\n", text_width());
   return text;
 }
 
@@ -107,11 +107,11 @@ file = {0}  # {1}
 std::string entry_of(const std::string& file, const std::string& list) {
   ReadOptions options;
   options.undefined = Undefined::keep;
-  std::string remark, size_remark = "instead of the size that the file states";
+  std::string comment, size_comment = "instead of the size that the file states";
   try {
     const Surface surface = read_surface(file, options);
     const Grid2D& grid = surface.grid;
-    remark =
+    comment =
         fmt::format("{} x {} points, {} x {}, rms height {}", grid.nx, grid.ny,
                     format_quantity(grid.lx, Dimension::length, 4),
                     format_quantity(grid.ly, Dimension::length, 4),
@@ -120,11 +120,11 @@ std::string entry_of(const std::string& file, const std::string& list) {
     // Without a size heights can be read all the same, by any; what else is wrong is said here.
     options.size_x = options.size_y = 1e-4;
     const Grid2D grid = read_surface(file, options).grid;
-    remark = fmt::format("{} x {} points, of no stated size", grid.nx, grid.ny);
-    size_remark = "needed: the file states none";
+    comment = fmt::format("{} x {} points, of no stated size", grid.nx, grid.ny);
+    size_comment = "needed: the file states none";
   }
-  return fmt::format(fmt::runtime(list_entry), toml_file(file, list), remark,
-                     key_or_choice("size_x", "", "\"10um\"", size_remark),
+  return fmt::format(fmt::runtime(list_entry), toml_file(file, list), comment,
+                     key_or_choice("size_x", "", "\"10um\"", size_comment),
                      key_or_choice("size_y", "", "\"10um\"", "without it cells are square"));
 }
 
@@ -151,12 +151,12 @@ void run(const TwinArguments& arguments, Session& session) {
   if (arguments.file == "init" && !arguments.list.empty()) return write_list(arguments, session);
   require(arguments.list.empty() && arguments.scans.empty(), "FILE", arguments.file,
           "is a list that is there; write one with: salebra twin init LIST --files SCAN …");
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   TwinOptions options{.seed = arguments.seed};
   if (!arguments.form.empty()) options.form = parse_enum<SpectrumForm>(arguments.form);
   const SurfaceTwin twin =
-      twin_of(read_twin_measurements(arguments.file), options, session.progress(), &remarks);
-  session.warn(remarks);
+      twin_of(read_twin_measurements(arguments.file), options, session.progress(), &warnings);
+  session.warn(warnings);
   if (session.has_output())
     write_twin(session.output(), twin, session.provenance(), session.write_options());
   if (session.has_plot()) session.plot(twin_figure(twin));
@@ -164,7 +164,7 @@ void run(const TwinArguments& arguments, Session& session) {
   answer["groups"] = to_json(twin.groups);
   answer["scans"] = to_json(twin.scans);
   for (const TwinWithout& other : twin.without) answer["without"].push_back(answer_json(other));
-  answer["notes"] = twin.notes;
+  answer["notes"] = twin.warnings;
   session.answer(answer, twin_text(twin));
 }
 

@@ -127,7 +127,7 @@ void run(const ViscoelasticArguments& arguments, Session& session) {
   if (arguments.indentation) require_positive(*arguments.indentation, "--indentation");
   const double indentation =
       arguments.indentation ? *arguments.indentation : law.indentation_of(*arguments.force);
-  session.warn(doubts_of_profile(*profile, law.contact_radius(indentation)));
+  session.warn(warnings_of_profile(*profile, law.contact_radius(indentation)));
   const ContactParameters known = arguments.assumptions.parameters(arguments.material);
   const std::vector<ViscoelasticLoss> losses =
       losses_of(arguments, law, prony, indentation, session);

@@ -96,7 +96,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
   const Adhesion adhesion = arguments.adhesion();
   const double area = surface.grid.area();
   for (const double pressure : arguments.pressures_on(area))
-    session.doubt(doubt_of_pressure(pressure, material.contact_modulus));
+    session.warn_if(warning_of_pressure(pressure, material.contact_modulus));
   Branch loading;
   loading.curve.model = "bem";
   loading.curve.adhesive = true;
@@ -122,7 +122,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
   const AdhesiveCycle cycle =
       adhesive_cycle(surface, material.contact_modulus, points_of(arguments), adhesion, options);
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
-  session.doubt(doubt_of_process_zone(adhesion, surface.grid, material.contact_modulus));
+  session.warn_if(warning_of_process_zone(adhesion, surface.grid, material.contact_modulus));
   require_converged(cycle);
   Json answer{{"curve", loading.json(arguments)}};
   if (arguments.cycle) {

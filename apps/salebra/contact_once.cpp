@@ -100,7 +100,7 @@ class OneContact {
         surface_(arguments.surface.read(session)) {
     if (arguments.hardness) options_.hardness = *arguments.hardness;
     for (const double pressure : arguments.pressures_on(surface_.grid.area()))
-      session.doubt(doubt_of_pressure(pressure, material_.contact_modulus));
+      session.warn_if(warning_of_pressure(pressure, material_.contact_modulus));
   }
 
   void press() {
@@ -111,8 +111,8 @@ class OneContact {
       options.contact.hardness = options_.hardness;
       state_ = press_adhesive(surface_, material_.contact_modulus, point_of(arguments_, surface_),
                               arguments_.adhesion(), options);
-      session_.doubt(
-          doubt_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
+      session_.warn_if(
+          warning_of_process_zone(arguments_.adhesion(), surface_.grid, material_.contact_modulus));
     } else {
       static_cast<NormalContactState&>(state_) = salebra::press(
           surface_, material_.contact_modulus, point_of(arguments_, surface_), options_);
@@ -158,7 +158,7 @@ class OneContact {
   /// From an earlier contact, where one is given.
   void start() {
     if (arguments_.checkpoint.starts_anew(session_, arguments_.initial)) {
-      session_.note(arguments_.initial + " is not there yet: the contact starts anew");
+      session_.inform(arguments_.initial + " is not there yet: the contact starts anew");
     } else if (!arguments_.initial.empty()) {
       collectively(session_.ranks(),
                    [&] { initial_ = read_initial(arguments_.initial, surface_.share()); });

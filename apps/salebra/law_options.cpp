@@ -102,7 +102,7 @@ ContactSolution LawOptions::contact(const MaterialOptions& material, Session& se
   ContactProblem asked = problem(material, session, hardness);
   if (auto* body = std::get_if<SurfaceContact>(&asked)) body->normal_amplitude = normal_amplitude;
   ContactSolution contact = solve(std::move(asked), session.context());
-  session.warn(contact.doubts);
+  session.warn(contact.warnings);
   return contact;
 }
 

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     launch.abort = [&mpi](int status) { mpi.abort(status); };
     return cli::run_program(argc, argv, std::move(launch));
   } catch (const std::exception& error) {
-    cli::print_remark("salebra-mpi: error: " + std::string(error.what()) + "\n");
+    cli::print_to_stderr("salebra-mpi: error: " + std::string(error.what()) + "\n");
     return 1;
   }
 }

@@ -270,19 +270,19 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks,
                              std::optional<Undefined> points) const {
   if (!recipe.empty()) {
     Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
-    session.warn(doubts_of_cells(made.grid));
-    session.doubt(doubt_of_heights(made));
+    session.warn(warnings_of_cells(made.grid));
+    session.warn_if(warning_of_heights(made));
     const Detrend trend = parse_enum<Detrend>(detrend).value_or(default_detrend(made));
     return detrended(std::move(made), trend);
   }
   ReadOptions options = measured().reading();
   if (points) options.undefined = *points;
   options.profiles = profiles;
-  std::vector<std::string> remarks;
-  options.remarks = &remarks;
+  std::vector<std::string> warnings;
+  options.warnings = &warnings;
   Surface surface = read_surface(file, options, ranks);
-  session.warn(remarks);
-  session.warn(doubts_of_cells(surface.grid));
+  session.warn(warnings);
+  session.warn(warnings_of_cells(surface.grid));
   const Detrend method = parse_enum<Detrend>(detrend).value_or(default_detrend(surface));
   return detrended(std::move(surface), method);
 }
@@ -304,7 +304,7 @@ SurfaceOutline SurfaceOptions::outline(Session& session) const {
   return {surface.grid, surface_moments(surface).rms_slope(), file};
 }
 
-std::vector<std::string> doubts_of_cells(const Grid2D& grid) {
+std::vector<std::string> warnings_of_cells(const Grid2D& grid) {
   const auto [shorter, longer] = std::minmax({grid.dx(), grid.dy()});
   if (longer <= 10 * shorter) return {};
   const double ratio = longer / shorter;

@@ -136,7 +136,7 @@ struct SurfaceOptions {
 };
 
 /// Cells ten times as long as wide, which are allowed and most likely a slip of the user's hand.
-std::vector<std::string> doubts_of_cells(const Grid2D& grid);
+std::vector<std::string> warnings_of_cells(const Grid2D& grid);
 
 /// Adds its columns under "first_loading", where there was one.
 void add_first_loading(Json& answer, const std::optional<FirstLoading>& loading);

@@ -219,7 +219,7 @@ void warn_of(const OscillationOutcome& outcome, Session& session) {
     warn_of_cycle("friction", *outcome.frictional, outcome.uncertain_loss(), session);
   if (outcome.coupled) {
     warn_of_cycle("coupling", *outcome.coupled, outcome.uncertain_loss(), session);
-    if (outcome.dundurs == 0) session.note("Dundurs' beta is 0: nothing is coupled");
+    if (outcome.dundurs == 0) session.inform("Dundurs' beta is 0: nothing is coupled");
   }
   if (outcome.choice && !outcome.choice->reached)
     session.warn(

@@ -39,7 +39,7 @@ int fail(int status, std::string_view message) {
   constexpr std::size_t longest = 2000;
   std::string line = printable(shortened(in_options(message), longest));
   std::ranges::replace_if(line, [](char symbol) { return symbol == '\n' || symbol == '\t'; }, ' ');
-  print_remark(fmt::format("{}: {} {}\n", program_name(),
+  print_to_stderr(fmt::format("{}: {} {}\n", program_name(),
                            emphasised("error:", Emphasis::error, STDERR_FILENO), line));
   return status;
 }
@@ -308,10 +308,10 @@ constexpr std::string_view no_memory = "memory: not enough for this grid; use fe
 
 /// Allocates nothing.
 void print_lack_of_memory() noexcept {
-  print_remark(program_name());
-  print_remark(": error: ");
-  print_remark(no_memory);
-  print_remark("\n");
+  print_to_stderr(program_name());
+  print_to_stderr(": error: ");
+  print_to_stderr(no_memory);
+  print_to_stderr("\n");
 }
 
 /// An allocation may fail where no exception can leave: in a thread of OpenMP, in a destructor,

@@ -20,14 +20,14 @@ void ProgressBar::draw(const ProgressReport& report) {
   constexpr int width = 30;
   const double fraction = std::clamp(report.fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(fraction * width);
-  print_remark(fmt::format("\r\033[K{:<14} [{}{}] {:3.0f} %", report.stage,
+  print_to_stderr(fmt::format("\r\033[K{:<14} [{}{}] {:3.0f} %", report.stage,
                            std::string(filled, '#'), std::string(width - filled, '.'),
                            100 * fraction));
 }
 
 void ProgressBar::clear() {
   if (!drawn_) return;
-  print_remark("\r\033[K");
+  print_to_stderr("\r\033[K");
   drawn_ = false;
 }
 

@@ -211,10 +211,10 @@ Progress Session::progress() {
 
 Context Session::context() { return {progress(), interrupted}; }
 
-void Session::note(std::string_view text) {
+void Session::inform(std::string_view text) {
   if (options_.quiet || !ranks().is_root()) return;
   bar_.clear();
-  print_remark(fmt::format("{}\n", printable(text)));
+  print_to_stderr(fmt::format("{}\n", printable(text)));
 }
 
 void Session::warn(std::string_view text) {
@@ -222,7 +222,7 @@ void Session::warn(std::string_view text) {
   const std::string& said = warnings_.emplace_back(printable(in_options(text)));
   if (options_.quiet) return;
   bar_.clear();
-  print_remark(fmt::format("{}: {} {}\n", program_name(),
+  print_to_stderr(fmt::format("{}: {} {}\n", program_name(),
                            emphasised("warning:", Emphasis::warning, STDERR_FILENO), said));
 }
 
@@ -230,7 +230,7 @@ void Session::warn(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) warn(line);
 }
 
-void Session::doubt(const std::optional<std::string>& text) {
+void Session::warn_if(const std::optional<std::string>& text) {
   if (text) warn(*text);
 }
 

@@ -44,7 +44,7 @@ enum class OutputCheck {
   any_name     ///< a file that is not there yet; the command knows formats of its own
 };
 
-/// One run of a command: where its answer, its remarks and its progress go. Of several processes
+/// One run of a command: where its answer, its warnings and its progress go. Of several processes
 /// the root alone prints, draws and makes files; the others do what is collective.
 class Session {
  public:
@@ -92,13 +92,13 @@ class Session {
   /// The same, and Ctrl-C for what reports no progress.
   Context context();
 
-  /// A remark for the person at the terminal, on stderr; --quiet leaves out both, and errors only
+  /// A warning for the person at the terminal, on stderr; --quiet leaves out both, and errors only
   /// remain. The same warning is given once, and is among the `warnings` of a JSON answer.
-  void note(std::string_view text);
+  void inform(std::string_view text);
   void warn(std::string_view text);
   void warn(const std::vector<std::string>& lines);
   /// warn() where there is a doubt.
-  void doubt(const std::optional<std::string>& text);
+  void warn_if(const std::optional<std::string>& text);
 
   /// The command's answer: the object with --json, the text without.
   void answer(const Json& object, const std::string& text);

@@ -158,7 +158,7 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
 std::optional<std::string> StudyReport::write() {
   session_.may_read_output(true);
   if (lacks_assets_)
-    session_.note(
+    session_.inform(
         "no report was written: this build carries no plotly.js (scripts/report-assets fetches "
         "it)");
   if (page_.empty()) return {};
@@ -336,7 +336,7 @@ class Reporter {
     if (report.restored) pace_.restored();
     if (bar_ || report.restored) return;
     const double fraction = double(report.finished) / double(report.wanted);
-    session_.note(fmt::format(
+    session_.inform(fmt::format(
         "study: surface {} of {} (seed {}{}) in {:.1f} s{}", report.finished, report.wanted,
         report.seed,
         report.points > 1 ? fmt::format(", point {} of {}", report.point + 1, report.points) : "",
@@ -581,7 +581,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
     parts->discard(keys);
   });
   if (!session.has_output())
-    session.note("no file was written; add --output FILE to keep the results");
+    session.inform("no file was written; add --output FILE to keep the results");
   return results;
 }
 
@@ -736,7 +736,7 @@ std::string law_verdict(const StudyResult& result) {
              over_rms_height("decay_length_equal_weights"));
 }
 
-std::string ensemble_remarks(const StudyResult& result) {
+std::string ensemble_warnings(const StudyResult& result) {
   std::string text;
   const std::vector<std::size_t> counts = result.convergence_counts();
   if (counts.size() >= 3) {
@@ -756,7 +756,7 @@ std::string ensemble_remarks(const StudyResult& result) {
   if (result.precision_reached)
     text += fmt::format("{} surfaces were enough for a precision of {:.2g} %.\n",
                         result.realisations.size(), 100 * result.configuration.target_precision);
-  for (const StudyFlag& flag : result.flags) text += "Note: " + flag.text + ".\n";
+  for (const EnsembleWarning& found : result.ensemble_warnings) text += "Warning: " + found.text + ".\n";
   return text;
 }
 
@@ -816,8 +816,8 @@ void add_ensemble(Json& answer, const StudyResult& result, const StudySolution& 
   add_transport(answer, result, found);
   add_adhesion(answer, result);
   answer["realisations"] = result.realisations.size();
-  Json& flags = answer["flags"] = Json::object();
-  for (const StudyFlag& flag : result.flags) flags[flag.name] = flag.text;
+  Json& ensemble = answer["ensemble_warnings"] = Json::object();
+  for (const EnsembleWarning& found : result.ensemble_warnings) ensemble[found.name] = found.text;
   if (!std::isnan(result.configuration.known.hardness))
     answer["first_loading"] = columns_json<FirstLoading>([&](const auto& number) {
       return result.mean([&](const Realisation& r) { return number(r.first_loading); });

@@ -85,7 +85,7 @@ std::string in_words(const LawDescription& law, const std::string& what);
 /// Whether the exponential law holds, in a sentence.
 std::string law_verdict(const StudyResult& result);
 /// How the mean of l/h_rms settled, and what else may be wrong with the ensemble.
-std::string ensemble_remarks(const StudyResult& result);
+std::string ensemble_warnings(const StudyResult& result);
 /// The assumptions of an answer with a list of pressures.
 AssumptionReport assumptions_of(const StudySolution& answer, const StudyResult& result);
 /// γ and work of the motion as described, with the shares of slip.

@@ -114,7 +114,7 @@ void print_answer(std::string_view text) {
     throw IoError("standard output: cannot be written; check the disk or the reader of the pipe");
 }
 
-void print_remark(std::string_view text) noexcept {
+void print_to_stderr(std::string_view text) noexcept {
   std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

@@ -36,8 +36,8 @@ std::string_view program_name();
 /// Prints an answer on standard output. Throws IoError where it does not arrive there.
 void print_answer(std::string_view text);
 
-/// Prints a remark on standard error. Where that fails there is nowhere to say so, and the work
+/// Prints a warning on standard error. Where that fails there is nowhere to say so, and the work
 /// goes on.
-void print_remark(std::string_view text) noexcept;
+void print_to_stderr(std::string_view text) noexcept;
 
 }  // namespace salebra::cli

@@ -29,9 +29,9 @@ inline std::string toml_length(double metres) {
 
 /// The key as it is where a value was given, else as a choice that was not made.
 inline std::string key_or_choice(std::string_view key, const std::string& value,
-                                 std::string_view example, std::string_view remark) {
-  return value.empty() ? fmt::format("# {} = {}  # {}", key, example, remark)
-                       : fmt::format("{} = {}  # {}", key, value, remark);
+                                 std::string_view example, std::string_view comment) {
+  return value.empty() ? fmt::format("# {} = {}  # {}", key, example, comment)
+                       : fmt::format("{} = {}  # {}", key, value, comment);
 }
 
 /// The name of a file from the folder of the list or study file, where its relative names begin.

@@ -378,7 +378,7 @@ def _warn(name: str, signatures: _Signatures, result: Any) -> None:
     warnings.warn(f"{name}: {what}" + (f". Raise {remedies}" if remedies else ""), ConvergenceWarning, stacklevel=3)
 
 
-def _doubt(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
+def _warn_of_pressure(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]) -> None:
     """Warns of a contact pressed by more than a tenth of E*: as a rule a unit was forgotten."""
     if isinstance(result, _core.NormalContactState):
         pressure, modulus = result.mean_pressure, result.contact_modulus
@@ -389,9 +389,9 @@ def _doubt(name: str, result: Any, arguments: tuple[Any, ...], keywords: dict[st
         pressure, modulus = float(np.max(result.pressure)), materials[0].contact_modulus
     else:
         return
-    doubt = _core._doubt_of_pressure(pressure, modulus)
-    if doubt:
-        warnings.warn(f"{name}: {doubt}", stacklevel=3)
+    warning = _core._warning_of_pressure(pressure, modulus)
+    if warning:
+        warnings.warn(f"{name}: {warning}", stacklevel=3)
 
 
 def _refused(error: TypeError) -> bool:
@@ -428,7 +428,7 @@ def function(native: Any, name: str, module: str = "salebra", method: bool = Fal
         except (_core.InvalidInput, _core.IoError) as error:
             _missing_file(error, signatures.__signature__, arguments, keywords)
             raise
-        _doubt(name, result, arguments, keywords)
+        _warn_of_pressure(name, result, arguments, keywords)
         _warn(name, signatures, result)
         _remember(result, name, arguments, keywords)
         return result
@@ -497,9 +497,9 @@ def construct(name: str, made: Any, arguments: tuple[Any, ...], keywords: dict[s
         keywords = _of_frequency(keywords)
     _constructors[name](made, *arguments, **keywords)
     if name == "Surface":
-        doubt = _core._doubt_of_heights(made)
-        if doubt:
-            warnings.warn(f"{name}: {doubt}", stacklevel=2)
+        warning = _core._warning_of_heights(made)
+        if warning:
+            warnings.warn(f"{name}: {warning}", stacklevel=2)
     _remember(made, name, arguments, keywords)
 
 

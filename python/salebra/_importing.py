@@ -141,10 +141,10 @@ def _read(file: str, wanted: str | None) -> tuple[np.ndarray, np.ndarray | None,
     """Heights, positions of a profile, attributes, and what the reader should know."""
     reader = _opened(file)
     channel = _channel_of(reader, wanted)
-    remarks = []
+    warnings = []
     if wanted is None and len(reader.channels) > 1:
         others = ", ".join(str(other.name) for other in reader.channels if other.index != channel.index)
-        remarks.append(f"channel {channel.name} of several; the others are {others}")
+        warnings.append(f"channel {channel.name} of several; the others are {others}")
     missing: dict[str, Any] = {}
     if channel.physical_sizes is None or any(size is None for size in np.atleast_1d(channel.physical_sizes)):
         missing["physical_sizes"] = (1.0,) * channel.dim
@@ -169,24 +169,24 @@ def _read(file: str, wanted: str | None) -> tuple[np.ndarray, np.ndarray | None,
     sizes = topography.physical_sizes
     if "physical_sizes" not in missing:
         if factor is None:
-            remarks.append(f"its size of {' x '.join(f'{size:g}' for size in sizes)} is without a unit, and not used")
+            warnings.append(f"its size of {' x '.join(f'{size:g}' for size in sizes)} is without a unit, and not used")
             positions = None
         else:
             for name, size in zip(("size_x", "size_y"), sizes):
                 attributes[name] = float(size) * factor
     if topography.dim == 2:
         attributes["periodic"] = int(bool(topography.is_periodic))
-    return heights, positions, attributes, remarks
+    return heights, positions, attributes, warnings
 
 
 def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *, channel: str | int | None = None) -> list[str]:
-    """Writes what `file` holds as HDF5, which appears whole or not at all. Returns remarks. Raises ImportRefusal."""
+    """Writes what `file` holds as HDF5, which appears whole or not at all. Returns warnings. Raises ImportRefusal."""
     file, out = os.fspath(file), os.fspath(out)
     _require_harmless(file)
     _require_place(file, out)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        heights, positions, attributes, remarks = _read(file, None if channel is None else str(channel))
+        heights, positions, attributes, warnings = _read(file, None if channel is None else str(channel))
     import h5py  # type: ignore[import-untyped]  # SurfaceTopography needs it too
 
     folder = os.path.dirname(os.path.abspath(out))
@@ -203,7 +203,7 @@ def import_surface(file: str | os.PathLike[str], out: str | os.PathLike[str], *,
     except BaseException:
         os.unlink(temporary)
         raise
-    return remarks
+    return warnings
 
 
 def imported(file: str, out: str, channel: str = "") -> list[str]:
@@ -244,8 +244,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             import h5py  # noqa: F401
             import SurfaceTopography  # noqa: F401
         _confine(given.file, given.out)
-        for remark in import_surface(given.file, given.out, channel=given.channel):
-            say("note", f"{given.file}: {remark}")
+        for warning in import_surface(given.file, given.out, channel=given.channel):
+            say("note", f"{given.file}: {warning}")
     except ImportRefusal as refusal:
         say("error", f"{given.file}: {refusal}")
         return 2

@@ -13,7 +13,7 @@ from ._core import (
     StudyConfiguration as StudyConfiguration,
     StatedMean as StatedMean,
     StudySolution as StudySolution,
-    StudyFlag as StudyFlag,
+    EnsembleWarning as EnsembleWarning,
     StudyResult as StudyResult,
     SurfacePicture as SurfacePicture,
     contact_models as contact_models,

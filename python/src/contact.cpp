@@ -72,7 +72,7 @@ tangential_modulus : float, optional
       .def_static("of_bodies", &Material::of_bodies, nb::arg("first"),
                   nb::arg("second") = ElasticBody{},
                   "The material of two elastic bodies; at least one of them is not rigid.");
-  m.def("_doubt_of_pressure", &doubt_of_pressure, nb::arg("pressure"), nb::arg("contact_modulus"),
+  m.def("_warning_of_pressure", &warning_of_pressure, nb::arg("pressure"), nb::arg("contact_modulus"),
         "What is most likely a slip in the unit of one of them, or None.");
 }
 

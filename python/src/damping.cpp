@@ -63,7 +63,7 @@ BoundDamping to_be_judged(const DampingResult& result, const ContactLaw& law, co
 }
 
 void warn_of_held_indentation(Hold hold, std::span<const DampingResult> results) {
-  if (const auto doubt = detail::doubt_of_held_indentation(hold, results)) warn_user(*doubt);
+  if (const auto warning = detail::warning_of_held_indentation(hold, results)) warn_user(*warning);
 }
 
 /// The quantity that changes from case to case, and its values: of the operating point, or one of the

@@ -47,7 +47,7 @@ void bind_files(nb::module_& m) {
          std::optional<double> despike, const std::optional<std::vector<double>>& crop, bool fill,
          bool profiles, const std::string& channel, const ProcessesArgument& comm) {
         const Communicator ranks = comm.ranks();
-        std::vector<std::string> remarks;
+        std::vector<std::string> warnings;
         ReadOptions options;
         options.size_x = size_x;
         options.size_y = size_y;
@@ -61,9 +61,9 @@ void bind_files(nb::module_& m) {
         options.crop = rectangle_of(crop);
         if (fill) options.undefined = Undefined::fill;
         options.profiles = profiles;
-        options.remarks = &remarks;
+        options.warnings = &warnings;
         Surface surface = unlocked([&] { return read_surface(file, options, ranks); });
-        for (const std::string& line : remarks) warn_user(line);
+        for (const std::string& line : warnings) warn_user(line);
         return new_surface(std::move(surface));
       },
       nb::arg("file"), nb::kw_only(), nb::arg("size_x") = nb::none(),

@@ -166,7 +166,7 @@ void bind_result(nb::module_& m) {
     return fmt::format("StudySolution(validity='{}', {} pressures)", name_of(self.validity),
                        self.damping_constant.size());
   });
-  described_class<StudyFlag>(m, "StudyFlag",
+  described_class<EnsembleWarning>(m, "EnsembleWarning",
                              "Why a result may be off for other reasons than chance.");
   auto result = described_class<StudyResult>(m, "StudyResult",
                                              "The ensemble at one point of the parameter grid.");

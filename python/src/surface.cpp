@@ -268,9 +268,9 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
   m.def("surface_moments", &of_surface<surface_moments>, nb::arg("surface"),
         ":func:`spectral_moments` of a periodic surface, :func:`difference_moments` of any other.");
   m.def(
-      "_doubt_of_heights",
+      "_warning_of_heights",
       [](const BoundSurface& surface) {
-        return unlocked([&] { return doubt_of_heights(surface.surface); });
+        return unlocked([&] { return warning_of_heights(surface.surface); });
       },
       nb::arg("surface"), "What is most likely a slip in the unit of the heights, or None.");
   m.def("detrended", &detrended_surface, nb::arg("surface"), nb::arg("method") = "plane",

@@ -102,8 +102,8 @@ void bind_surface_damping(nb::module_& m) {
                                                                     .parameters = all,
                                                                     .surface = options},
                                                      {.on_progress = std::move(told)});
-              warnings = solution.contact.doubts;
-              warnings.insert(warnings.end(), solution.doubts.begin(), solution.doubts.end());
+              warnings = solution.contact.warnings;
+              warnings.insert(warnings.end(), solution.warnings.begin(), solution.warnings.end());
               return curve_of(solution, pressures->values);
             },
             surface.surface.ranks);

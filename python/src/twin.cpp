@@ -150,13 +150,13 @@ measurements : list of ScanSpectrum, str or os.PathLike
           [](BoundTwin* self,
              const std::variant<std::filesystem::path, std::vector<ScanSpectrum>>& measurements) {
             BoundTwin made;
-            std::vector<std::string> remarks;
+            std::vector<std::string> warnings;
             if (const auto* file = std::get_if<std::filesystem::path>(&measurements))
               made.measurements = unlocked(
-                  [&] { return spectra_of(read_twin_measurements(*file), signals(), &remarks); });
+                  [&] { return spectra_of(read_twin_measurements(*file), signals(), &warnings); });
             else
               made.measurements = std::get<std::vector<ScanSpectrum>>(measurements);
-            for (const std::string& line : remarks) warn_user(line);
+            for (const std::string& line : warnings) warn_user(line);
             new (self) BoundTwin(std::move(made));
           },
           nb::arg("measurements"))
@@ -194,7 +194,7 @@ draws : int
 form : {"corner", "smooth", "table"}, optional
     How the spectrum falls from its plateau; none given: by likelihood.
 drop_bad_scans : bool
-    Leave out a scan far from the fit of all; `notes` names it.
+    Leave out a scan far from the fit of all; `warnings` names it.
 leave_one_out : bool
     Fit once more without each instrument, as a check, into `without`.
 

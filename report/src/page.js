@@ -88,7 +88,7 @@ function conclusion(main, point) {
 function warningsOf(point) {
   const lines = (text) => (text ?? "").split("\n").filter((line) => line.trim());
   const capital = (text) => text[0].toUpperCase() + text.slice(1) + (text.endsWith(".") ? "" : ".");
-  const flags = lines(point.surface?.flags).map((line) => capital(line.replace(/^[a-z_]+: /, "")));
+  const flags = lines(point.surface?.ensemble_warnings).map((line) => capital(line.replace(/^[a-z_]+: /, "")));
   const warnings = [...lines(point.surface?.warnings).map(capital), ...flags];
   const computed = point.damping?.curve?.damping_constant?.bem;
   const unstated = (computed?.error ?? []).filter((error, i) => known(error) && !known(computed.mean[i])).length;

@@ -96,7 +96,7 @@ std::vector<OperatingPoint> points_on(const ForceCurve& curve, const OperatingPo
 /// Whether the moduli that were given fit the stiffnesses of the curve. K_t/K of a curve is G*/E*
 /// to the last digits, or, where each K_t is a stick solve of its own, to some per cent and nowhere
 /// the same.
-std::vector<std::string> doubts_of_moduli(const ForceCurve& curve, double modulus_ratio) {
+std::vector<std::string> warnings_of_moduli(const ForceCurve& curve, double modulus_ratio) {
   std::vector<double> ratios;
   for (const ForceSample& sample : curve.samples) {
     const double ratio = sample.tangential_stiffness / sample.normal_stiffness;
@@ -183,25 +183,25 @@ ContactSolution solution(IndenterContact body, const Context& context) {
   const auto& indenter = static_cast<const IndenterLaw&>(*solution.law);
   for (const OperatingPoint& point : solution.points) {
     const double radius = indenter.contact_radius(indentation_of(indenter, point));
-    solution.doubts = doubts_of_profile(*body.profile, radius);
-    if (!solution.doubts.empty()) break;
+    solution.warnings = warnings_of_profile(*body.profile, radius);
+    if (!solution.warnings.empty()) break;
   }
   return solution;
 }
 
 ContactSolution solution(CurveContact body, const Context& context) {
-  std::vector<std::string> doubts = doubts_of_moduli(body.curve, body.modulus_ratio);
+  std::vector<std::string> warnings = warnings_of_moduli(body.curve, body.modulus_ratio);
   auto table = law(body, context);
   auto points = points_on(body.curve, body.at, body.source);
-  return {std::move(table), std::move(points), std::move(body.curve), {}, {}, std::move(doubts)};
+  return {std::move(table), std::move(points), std::move(body.curve), {}, {}, std::move(warnings)};
 }
 
 ContactSolution solution(SurfaceContact body, const Context& context) {
   for (const double value : body.pressure) require_positive(value, "pressure");
   const double largest = std::ranges::max(body.pressure);
-  std::vector<std::string> doubts;
-  if (const auto doubt = doubt_of_pressure(largest, body.material.contact_modulus))
-    doubts.push_back(*doubt);
+  std::vector<std::string> warnings;
+  if (const auto warning = warning_of_pressure(largest, body.material.contact_modulus))
+    warnings.push_back(*warning);
   const std::optional<FirstLoading> first_loading =
       load_first(body.surface, body.hardness, body.material.contact_modulus, largest,
                  {.on_progress = context.on_progress}, body.normal_amplitude);
@@ -211,7 +211,7 @@ ContactSolution solution(SurfaceContact body, const Context& context) {
   auto table = law(swept, context);
   auto points = points_on(swept.curve, swept.at, "surface");
   return {std::move(table),        std::move(points), std::move(swept.curve),
-          std::move(body.surface), first_loading,     std::move(doubts)};
+          std::move(body.surface), first_loading,     std::move(warnings)};
 }
 
 }  // namespace
@@ -285,21 +285,21 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
   return residual.first_loading;
 }
 
-std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius) {
+std::vector<std::string> warnings_of_profile(const IndenterProfile& profile, double contact_radius) {
   constexpr double most_change = 0.05, most_radius = 1;
   const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
   if (table == nullptr) return {};
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   if (table->largest_radius() > most_radius)
-    doubts.push_back(fmt::format("the table has radii up to {}; check the unit, a table is in m",
+    warnings.push_back(fmt::format("the table has radii up to {}; check the unit, a table is in m",
                                  format_quantity(table->largest_radius(), Dimension::length)));
   const double change = table->image_error(contact_radius);
   if (change > most_change)
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the table is coarse: without every other point the indentation at the contact radius {} "
         "changes by {:.2g} %; sample it more finely",
         format_quantity(contact_radius, Dimension::length), 100 * change));
-  return doubts;
+  return warnings;
 }
 
 }  // namespace salebra

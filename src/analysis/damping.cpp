@@ -163,7 +163,7 @@ void resolve_on_surface(const DampingProblem& problem, const std::vector<double>
     if (!known)
       result.forget();
     else if (std::isnan(result.work_per_cycle))
-      solution.doubts.push_back(
+      solution.warnings.push_back(
           fmt::format("the error of the loss at {} exceeds the loss, which is not given; "
                       "a study of the surface with a `relative_error` halves the cells further",
                       format_quantity(pressures[i], Dimension::pressure)));
@@ -283,7 +283,7 @@ class SurfaceDamper {
   Loss stated(Loss loss, double amplitude) {
     loss.drop_uncertain();
     if (!std::isnan(loss.damping_constant)) return loss;
-    solution_.doubts.push_back(fmt::format(
+    solution_.warnings.push_back(fmt::format(
         "the error of the damping constant under {} exceeds it, and neither is given; a finer "
         "surface helps",
         format_quantity(amplitude, Dimension::length)));
@@ -327,11 +327,11 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
   const DampingOptions options{.hold = problem.hold, .amplitude = problem.amplitude};
   const std::vector<Case> cases = cases_of(solution.contact.points, problem);
   solution.results = results_of(law, cases, options, context);
-  if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, solution.results))
-    solution.doubts.push_back(*doubt);
+  if (const auto warning = detail::warning_of_held_indentation(problem.hold, solution.results))
+    solution.warnings.push_back(*warning);
   std::string unknown;  // why, one line for all cases
   if (surface) resolve_on_surface(problem, pressures, material, context, solution);
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Case& one = cases[i];
     DampingResult& result = solution.results[i];
@@ -354,13 +354,13 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     if (const double way = drag->way_per_cycle(); problem.parameters.excursion >= way)
       solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.parameters.excursion /
                                              way);
-    if (!doubts.empty()) continue;
+    if (!warnings.empty()) continue;
     const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
-    doubts = doubts_of_path(drag->drag_velocity, drag->angular_frequency,
+    warnings = warnings_of_path(drag->drag_velocity, drag->angular_frequency,
                             spot_radius(problem.parameters, law, curve, result.indentation));
   }
-  if (!unknown.empty()) doubts.insert(doubts.begin(), unknown);
-  solution.doubts.insert(solution.doubts.end(), doubts.begin(), doubts.end());
+  if (!unknown.empty()) warnings.insert(warnings.begin(), unknown);
+  solution.warnings.insert(solution.warnings.end(), warnings.begin(), warnings.end());
   return solution;
 }
 
@@ -426,7 +426,7 @@ void fill_map(const DamperProblem& problem, const std::vector<double>& indentati
   if (slips(problem)) {
     solution.damping_constant_without_slip = solution.slip_share = map.damping_constant;
     const std::string unknown = why_unknown(problem, std::ranges::min(map.angular_frequency));
-    if (!unknown.empty()) solution.doubts.push_back(unknown);
+    if (!unknown.empty()) solution.warnings.push_back(unknown);
   }
   for (std::size_t i = 0; i < map.normal_amplitude.size(); ++i)
     for (std::size_t j = 0; j < map.angular_frequency.size(); ++j) {
@@ -480,8 +480,8 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
                     solution.contact.parameters_at(problem.parameters, indentations.back(),
                                               indentations.back() + amplitude)));
   }
-  if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, rested))
-    solution.doubts.push_back(*doubt);
+  if (const auto warning = detail::warning_of_held_indentation(problem.hold, rested))
+    solution.warnings.push_back(*warning);
   std::optional<SurfaceDamper> of_surface;
   if (solution.contact.surface) of_surface.emplace(problem, material, context, solution);
   if (!amplitudes.empty())
@@ -509,7 +509,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   return solution;
 }
 
-std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
+std::vector<std::string> warnings_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius) {
   const double path = 2 * std::numbers::pi * drag_velocity / angular_frequency;
   if (!(path > 2 * spot_radius)) return {};

@@ -41,7 +41,7 @@ std::vector<JointLoss> simulate(const JointProblem& problem, const Surface& surf
 }
 
 /// What is said of a part in place of its sample.
-std::string remark_on_area(double part, double sample) {
+std::string warning_of_area(double part, double sample) {
   return fmt::format(
       "forces and works are of the part, {}, and {:.6g} times those of the sample, {}",
       format_quantity(part, Dimension::length_squared), part / sample,
@@ -94,24 +94,24 @@ JointSolution solve(JointProblem problem, const Context& context) {
           "is of a surface cell by cell; give `surface`");
   const double area = problem.nominal_area;
   double ratio = 1;  // of a surface, which is solved as it is
-  std::string remark;
+  std::string warning;
   if (!std::isnan(area)) require_positive(area, "nominal_area");
   if (surface) {
     surface->normal_amplitude = std::abs(problem.normal_amplitude);
     material = surface->material;
     if (!std::isnan(area)) ratio = area / surface->surface.grid.area();
-    if (ratio != 1) remark = remark_on_area(area, area / ratio);
+    if (ratio != 1) warning = warning_of_area(area, area / ratio);
   } else if (auto* curve = std::get_if<CurveContact>(&problem.contact);
              curve && !std::isnan(area)) {
     const double sample =
         std::exchange(curve->curve, curve_of_part(curve->curve, area, curve->source)).nominal_area;
-    if (sample > 0 && sample != area) remark = remark_on_area(area, sample);
+    if (sample > 0 && sample != area) warning = warning_of_area(area, sample);
   }
   JointSolution solution{solve(std::move(problem.contact), context)};
   require(solution.contact.points.size() == 1, "normal_force",
           fmt::format("{} operating points", solution.contact.points.size()),
           "are given; a joint takes one, and several tangential forces or amplitudes");
-  if (!remark.empty()) solution.remarks.push_back(remark);
+  if (!warning.empty()) solution.warnings.push_back(warning);
   const double friction = problem.parameters.friction_coefficient;
   const OperatingPoint of_body = solution.contact.points.front();
   std::shared_ptr<const ContactLaw> sample;  // where the surface is not the part
@@ -138,13 +138,13 @@ JointSolution solve(JointProblem problem, const Context& context) {
   }
   require_converged(solution.losses, "integrals did not reach the tolerance");
   if (surface && oscillates)
-    solution.remarks.emplace_back(
+    solution.warnings.emplace_back(
         "the loss is that of a law through some loads: its error is not known while the normal "
         "force oscillates");
   if (const auto lost = std::ranges::count_if(
           solution.losses, [](const JointLoss& one) { return std::isnan(one.work_per_cycle); });
       lost > 0)
-    solution.remarks.push_back(
+    solution.warnings.push_back(
         fmt::format("n/a at {} of {} motions: the error of the loss is larger than the loss, "
                     "because too few cells part where the joint slips; a finer surface helps",
                     lost, solution.losses.size()));
@@ -154,8 +154,8 @@ JointSolution solve(JointProblem problem, const Context& context) {
     DampingResult mean;
     mean.force = solution.state.force;
     mean.mean_force = mean_force_of_cycle(law, indentation, problem.normal_amplitude);
-    if (const auto doubt = detail::doubt_of_held_indentation({}, {&mean, 1}))
-      solution.contact.doubts.push_back(*doubt);
+    if (const auto warning = detail::warning_of_held_indentation({}, {&mean, 1}))
+      solution.contact.warnings.push_back(*warning);
   }
   if (problem.direct_steps) {
     problem.motions = of_sample(problem.motions, ratio);

@@ -90,8 +90,8 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactLaw& law,
       throw NotConverged(fmt::format("sliding: {} of {} integrals did not reach the tolerance",
                                      lost, found.size()));
   }
-  if (const auto doubt = detail::doubt_of_held_indentation(problem.hold, means))
-    solution.doubts.push_back(*doubt);
+  if (const auto warning = detail::warning_of_held_indentation(problem.hold, means))
+    solution.warnings.push_back(*warning);
   if (problem.excursions.empty()) return solution;
   std::vector<double> velocities;
   for (const SlidingPoint& point : points) velocities.push_back(point.velocity);

@@ -113,18 +113,18 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
     require_possible_exponential(length, rest, mean_indentation, amplitude, "");
 }
 
-std::optional<std::string> doubt_of_held_indentation(std::optional<Hold> hold,
+std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
                                                      std::span<const DampingResult> results) {
   constexpr double most_ratio = 2;
   if (hold == Hold::force) return {};
   double worst = most_ratio;
-  std::optional<std::string> doubt;
+  std::optional<std::string> warning;
   for (const DampingResult& one : results) {
     // Infinite where the contact is open at rest; NaN where it never touches.
     const double ratio = one.mean_force / one.force;
     if (!(ratio > worst)) continue;
     worst = ratio;
-    doubt = fmt::format(
+    warning = fmt::format(
         "the oscillation about a mean indentation that is held makes the mean force {}, not {}{}; "
         "a "
         "machine that is preloaded holds the mean force{}",

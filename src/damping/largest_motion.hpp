@@ -42,7 +42,7 @@ double possible_indentation(const ContactLaw& law, double rest, double asked);
 /// A sentence for the worst of these oscillations, if what was held is the mean indentation and the
 /// mean force then is more than twice that at rest: a machine that is preloaded holds the force.
 /// Only `force` and `mean_force` are looked at. hold: as above.
-std::optional<std::string> doubt_of_held_indentation(std::optional<Hold> hold,
+std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
                                                      std::span<const DampingResult> results);
 
 /// As relaxation_damping(), of a mean indentation at which the contact does not rest: one that

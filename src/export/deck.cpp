@@ -295,7 +295,7 @@ std::vector<std::string> opening(const DeckProblem& problem) {
   lines.emplace_back(
       "Assumptions: quasi-static, nested contact sets, the same law on loading and unloading; no "
       "adhesion, no wear.");
-  if (!problem.remark.empty()) lines.push_back(problem.remark);
+  if (!problem.comment.empty()) lines.push_back(problem.comment);
   const DeckContact& first = problem.contacts.front();
   const double square = 1 / (units.in_si(Dimension::length) * units.in_si(Dimension::length));
   if (!std::isnan(first.sample_area))

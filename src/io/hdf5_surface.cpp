@@ -116,7 +116,7 @@ LoadedSurface read_profile(const Document& document, const std::string& name,
       for (double& position : positions) position *= metres;
     }
     LoadedSurface even = profile_of(document.path(), positions, heights);
-    even.remarks.insert(even.remarks.begin(), profile.remarks.begin(), profile.remarks.end());
+    even.warnings.insert(even.warnings.begin(), profile.warnings.begin(), profile.warnings.end());
     even.has_channels = true;
     profile = std::move(even);
   } else {

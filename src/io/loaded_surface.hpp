@@ -36,7 +36,7 @@ struct LoadedSurface {
   bool is_profile = false;         ///< one row
   bool has_channels = false;       ///< the reader chose one by ReadOptions::channel
   std::vector<OpenQuestion> questions = {};
-  std::vector<std::string> remarks = {};  ///< on what it says and the reader did not use
+  std::vector<std::string> warnings = {};  ///< on what it says and the reader did not use
 };
 
 /// InvalidInput "<file>: <what>".
@@ -50,7 +50,7 @@ struct Channel {
 };
 
 /// The index of the channel with this number or name. Where `wanted` is empty, it is that of the
-/// first length, else of the first without a unit, and `surface` gets a remark on the others.
+/// first length, else of the first without a unit, and `surface` gets a warning on the others.
 /// Throws InvalidInput where no channel has that name, several have it, or none can be heights.
 std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<Channel>& channels,
                            const std::string& wanted, LoadedSurface& surface);

@@ -36,7 +36,7 @@ LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<do
     refuse(file, "is a line profile with points that are closer than " +
                      std::to_string(2e6 / most) + "e-6 of its length; resample it");
   const auto fine = static_cast<Index>(points);
-  profile.remarks.emplace_back(
+  profile.warnings.emplace_back(
       "its points are not equally spaced; straight lines between them are "
       "evaluated at " +
       std::to_string(fine) + " points");

@@ -66,10 +66,10 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
     // An importer reads HDF5 by a library that follows what the file says to other files.
     if (detail::InputFile(file).may_be_hdf5()) throw;
     const ScratchFolder scratch;
-    std::vector<std::string> remarks =
+    std::vector<std::string> warnings =
         surface_importer(file, scratch / "surface.h5", options.channel, refusal);
     detail::LoadedSurface loaded = detail::read_hdf5(scratch / "surface.h5");
-    loaded.remarks = std::move(remarks);
+    loaded.warnings = std::move(warnings);
     loaded.has_channels = true;
     return loaded;
   }
@@ -77,7 +77,7 @@ detail::LoadedSurface load(const std::filesystem::path& file, const ReadOptions&
 
 double size_along(const std::filesystem::path& file, const char* field,
                   const std::optional<double>& given, const std::optional<double>& stated,
-                  std::vector<std::string>* remarks) {
+                  std::vector<std::string>* warnings) {
   // Spectra divide by products of four steps, which must neither vanish nor overflow.
   const auto usable = [](double size) { return size >= 1e-60 && size <= 1e60; };
   if (given) {
@@ -85,8 +85,8 @@ double size_along(const std::filesystem::path& file, const char* field,
     require(usable(*given), field, *given, "must be from 1e-60 to 1e60, m");
     // Sizes are often given rounded.
     constexpr double rounding = 1e-3;
-    if (remarks && stated && usable(*stated) && !(std::abs(*given / *stated - 1) < rounding))
-      remarks->push_back(std::string(field) + ": " + format_quantity(*given, Dimension::length) +
+    if (warnings && stated && usable(*stated) && !(std::abs(*given / *stated - 1) < rounding))
+      warnings->push_back(std::string(field) + ": " + format_quantity(*given, Dimension::length) +
                          " was given, and " + file.string() + " states " +
                          format_quantity(*stated, Dimension::length));
     return *given;
@@ -191,7 +191,7 @@ std::size_t chosen_channel(const std::filesystem::path& file, const std::vector<
     const auto found = std::ranges::find_if(channels, kind);
     if (found == channels.end()) return {};
     if (const std::string others = list(kind, &*found); !others.empty())
-      surface.remarks.push_back(fmt::format(
+      surface.warnings.push_back(fmt::format(
           "channel {} was taken; the others are {}; see `channel`", text(*found), others));
     return found - channels.begin();
   };
@@ -231,7 +231,7 @@ std::optional<double> given_size(const ReadOptions& options, int axis, Index poi
 
 /// Sizes of the user that suit the grid better the other way round: programs disagree on which axis
 /// of an array comes first.
-std::optional<std::string> doubt_of_axes(const Grid2D& grid) {
+std::optional<std::string> warning_of_axes(const Grid2D& grid) {
   const auto ratio = [](double a, double b) { return std::max(a, b) / std::min(a, b); };
   const double other_dx = grid.lx / static_cast<double>(grid.ny),
                other_dy = grid.ly / static_cast<double>(grid.nx);
@@ -254,8 +254,8 @@ void scale_sizes(const std::filesystem::path& file, const ReadOptions& options,
   if (loaded.lateral_unit_open) {
     for (auto* size : {&loaded.size_x, &loaded.size_y})
       if (*size) **size *= *metres;
-  } else if (options.remarks) {
-    options.remarks->push_back(file.string() + ": `lateral_unit` " + options.lateral_unit +
+  } else if (options.warnings) {
+    options.warnings->push_back(file.string() + ": `lateral_unit` " + options.lateral_unit +
                                " was not used: " +
                                (loaded.size_x ? "the size in the file has a unit or is in metres"
                                               : "the file states no size"));
@@ -276,7 +276,7 @@ void complete_profile(const std::filesystem::path& file, const ReadOptions& opti
                              "`size_x` or `pixel_size`",
                              loaded.heights.rows()));
   grid.lx =
-      size_along(file, "size_x", given_size(options, 0, grid.nx), loaded.size_x, options.remarks);
+      size_along(file, "size_x", given_size(options, 0, grid.nx), loaded.size_x, options.warnings);
   grid.ly = grid.dx();
 }
 
@@ -293,7 +293,7 @@ void answer_questions(const std::filesystem::path& file, const ReadOptions& opti
   const bool heights = !loaded.unit.empty() || !options.height_unit.empty();
   for (const OpenQuestion& question : loaded.questions) {
     if ((question.size && !size) || (question.heights && !heights)) refuse(file, question.text);
-    loaded.remarks.push_back(question.text.substr(0, question.text.rfind(';')));
+    loaded.warnings.push_back(question.text.substr(0, question.text.rfind(';')));
   }
   if (options.height_unit.empty() || loaded.unit.empty()) return;
   const std::string& unit = loaded.stated_unit.empty() ? loaded.unit : loaded.stated_unit;
@@ -328,11 +328,11 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
   } else {
     const auto given_x = given_size(options, 0, surface.grid.nx),
                given_y = given_size(options, 1, surface.grid.ny);
-    surface.grid.lx = size_along(file, "size_x", given_x, loaded.size_x, options.remarks);
-    surface.grid.ly = size_along(file, "size_y", given_y, loaded.size_y, options.remarks);
-    if (options.remarks && given_x && given_y && !loaded.size_x && !options.pixel_size)
-      if (const auto doubt = doubt_of_axes(surface.grid))
-        options.remarks->push_back(file.string() + ": " + *doubt);
+    surface.grid.lx = size_along(file, "size_x", given_x, loaded.size_x, options.warnings);
+    surface.grid.ly = size_along(file, "size_y", given_y, loaded.size_y, options.warnings);
+    if (options.warnings && given_x && given_y && !loaded.size_x && !options.pixel_size)
+      if (const auto warning = warning_of_axes(surface.grid))
+        options.warnings->push_back(file.string() + ": " + *warning);
   }
   surface.heights = std::move(loaded.heights);
   const std::string unit = read.names_unit ? loaded.unit : options.height_unit;
@@ -349,9 +349,9 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
     refuse(file, "holds an infinite height; mark undefined points as nan");
   surface.periodic = options.periodic.value_or(loaded.periodic.value_or(false));
   surface.origin = file.string();
-  if (options.remarks) {
-    for (const std::string& remark : loaded.remarks)
-      options.remarks->push_back(file.string() + ": " + printable_line(remark));
+  if (options.warnings) {
+    for (const std::string& warning : loaded.warnings)
+      options.warnings->push_back(file.string() + ": " + printable_line(warning));
   }
   return read;
 }
@@ -385,22 +385,22 @@ void share(std::vector<std::string>& lines, const Communicator& ranks) {
   for (std::string line; std::getline(of_root, line);) lines.push_back(line);
 }
 
-/// Remarks of a surface in one process or of one that is spread: its heights, and its size.
-void doubt(const std::filesystem::path& file, const detail::ReadSurface& read,
+/// Warnings of a surface in one process or of one that is spread: its heights, and its size.
+void warn_of_heights(const std::filesystem::path& file, const detail::ReadSurface& read,
            const ReadOptions& options) {
-  if (options.remarks == nullptr) return;
-  const auto remark = [&](const std::string& text) {
-    options.remarks->push_back(file.string() + ": " + text);
+  if (options.warnings == nullptr) return;
+  const auto warning = [&](const std::string& text) {
+    options.warnings->push_back(file.string() + ": " + text);
   };
   const Grid2D& grid = read.surface.grid;
   const double longest = std::max(grid.lx, grid.ly);
   if (longest > 1)
-    remark(fmt::format("is {} long{}", format_quantity(longest, Dimension::length),
+    warning(fmt::format("is {} long{}", format_quantity(longest, Dimension::length),
                        read.names_lateral_unit
                            ? ", more than instruments measure; check the unit of its size"
                            : ", its coordinates being in metres; see `lateral_unit`"));
-  if (const auto slope = doubt_of_heights(read.surface, read.metres_per_unit))
-    remark(*slope + (read.names_unit ? "" : "; see `height_unit`"));
+  if (const auto slope = warning_of_heights(read.surface, read.metres_per_unit))
+    warning(*slope + (read.names_unit ? "" : "; see `height_unit`"));
 }
 
 std::string points_text(Index points) {
@@ -476,18 +476,18 @@ struct Corner {
 
 /// What the options ask for, done to the heights of one process.
 Surface prepared(const std::filesystem::path& file, Surface surface, const ReadOptions& options) {
-  const auto remark = [&](const std::string& text) {
-    if (options.remarks && !text.empty()) options.remarks->push_back(file.string() + ": " + text);
+  const auto warning = [&](const std::string& text) {
+    if (options.warnings && !text.empty()) options.warnings->push_back(file.string() + ": " + text);
   };
   // With fewer points no scatter of neighbours is known.
   constexpr Index least_points = 8;
   if (options.despike) {
     const std::vector<Spike> spikes = find_spikes(surface, *options.despike);
     remove_spikes(surface, spikes);
-    if (!spikes.empty()) remark(spikes_text(spikes, true));
-  } else if (options.remarks && !surface.periodic &&
+    if (!spikes.empty()) warning(spikes_text(spikes, true));
+  } else if (options.warnings && !surface.periodic &&
              std::min(surface.grid.nx, surface.grid.ny) >= least_points) {
-    remark(spikes_text(first_contacts(surface, find_spikes(surface)), false));
+    warning(spikes_text(first_contacts(surface, find_spikes(surface)), false));
   }
   Corner corner;
   if (options.crop) {
@@ -501,19 +501,19 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
   if (holes.points == 0) return surface;
   if (options.undefined == Undefined::fill_few && !holes.few())
     refuse_holes(file, surface, corner, holes);
-  remark(fmt::format("{} of {} ({}) without a height, filled by the smoothest surface",
+  warning(fmt::format("{} of {} ({}) without a height, filled by the smoothest surface",
                      points_text(holes.points), surface.grid.points(), percent(holes.fraction)));
   return filled(std::move(surface));
 }
 
 Surface read_whole(const std::filesystem::path& file, const ReadOptions& options) {
   detail::ReadSurface read = detail::completed(file, load(file, options), options);
-  doubt(file, read, options);
-  if (options.remarks)
+  warn_of_heights(file, read, options);
+  if (options.warnings)
     for (const std::string& what :
-         doubts_of_values(read.surface.heights,
+         warnings_of_values(read.surface.heights,
                           read.names_unit ? std::nullopt : std::optional(read.metres_per_unit)))
-      options.remarks->push_back(file.string() + ": " + what);
+      options.warnings->push_back(file.string() + ": " + what);
   return prepared(file, std::move(read.surface), options);
 }
 
@@ -529,7 +529,7 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
   collectively(ranks, [&] { by_rows = ranks.is_root() && !changed && detail::is_hdf5(file); });
   ranks.broadcast(&by_rows, sizeof by_rows);
   if (by_rows) {
-    const std::size_t before = options.remarks ? options.remarks->size() : 0;
+    const std::size_t before = options.warnings ? options.warnings->size() : 0;
     // Each process reads its rows itself.
     require_one_file(file, ranks);
     detail::ReadSurface rows;
@@ -540,16 +540,16 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
     const bool complete = options.undefined == Undefined::keep ||
                           ranks.all_agree(rows.surface.undefined_points() == 0);
     if (complete) {
-      doubt(file, rows, options);
+      warn_of_heights(file, rows, options);
       return std::move(rows.surface);
     }
-    if (options.remarks) options.remarks->resize(before);
+    if (options.warnings) options.warnings->resize(before);
   }
   Surface surface;
   collectively(ranks, [&] {
     if (ranks.is_root()) surface = read_whole(file, options);
   });
-  if (options.remarks) share(*options.remarks, ranks);
+  if (options.warnings) share(*options.warnings, ranks);
   return spread(surface, ranks);
 }
 

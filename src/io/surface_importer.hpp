@@ -15,7 +15,7 @@ class UnknownFormat : public InvalidInput {
 };
 
 /// Writes the surface in `from` as the HDF5 file `to`, as read_surface reads it. refusal: why it is
-/// not read here; channel: as ReadOptions has it. Returns lines for ReadOptions::remarks. Throws InvalidInput naming the file where
+/// not read here; channel: as ReadOptions has it. Returns lines for ReadOptions::warnings. Throws InvalidInput naming the file where
 /// it cannot.
 using SurfaceImporter = std::vector<std::string> (*)(const std::filesystem::path& from,
                                                      const std::filesystem::path& to,

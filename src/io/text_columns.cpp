@@ -199,7 +199,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
                        "; write nan where points are undefined, and remove it");
     roles.push_back(role_of(titles[i], usable <= 2));
     if (roles[i] == Role::skipped)
-      result.remarks.push_back("the column " + quoted(titles[i]) + " was not used");
+      result.warnings.push_back("the column " + quoted(titles[i]) + " was not used");
     if (roles[i] != Role::skipped && roles[i] != Role::index) kept.push_back(static_cast<Index>(i));
   }
   const auto role = [&](Index i) { return roles[static_cast<std::size_t>(i)]; };
@@ -269,7 +269,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     std::tie(result.x, result.z) = *profile;
     for (const Index i : kept)
       if (role(i) == Role::unknown)
-        result.remarks.push_back("the column " + quoted(title(i)) + " was not used");
+        result.warnings.push_back("the column " + quoted(title(i)) + " was not used");
   } else {
     std::vector<Index> unclear;
     for (const Index i : kept) {
@@ -303,7 +303,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
         both = rows(row, i) == 0 || rows(row, i) == 1;
       }
       if (!is_other(i, *result.z) || (both && zero && one)) not_understood(i);
-      result.remarks.push_back("the column " + quoted(title(i)) + " was not used");
+      result.warnings.push_back("the column " + quoted(title(i)) + " was not used");
     }
   }
   const auto unit_of = [&](std::optional<Index> column) {
@@ -317,7 +317,7 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     const std::string name = plain_word(title(*result.z).text);
     for (const char* depth : {"depth", "tiefe", "profondeur", "fukasa"})
       if (name.find(depth) != name.npos)
-        result.remarks.push_back("the column " + quoted(title(*result.z)) +
+        result.warnings.push_back("the column " + quoted(title(*result.z)) +
                                  " is read as heights, positive out of the material");
   }
   return result;

@@ -30,7 +30,7 @@ bool is_monotone(const TextRows& rows, Index column);
 struct Columns {
   std::optional<Index> x, y, z;  ///< of a profile x and z
   std::string x_unit, y_unit, z_unit;
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
 };
 
 /// By titles, which there are as many as columns. Nothing where they say nothing of the columns.

@@ -62,7 +62,7 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
   };
   for (const double mark : header.missing)
     if (const Index count = remove(mark); mark == 0 && count > 0)
-      surface.remarks.push_back(
+      surface.warnings.push_back(
           fmt::format("{} heights of 0, which the file names as its mark, are undefined", count));
   for (;;) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
@@ -102,7 +102,7 @@ void remove_marks(const std::filesystem::path& file, const TextHeader& header,
       return;
     }
     const Index count = remove(mark);
-    surface.remarks.push_back(
+    surface.warnings.push_back(
         fmt::format("{} of {}, far from all other heights, taken for undefined",
                     count == 1 ? "a height" : fmt::format("{} heights", count), mark));
   }
@@ -246,7 +246,7 @@ class TextReader {
     if (first == behind) {
       if (!apart)
         refuse(file_, "begins with the number of its lines, which may be a height; remove it");
-      loaded_.remarks.emplace_back("its first line counts those behind it and is no height");
+      loaded_.warnings.emplace_back("its first line counts those behind it and is no height");
       rows_.remove_first_row();
     } else if ((first >= 2 && second == std::floor(second) && first * second == behind - 1) ||
                (apart && first > 4 &&
@@ -260,7 +260,7 @@ class TextReader {
   }
 
   void read_columns(const Columns& columns) {
-    loaded_.remarks.insert(loaded_.remarks.end(), columns.remarks.begin(), columns.remarks.end());
+    loaded_.warnings.insert(loaded_.warnings.end(), columns.warnings.begin(), columns.warnings.end());
     z_unit_ = columns.z_unit;
     if (!columns.x) {
       read_heights(column_of(rows_, *columns.z));
@@ -310,7 +310,7 @@ class TextReader {
     if (margins.row) rows_.remove_first_row();
     if (margins.column) rows_.remove_column(0);
     if ((margins.row || margins.column) && !margins.step_x)
-      loaded_.remarks.emplace_back(
+      loaded_.warnings.emplace_back(
           fmt::format("its first {} counts and holds no heights", !margins.column ? "row"
                                                                   : margins.row   ? "row and column"
                                                                                   : "column"));
@@ -323,7 +323,7 @@ class TextReader {
         for (Index column = 0; column < 3; ++column) xyz.push_back(rows_(row, column));
       if (auto grid = points_of(xyz)) {
         if (rows_.columns > 3)
-          loaded_.remarks.emplace_back(fmt::format(
+          loaded_.warnings.emplace_back(fmt::format(
               "columns x, y and z were read; {} behind them were not used", rows_.columns - 3));
         read_points(std::move(*grid), x_unit, y_unit);
         return;
@@ -364,7 +364,7 @@ class TextReader {
     const Axis x{"x", rows_.columns, header_.width, header_.pixel_x, x_unit},
         y{"y", rows_.rows, header_.height, header_.pixel_y, y_unit};
     if (margins.step_x) {
-      loaded_.remarks.emplace_back("its first row and column are coordinates");
+      loaded_.warnings.emplace_back("its first row and column are coordinates");
       read_coordinates(x, *margins.step_x * static_cast<double>(x.points), y,
                        *margins.step_y * static_cast<double>(y.points));
       return;
@@ -404,7 +404,7 @@ class TextReader {
   }
 
   void read_points(LoadedSurface grid, const std::string& x_unit, const std::string& y_unit) {
-    grid.remarks.insert(grid.remarks.begin(), loaded_.remarks.begin(), loaded_.remarks.end());
+    grid.warnings.insert(grid.warnings.begin(), loaded_.warnings.begin(), loaded_.warnings.end());
     grid.questions = std::move(loaded_.questions);
     loaded_ = std::move(grid);
     check_counts(loaded_.heights.rows(), loaded_.heights.cols(), rows_.rows);
@@ -436,7 +436,7 @@ class TextReader {
       std::ranges::reverse(heights);
     }
     LoadedSurface profile = profile_of(file_, positions, heights);
-    profile.remarks.insert(profile.remarks.begin(), loaded_.remarks.begin(), loaded_.remarks.end());
+    profile.warnings.insert(profile.warnings.begin(), loaded_.warnings.begin(), loaded_.warnings.end());
     profile.questions = std::move(loaded_.questions);
     loaded_ = std::move(profile);
     double size = *loaded_.size_x;

@@ -178,7 +178,7 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
     }
   }
   if (infinite > 0)
-    surface.remarks.push_back("has " + std::to_string(infinite) +
+    surface.warnings.push_back("has " + std::to_string(infinite) +
                               (infinite == 1 ? " infinite height, which counts as undefined"
                                              : " infinite heights, which count as undefined"));
   if (const std::string mask_name(description.words("Record3/DataLink/ValidPointsLink"));

@@ -86,7 +86,7 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   const StudyLoads loads = study_loads(point);
   cost.contact_scale = loads.contact_scale;
   cost.pressures = loads.pressures;
-  cost.warnings.insert(cost.warnings.end(), loads.doubts.begin(), loads.doubts.end());
+  cost.warnings.insert(cost.warnings.end(), loads.warnings.begin(), loads.warnings.end());
   const bool stick = stick_solves(point);
   const auto cells = static_cast<double>(cost.grid.points());
   cost.levels = levels_of(point, cost.grid);

@@ -36,7 +36,7 @@ constexpr void describe(auto&& visit, std::type_identity<PointCost>) {
   visit(&S::pressures, Quantity{"pressure", pressure, "nominal pressure"});
   visit(&S::levels, Quantity{"levels", dimensionless, "contacts inside the oscillation"});
   visit(&S::seconds, Quantity{"seconds_of_one_thread", Dimension::time, "time of one thread"});
-  visit(&S::warnings, Quantity{"warnings", dimensionless, "remarks"});
+  visit(&S::warnings, Quantity{"warnings", dimensionless, "warnings"});
 }
 
 /// Processes that share a study, StudyRun::groups.

@@ -62,7 +62,7 @@ class ShardRun {
     std::size_t place = 0;
     for (const StudyConfiguration& configuration : points) {
       StudyLoads loads = study_loads(configuration);
-      if (run.on_warning) std::ranges::for_each(loads.doubts, run.on_warning);
+      if (run.on_warning) std::ranges::for_each(loads.warnings, run.on_warning);
       Point& point = points_.emplace_back(configuration, std::move(loads.pressures));
       for (const std::uint64_t seed : detail::seeds_of(configuration)) {
         const std::uint64_t key = StudyParts::key(configuration, seed);

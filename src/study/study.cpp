@@ -103,12 +103,12 @@ void require_room(const StudyResult& result, const Groups& groups) {
 
 constexpr double least_waves_in_cell = 16, least_cells_in_wave = 8, least_spots = 50;
 
-void flag(StudyResult& result) {
+void warn_of_ensemble(StudyResult& result) {
   const auto of_loading = [&](double FirstLoading::*member) {
     return result.mean([&](const Realisation& r) { return r.first_loading.*member; }).mean;
   };
   if (const double area = of_loading(&FirstLoading::yielded_area_fraction); area > 0)
-    result.flags.push_back(
+    result.ensemble_warnings.push_back(
         {"first_loading",
          fmt::format(
              "plastic first loading: at {} pressures reached the hardness, {}, on {:.2g} % of the "
@@ -127,20 +127,20 @@ void flag(StudyResult& result) {
     // Lengths are given in decimals: a wave of exactly 8 cells must not fall below by rounding.
     constexpr double slack = 1 + 1e-9;
     if (longest * least_waves_in_cell > size * slack)
-      result.flags.push_back(
+      result.ensemble_warnings.push_back(
           {"finite_size",
            fmt::format("finite size: the roll-off is 1/{:.3g} of the surface, more than 1/16; few "
                        "independent hills carry the load, and surfaces scatter widely",
                        size / longest)});
     if (shortest * slack < least_cells_in_wave * cell)
-      result.flags.push_back(
+      result.ensemble_warnings.push_back(
           {"discretisation",
            fmt::format("discretisation: the shortest wave has {:.3g} cells, fewer than 8; the "
                        "contact area is too large, the force hardly",
                        shortest / cell)});
   }
   if (const double share = result.scan_share(); !std::isnan(share))
-    result.flags.push_back(
+    result.ensemble_warnings.push_back(
         {"twin",
          fmt::format("surface twin: intervals are of a surface of the part; {:.0f} % of the "
                      "variance of the loss is what the scans leave open, the rest differs from "
@@ -155,7 +155,7 @@ void flag(StudyResult& result) {
           !std::isnan(realisation.spots[k].spot_count))
         fewest = std::min(fewest, realisation.spots[k].spot_count);
   if (fewest < least_spots)
-    result.flags.push_back(
+    result.ensemble_warnings.push_back(
         {"few_spots",
          fmt::format(
              "few contact spots: the lowest load of the fit has {:.0f} on one surface, fewer "
@@ -189,7 +189,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     StudyLoads loads = study_loads(point, run.groups.own());
     result.contact_scale = loads.contact_scale;
     result.pressures = std::move(loads.pressures);
-    result.warnings = std::move(loads.doubts);
+    result.warnings = std::move(loads.warnings);
     if (run.on_warning) std::ranges::for_each(result.warnings, run.on_warning);
     if (!run.missing) require_room(result, run.groups);
     report.point = results.size();
@@ -199,7 +199,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     if (!result.realisations.empty()) {
       result.grid = result.realisations.front().grid;
       warn(result);
-      flag(result);
+      warn_of_ensemble(result);
       results.push_back(std::move(result));
     }
     if (interrupted && !run.missing) break;

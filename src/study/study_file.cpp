@@ -148,11 +148,11 @@ void write_surfaces(Table table, const StudyResult& result) {
   for (const Realisation& realisation : result.realisations) items.push_back(&realisation);
   table.columns(items, {"realisation"});
   table.attributes(result.grid);
-  std::string warnings, flags;
+  std::string warnings, ensemble;
   for (const std::string& warning : result.warnings) warnings += warning + "\n";
-  for (const StudyFlag& found : result.flags) flags += found.name + ": " + found.text + "\n";
+  for (const EnsembleWarning& found : result.ensemble_warnings) ensemble += found.name + ": " + found.text + "\n";
   table.group().attribute("warnings", warnings);
-  table.group().attribute("flags", flags);
+  table.group().attribute("ensemble_warnings", ensemble);
 }
 
 void write_curves(Table table, const StudyResult& result) {

@@ -29,11 +29,11 @@ Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Prog
 }  // namespace
 
 Surface measured_surface(const MeasuredSurface& recipe, const Communicator& ranks,
-                         std::vector<std::string>* remarks) {
+                         std::vector<std::string>* warnings) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
   ReadOptions options = recipe.reading();
-  options.remarks = remarks;
+  options.warnings = warnings;
   Surface surface = read_surface(recipe.file, options, ranks);
   collectively(ranks, [&] { surface.require_complete_rows("a study"); });
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
@@ -60,7 +60,7 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
       std::ranges::count_if(pressures, [&](double pressure) { return !(pressure > hardness / 2); });
   constexpr std::ptrdiff_t least = 4;  // make a curve
   if (configuration.pressures_below_hardness && below < std::ssize(pressures) && below >= least) {
-    loads.doubts.push_back(fmt::format(
+    loads.warnings.push_back(fmt::format(
         "loads end at {}, {} of the {} by default: at half of the hardness of {}",
         text(pressures[std::size_t(below) - 1]), below, pressures.size(), text(hardness)));
     pressures.resize(std::size_t(below));
@@ -77,16 +77,16 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
 
 StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
   StudyLoads loads{.pressures = configuration.pressures};
-  std::optional<std::string> doubt;
+  std::optional<std::string> warning;
   double slope = 0;
   Grid2D grid;
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces)) {
     slope = recipe->spectrum_of_all()->lattice_moments(recipe->grid).rms_slope();
-    doubt = doubt_of_slope(slope);
+    warning = warning_of_slope(slope);
     grid = recipe->grid;
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
-    const Surface surface = measured_surface(measured, ranks, &loads.doubts);
+    const Surface surface = measured_surface(measured, ranks, &loads.warnings);
     slope = surface_moments(surface).rms_slope();
     grid = surface.grid;
   }
@@ -98,15 +98,15 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
           configuration.known.hardness,
           "with adhesion is of one first loading, which `contact` answers; leave out one of them");
   if (adhesive)
-    if (const auto coarse = doubt_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
-      loads.doubts.push_back(*coarse);
+    if (const auto coarse = warning_of_process_zone(configuration.adhesion->adhesion, grid, modulus))
+      loads.warnings.push_back(*coarse);
   loads.contact_scale = modulus * slope;
   if (configuration.relative_pressures)
     for (double& pressure : loads.pressures) pressure *= loads.contact_scale;
   // Where the slope is doubted, relative pressures are too large with it.
-  if (!doubt && !(configuration.relative_pressures && slope > 1))
-    doubt = doubt_of_pressure(loads.pressures.back(), modulus);
-  if (doubt) loads.doubts.push_back(*doubt);
+  if (!warning && !(configuration.relative_pressures && slope > 1))
+    warning = warning_of_pressure(loads.pressures.back(), modulus);
+  if (warning) loads.warnings.push_back(*warning);
   require_below_hardness(configuration, loads);
   require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
           "levels", 0,

@@ -117,10 +117,10 @@ std::vector<TwinMeasurement> read_twin_measurements(const std::filesystem::path&
 }
 
 std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measurements,
-                                     const Progress& progress, std::vector<std::string>* remarks) {
+                                     const Progress& progress, std::vector<std::string>* warnings) {
   std::vector<ScanSpectrum> scans;
   for (const TwinMeasurement& one : measurements) {
-    const Surface surface = measured_surface(one.surface, {}, remarks);
+    const Surface surface = measured_surface(one.surface, {}, warnings);
     scans.push_back(scan_spectrum(surface.heights, surface.grid, one.instrument, one.weight,
                                   one.surface.file.filename().string()));
     const auto done = static_cast<double>(scans.size());
@@ -132,8 +132,8 @@ std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measure
 }
 
 SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const TwinOptions& options,
-                    const Progress& progress, std::vector<std::string>* remarks) {
-  return fit_twin(spectra_of(measurements, progress, remarks), options);
+                    const Progress& progress, std::vector<std::string>* warnings) {
+  return fit_twin(spectra_of(measurements, progress, warnings), options);
 }
 
 void write_twin(const std::filesystem::path& path, const SurfaceTwin& twin,

@@ -76,10 +76,10 @@ struct Extreme {
 
 }  // namespace
 
-std::vector<std::string> doubts_of_values(const Field& heights, std::optional<double> unit) {
+std::vector<std::string> warnings_of_values(const Field& heights, std::optional<double> unit) {
   constexpr Index least = 64;  // fewer values may be so by chance
-  std::vector<std::string> doubts;
-  if (heights.size() < least) return doubts;
+  std::vector<std::string> warnings;
+  if (heights.size() < least) return warnings;
   Extreme lowest, highest;
   bool whole = unit.has_value();
   const double per_metre = 1 / unit.value_or(1);
@@ -90,31 +90,31 @@ std::vector<std::string> doubts_of_values(const Field& heights, std::optional<do
     // What a unit multiplied and divided is whole but for rounding.
     whole = whole && !(std::abs(number - std::round(number)) > 1e-12 * std::abs(number));
   }
-  if (lowest.count == 0 || !(lowest.high > lowest.value)) return doubts;
+  if (lowest.count == 0 || !(lowest.high > lowest.value)) return warnings;
   if (whole)
-    doubts.emplace_back(
+    warnings.emplace_back(
         "all heights are whole numbers, as counts of a converter are; check their unit");
   const auto constant = [&](const auto& line) { return (line == line(0)).all(); };
   constexpr Index shortest = 8;
   const Index rows = heights.rows(), columns = heights.cols();
   if (unit && rows >= shortest && columns >= shortest) {
     if (constant(heights.row(0)) && !constant(heights.row(1)))
-      doubts.emplace_back("the first column of points holds one value; is it one of heights?");
+      warnings.emplace_back("the first column of points holds one value; is it one of heights?");
     if (constant(heights.col(0)) && !constant(heights.col(1)))
-      doubts.emplace_back("the first row of points holds one value; is it one of heights?");
+      warnings.emplace_back("the first row of points holds one value; is it one of heights?");
   }
   const auto mark = [&](const Extreme& extreme, double sign) {
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "{} heights of {:.6g} are farther from all others than these span; if undefined points are "
         "marked so, write nan there",
         extreme.count, sign * extreme.value * per_metre));
   };
   if (lowest.is_apart()) mark(lowest, 1);
   if (highest.is_apart()) mark(highest, -1);
-  return doubts;
+  return warnings;
 }
 
-std::optional<std::string> doubt_of_slope(double rms_slope, double unit) {
+std::optional<std::string> warning_of_slope(double rms_slope, double unit) {
   constexpr double most = 1;
   if (!(rms_slope > most)) return {};
   // A slope that is hardly too large is that of a steep surface or of spikes: any unit would make
@@ -131,7 +131,7 @@ std::optional<std::string> doubt_of_slope(double rms_slope, double unit) {
       rms_slope);
 }
 
-std::optional<std::string> doubt_of_heights(const Surface& surface, double unit) {
+std::optional<std::string> warning_of_heights(const Surface& surface, double unit) {
   const Grid2D& grid = surface.grid;
   const detail::NeighbourRows rows(surface);
   struct Both {
@@ -158,7 +158,7 @@ std::optional<std::string> doubt_of_heights(const Surface& surface, double unit)
     return differences.count > 0 ? differences.variance(step) : 0;
   };
   const bool profile = grid.nx == 1 || grid.ny == 1;
-  return doubt_of_slope(profile
+  return warning_of_slope(profile
                             ? std::sqrt(variance(total.x, grid.dx()) + variance(total.y, grid.dy()))
                             : std::sqrt(total.x.variance(grid.dx()) + total.y.variance(grid.dy())),
                         unit);

@@ -14,12 +14,12 @@ namespace salebra {
 /// of the heights was forgotten. The words name the unit with which the slope would be plausible,
 /// where there is one among mm, µm and nm.
 /// unit  of the heights as they were given, m
-std::optional<std::string> doubt_of_slope(double rms_slope, double unit = 1);
+std::optional<std::string> warning_of_slope(double rms_slope, double unit = 1);
 
-/// doubt_of_slope() of the heights less their mean plane, by differences of neighbouring points.
+/// warning_of_slope() of the heights less their mean plane, by differences of neighbouring points.
 /// Undefined points take no part; nothing is said of a map without pairs of neighbours along both
 /// axes. A profile has one. Cost: one pass. Collective of a surface that is spread over processes.
-std::optional<std::string> doubt_of_heights(const Surface& surface, double unit = 1);
+std::optional<std::string> warning_of_heights(const Surface& surface, double unit = 1);
 
 /// Values that are most likely no heights, of a map or a profile in one process. Where the file
 /// states no unit: whole numbers, as of a converter, and a first row or column of one value. In
@@ -27,6 +27,6 @@ std::optional<std::string> doubt_of_heights(const Surface& surface, double unit 
 /// of undefined points are.
 /// unit  of the heights as they were given, m; nothing where the file states it
 /// Cost: one pass.
-std::vector<std::string> doubts_of_values(const Field& heights, std::optional<double> unit);
+std::vector<std::string> warnings_of_values(const Field& heights, std::optional<double> unit);
 
 }  // namespace salebra

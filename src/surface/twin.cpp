@@ -466,7 +466,7 @@ class TwinRun {
     return data;
   }
 
-  void note(std::string text) { twin_.notes.push_back(std::move(text)); }
+  void note(std::string text) { twin_.warnings.push_back(std::move(text)); }
 
   void judge() {
     twin_.scans = judged_scans(scans_, forms_.best, left_out_);

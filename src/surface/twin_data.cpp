@@ -12,7 +12,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double tip_limit = 0.08;  ///< R·κ_rms up to which a tip follows to some per cent
-constexpr double tip_doubt = 0.06;  ///< relative error of powers at that limit
+constexpr double tip_error = 0.06;  ///< relative error of powers at that limit
 constexpr double known_noise = 0.5, found_noise = 1.5;  ///< standard deviations of ν
 
 /// Independent modes for each mode, correlation of neighbouring bins in them, as simulated: the
@@ -199,9 +199,9 @@ TwinData group_of(const std::vector<ScanSpectrum>& scans, std::vector<std::size_
     if (!enough(first, bin)) continue;
     data.bins.push_back(bin);
     data.leaked.push_back(leaked[bin]);
-    data.doubt.push_back(std::hypot(
+    data.psd_error.push_back(std::hypot(
         leaked[bin] / psd[bin],
-        data.tip ? tip_doubt / tip_limit * instrument.tip_radius * std::sqrt(curvature) : 0));
+        data.tip ? tip_error / tip_limit * instrument.tip_radius * std::sqrt(curvature) : 0));
     data.wavenumber.push_back(q);
     data.psd.push_back(psd[bin]);
     const bool by_tapers = bin < tapered;

@@ -107,8 +107,8 @@ void TwinModel::set_tolerance(double everywhere, double beyond_cutoff, double cu
       const double s = edge > 0.95 && edge < 1.05 ? 3 * beyond_cutoff
                        : q > 0.8 * cutoff         ? beyond_cutoff
                                                   : everywhere;
-      const double doubt = data_[g].doubt[bin];
-      groups_[g].precisions.push_back(1 / (1 / data_[g].modes[bin] + s * s + doubt * doubt));
+      const double relative = data_[g].psd_error[bin];
+      groups_[g].precisions.push_back(1 / (1 / data_[g].modes[bin] + s * s + relative * relative));
     }
   }
 }

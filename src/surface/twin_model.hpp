@@ -29,7 +29,7 @@ struct TwinData {
   std::vector<double> wavenumber, psd;
   std::vector<double> modes;                ///< m_c: independent modes in the mean
   std::vector<double> leaked;               ///< that the window leaves of much longer waves
-  std::vector<double> doubt;                ///< relative error of psd by tip and leakage
+  std::vector<double> psd_error;                ///< relative error of psd by tip and leakage
   std::vector<double> scatter;              ///< variance of psd/E by that of m_c modes
   std::vector<double> cell_low, cell_high;  ///< ln q of the cells' limits
   std::vector<double> cell_wavenumber;

@@ -76,10 +76,10 @@ TEST_CASE("A position beyond a curve is refused in the quantity that was given",
 }
 
 TEST_CASE("A curve and moduli that do not fit it are doubted", "[analysis]") {
-  CHECK(on_curve(ControlQuantity::indentation, 1e-7).doubts.empty());
+  CHECK(on_curve(ControlQuantity::indentation, 1e-7).warnings.empty());
   const auto other =
       solve(CurveContact{power_curve(), 1, {ControlQuantity::indentation, {1e-7}}, "curve.h5"});
-  REQUIRE(other.doubts.size() == 1);
+  REQUIRE(other.warnings.size() == 1);
   CHECK_THAT(other.doubts[0], Catch::StartsWith("G*/E* = 1 of `poisson`"));
 }
 

@@ -63,7 +63,7 @@ TEST_CASE("What decides and is missing leaves the loss unknown, with what to giv
     CHECK(std::isnan(solution.results.at(0).damping_constant) == !why.empty());
     CHECK(std::isnan(solution.results.at(0).slip_share()) == !why.empty());
     CHECK(solution.results.at(0).damping_constant_without_slip > 0);
-    if (!why.empty()) CHECK_THAT(solution.doubts.at(0), Catch::Contains(why));
+    if (!why.empty()) CHECK_THAT(solution.warnings.at(0), Catch::Contains(why));
     return solution.results.at(0);
   };
   const Drag slow{2e-8, 1e-5, omega};

@@ -192,7 +192,7 @@ TEST_CASE("The version has a short option", "[program]") {
   CHECK(test.run("-V").out == test.run("--version").out);
 }
 
-TEST_CASE("Remarks that cannot be printed stop no work, and an answer that cannot is an error",
+TEST_CASE("Warnings that cannot be printed stop no work, and an answer that cannot is an error",
           "[program]") {
   const ProgramTest test;
   const std::string surface =

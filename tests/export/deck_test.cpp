@@ -203,7 +203,7 @@ TEST_CASE("No text of a stranger leaves the comments of a deck", "[export]") {
         std::string("a $ /SYS,touch x"), "a\xe2\x80\xa8" + std::string("*b\v*c\f*d\x85*e\0*f", 14),
         std::string(2000, 'a') + "*STEP", std::string(1290, '*') + std::string(60, '/')}) {
     INFO(hostile);
-    problem.source = problem.remark = problem.provenance.command_line = hostile;
+    problem.source = problem.comment = problem.provenance.command_line = hostile;
     const std::string text = solve(problem).text;
     CHECK(commands(text) == harmless);
     if (format == DeckFormat::json) continue;

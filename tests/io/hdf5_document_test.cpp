@@ -163,16 +163,16 @@ TEST_CASE("Of several maps of HDF5 the one that is named is read", "[hdf5]") {
     }
     H5Fclose(made);
   };
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   const auto height = [&](const std::string& channel) {
-    remarks.clear();
-    return read_surface(file, {.size_x = 1, .size_y = 1, .channel = channel, .remarks = &remarks})
+    warnings.clear();
+    return read_surface(file, {.size_x = 1, .size_y = 1, .channel = channel, .warnings = &warnings})
         .heights(0, 0);
   };
   written({"heights", "backward", "pressure", "scan/trace"});
   CHECK(height("") == 1);
-  REQUIRE_FALSE(remarks.empty());
-  CHECK_THAT(remarks[0],
+  REQUIRE_FALSE(warnings.empty());
+  CHECK_THAT(warnings[0],
              Catch::Contains("channel heights was taken; the others are backward; see `channel`"));
   CHECK(height("backward") == 2);
   CHECK(height("scan/trace") == 4);

@@ -413,26 +413,26 @@ TEST_CASE("A damaged HDF5 file is refused, without a word on standard error", "[
 
 TEST_CASE("Heights whose slopes no surface has are doubted as they are read", "[read]") {
   const Scratch scratch;
-  const auto remarks_of = [&](const std::string& header, const std::string& unit = "") {
+  const auto warnings_of = [&](const std::string& header, const std::string& unit = "") {
     const auto file = scratch.file(
         "scan.txt", "# Width: 40 um\n# Height: 30 um\n" + header + "0 1 0 1\n1 0 1 0\n0 1 0 1\n");
-    std::vector<std::string> remarks;
+    std::vector<std::string> warnings;
     ReadOptions options;
     options.height_unit = unit;
-    options.remarks = &remarks;
+    options.warnings = &warnings;
     read_surface(file, options);
-    return remarks;
+    return warnings;
   };
   // Steps of 1 over cells of 10 um: with heights in um the slope is 0.1 along either axis.
-  const auto forgotten = remarks_of("");
+  const auto forgotten = warnings_of("");
   REQUIRE(forgotten.size() == 1);
   CHECK_THAT(forgotten[0], Contains("scan.txt: rms slope 1.4") &&
                                Contains("heights in \u00b5m? rms slope would be 0.14") &&
                                Contains("`height_unit`"));
-  CHECK(remarks_of("", "um").empty());
-  CHECK(remarks_of("# Value units: um\n").empty());
+  CHECK(warnings_of("", "um").empty());
+  CHECK(warnings_of("# Value units: um\n").empty());
   // A unit that the file names itself is no matter of the option.
-  const auto named = remarks_of("# Value units: mm\n");
+  const auto named = warnings_of("# Value units: mm\n");
   REQUIRE(named.size() == 1);
   CHECK_THAT(named[0], Contains("heights in \u00b5m?") && !Contains("height_unit"));
 }
@@ -450,15 +450,15 @@ TEST_CASE("Units beside the names of columns are those of the points", "[read]")
   const auto check = [&](const std::string& header, const std::string& separator,
                          double plane = 1e-6, double height = 1e-6) {
     INFO(header);
-    std::vector<std::string> remarks;
+    std::vector<std::string> warnings;
     ReadOptions options;
-    options.remarks = &remarks;
+    options.warnings = &warnings;
     const Surface surface =
         read_surface(scratch.file("points.txt", header + "\n" + points(separator)), options);
     CHECK(surface.grid.lx == Approx(6 * plane).epsilon(1e-12));
     CHECK(surface.grid.ly == Approx(6 * plane).epsilon(1e-12));
     CHECK(surface.heights(3, 0) == Approx(0.03 * height).epsilon(1e-12));
-    CHECK(remarks.empty());
+    CHECK(warnings.empty());
   };
   check("X [\u00b5m]\tY [\u00b5m]\tZ [\u00b5m]", "\t");
   check("X [\u00b5m] Y [\u00b5m] Z [\u00b5m]", " ");
@@ -485,15 +485,15 @@ TEST_CASE("Headers of German and English instruments state sizes and units", "[r
   const Scratch scratch;
   const auto check = [&](const std::string& header, double size_x, double size_y, double unit) {
     INFO(header);
-    std::vector<std::string> remarks;
+    std::vector<std::string> warnings;
     ReadOptions options;
-    options.remarks = &remarks;
+    options.warnings = &warnings;
     const Surface surface = read_surface(
         scratch.file("scan.csv", header + "\n0,01;0,02;0,03;0,01\n0,02;0,03;0,04;0,02\n"), options);
     CHECK(surface.grid.lx == Approx(size_x).epsilon(1e-12));
     CHECK(surface.grid.ly == Approx(size_y).epsilon(1e-12));
     CHECK(surface.heights(2, 0) == Approx(0.03 * unit).epsilon(1e-12));
-    CHECK(remarks.empty());
+    CHECK(warnings.empty());
   };
   check(
       "Pixelgr\u00f6\u00dfe X: 1,1 \u00b5m\nPixelgr\u00f6\u00dfe Y: 1,3 \u00b5m\nEinheit "
@@ -510,25 +510,25 @@ TEST_CASE("Headers of German and English instruments state sizes and units", "[r
 
 TEST_CASE("A line of the header that names a length and is not used is quoted", "[read]") {
   const Scratch scratch;
-  const auto remarks_of = [&](const std::string& header) {
-    std::vector<std::string> remarks;
+  const auto warnings_of = [&](const std::string& header) {
+    std::vector<std::string> warnings;
     ReadOptions options;
     options.size_x = options.size_y = 4e-6;
     options.height_unit = "m";
-    options.remarks = &remarks;
+    options.warnings = &warnings;
     read_surface(scratch.file("scan.txt", header + "\n0 1e-9 0 0\n1e-9 0 1e-9 0\n0 1e-9 0 1e-9\n"),
                  options);
-    return remarks;
+    return warnings;
   };
   for (const std::string line : {"Objective 50x, 1.1 \u00b5m/pixel", "Sampling: 1.1 um", "Scan 5 m",
                                  "Lateral resolution [nm] 200", "Pixel: 1,1 mm"}) {
     INFO(line);
-    const auto remarks = remarks_of("Measured on Monday\n" + line);
-    REQUIRE(remarks.size() == 1);
-    CHECK_THAT(remarks[0], Contains("scan.txt: line 2, '" + line +
+    const auto warnings = warnings_of("Measured on Monday\n" + line);
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Contains("scan.txt: line 2, '" + line +
                                     "', has a unit or a number that is not understood"));
   }
-  CHECK(remarks_of("Sampling: 1.1 um\nText\nTip radius 2 um\nFilter 8 um").size() == 1);
+  CHECK(warnings_of("Sampling: 1.1 um\nText\nTip radius 2 um\nFilter 8 um").size() == 1);
   // Nothing of it is skipped in silence.
   CHECK_THROWS_WITH(read_surface(scratch.file("scan.txt", "Sampling: 1.1 um\n0 1e-9\n1e-9 0\n"),
                                  {.size_x = 1e-6, .size_y = 1e-6}),
@@ -537,10 +537,10 @@ TEST_CASE("A line of the header that names a length and is not used is quoted", 
        {"Measured by M. on 2026-03-17 at 10:30 pm", "Messung um 10:30", "Speed 10 um/s", "x y z",
         "Magnification 50", "# Channel: heights", "Area 3 mm2", "Temperature 20 C", "Load 5 mN"}) {
     INFO(line);
-    CHECK(remarks_of(line).empty());
+    CHECK(warnings_of(line).empty());
   }
-  // What a remark quotes cannot command a terminal.
-  CHECK_THAT(remarks_of("\x1b[31m 5 um").at(0), Contains("'\\x1b[31m 5 um'"));
+  // What a warning quotes cannot command a terminal.
+  CHECK_THAT(warnings_of("\x1b[31m 5 um").at(0), Contains("'\\x1b[31m 5 um'"));
 }
 
 TEST_CASE("An empty last field is an undefined point", "[read]") {

@@ -31,12 +31,12 @@ Surface waves() {
 
 struct Reading {
   Surface surface;
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
 };
 
 Reading read(const std::filesystem::path& file, ReadOptions options) {
   Reading result;
-  options.remarks = &result.remarks;
+  options.warnings = &result.warnings;
   result.surface = read_surface(file, options);
   return result;
 }
@@ -64,18 +64,18 @@ TEST_CASE("Coordinates without a unit take that of the option, and are doubted w
       points += std::to_string(2 * ix) + " " + std::to_string(iy) + " 0\n";
   const auto bare = scratch.file("points.xyz", points);
   const Reading metres = read(bare, {});
-  REQUIRE(metres.remarks.size() == 1);
-  CHECK_THAT(metres.remarks[0], Contains("is 8 m long") && Contains("see `lateral_unit`"));
+  REQUIRE(metres.warnings.size() == 1);
+  CHECK_THAT(metres.warnings[0], Contains("is 8 m long") && Contains("see `lateral_unit`"));
   const Reading microns = read(bare, {.lateral_unit = "um"});
-  CHECK(microns.remarks.empty());
+  CHECK(microns.warnings.empty());
   CHECK(microns.surface.grid.lx == Approx(8e-6).epsilon(1e-14));
   CHECK(microns.surface.grid.ly == Approx(3e-6).epsilon(1e-14));
   CHECK_THROWS_WITH(read(bare, {.lateral_unit = "V"}), Contains("unit of length"));
   const Reading stated =
       read(scratch.file("mm.xyz", "x [mm] y [mm] z [mm]\n" + points), {.lateral_unit = "um"});
   CHECK(stated.surface.grid.lx == Approx(8e-3).epsilon(1e-14));
-  REQUIRE(stated.remarks.size() == 1);
-  CHECK_THAT(stated.remarks[0], Contains("`lateral_unit` um was not used"));
+  REQUIRE(stated.warnings.size() == 1);
+  CHECK_THAT(stated.warnings[0], Contains("`lateral_unit` um was not used"));
 }
 
 TEST_CASE("A transposed file has its axes exchanged, with their sizes", "[read]") {
@@ -93,12 +93,12 @@ TEST_CASE("A transposed file has its axes exchanged, with their sizes", "[read]"
   }
   const auto array = scratch.file("array.txt", rows);
   const Reading doubted = read(array, {.size_x = 35.2e-6, .size_y = 31.2e-6});
-  REQUIRE(doubted.remarks.size() == 1);
-  CHECK_THAT(doubted.remarks[0], Contains("24 x 32 points along x and y, cells of 1.47 \u00b5m x "
+  REQUIRE(doubted.warnings.size() == 1);
+  CHECK_THAT(doubted.warnings[0], Contains("24 x 32 points along x and y, cells of 1.47 \u00b5m x "
                                           "975 nm; `transpose` makes them 1.1 \u00b5m x "
                                           "1.3 \u00b5m"));
-  CHECK(read(array, {.transpose = true, .size_x = 35.2e-6, .size_y = 31.2e-6}).remarks.empty());
-  CHECK(read(array, {.size_x = 24e-6, .size_y = 32e-6}).remarks.empty());
+  CHECK(read(array, {.transpose = true, .size_x = 35.2e-6, .size_y = 31.2e-6}).warnings.empty());
+  CHECK(read(array, {.size_x = 24e-6, .size_y = 32e-6}).warnings.empty());
 }
 
 TEST_CASE("Spikes are named with what they do, or taken out", "[read]") {
@@ -109,24 +109,24 @@ TEST_CASE("Spikes are named with what they do, or taken out", "[read]") {
   write_surface(scratch / "scan.h5", surface);
   const Reading kept = read(scratch / "scan.h5", {});
   CHECK(kept.surface.undefined_points() == 0);
-  REQUIRE(kept.remarks.size() == 1);
-  CHECK_THAT(kept.remarks[0],
+  REQUIRE(kept.warnings.size() == 1);
+  CHECK_THAT(kept.warnings[0],
              Contains("1 point stands alone, up to 8 \u00b5m above its neighbours, "
                       "and carries the first contacts; `despike`"));
   const Reading despiked = read(scratch / "scan.h5", {.despike = 6});
   CHECK(despiked.surface.undefined_points() == 2);
   CHECK(std::isnan(despiked.surface.heights(7, 9)));
-  REQUIRE(despiked.remarks.size() == 1);
-  CHECK_THAT(despiked.remarks[0], Contains("2 points far from their neighbours, up to"));
+  REQUIRE(despiked.warnings.size() == 1);
+  CHECK_THAT(despiked.warnings[0], Contains("2 points far from their neighbours, up to"));
   // A pit carries nothing.
   surface.heights(7, 9) -= 8e-6;
   write_surface(scratch / "pit.h5", surface);
-  CHECK(read(scratch / "pit.h5", {}).remarks.empty());
+  CHECK(read(scratch / "pit.h5", {}).warnings.empty());
   // A generated surface has no instrument.
   surface.heights(7, 9) += 8e-6;
   surface.periodic = true;
   write_surface(scratch / "periodic.h5", surface);
-  CHECK(read(scratch / "periodic.h5", {}).remarks.empty());
+  CHECK(read(scratch / "periodic.h5", {}).warnings.empty());
 }
 
 TEST_CASE("Few undefined points are filled, and many refused with the part that serves", "[read]") {
@@ -138,9 +138,9 @@ TEST_CASE("Few undefined points are filled, and many refused with the part that 
   CHECK(read(scratch / "few.h5", {}).surface.undefined_points() == 9);
   const Reading filled_few = read(scratch / "few.h5", {.undefined = Undefined::fill_few});
   CHECK((filled_few.surface.heights == filled(surface).heights).all());
-  REQUIRE(filled_few.remarks.size() == 1);
+  REQUIRE(filled_few.warnings.size() == 1);
   CHECK_THAT(
-      filled_few.remarks[0],
+      filled_few.warnings[0],
       Contains("9 points of 2400 (0.38 %) without a height, filled by the smoothest surface"));
 
   surface.heights.block(20, 0, 6, 30).setConstant(undefined);
@@ -158,7 +158,7 @@ TEST_CASE("Few undefined points are filled, and many refused with the part that 
   const Rectangle offered{26e-6, 0, 60e-6, 40e-6};
   const Reading part =
       read(scratch / "many.h5", {.crop = offered, .undefined = Undefined::fill_few});
-  CHECK(part.remarks.empty());
+  CHECK(part.warnings.empty());
   CHECK(part.surface.grid.nx == 34);
   CHECK(part.surface.grid.ny == 40);
   CHECK(part.surface.grid.lx == Approx(34e-6).epsilon(1e-14));
@@ -177,7 +177,7 @@ TEST_CASE("Spikes are gone before undefined points are filled", "[read]") {
   write_surface(scratch / "scan.h5", surface);
   const Reading clean = read(scratch / "scan.h5", {.despike = 6, .undefined = Undefined::fill_few});
   CHECK(std::abs(clean.surface.heights(7, 9) - waves().heights(7, 9)) < 2e-8);
-  CHECK(clean.remarks.size() == 2);
+  CHECK(clean.warnings.size() == 2);
 }
 
 namespace {
@@ -214,8 +214,8 @@ TEST_CASE("An importer is asked for files of unknown formats only", "[read]") {
     CHECK_FALSE(std::filesystem::exists(given.parent_path()));
     CHECK((reading.surface.heights == waves().heights).all());
     CHECK(reading.surface.origin == file.string());
-    REQUIRE(reading.remarks.size() == 1);
-    CHECK_THAT(reading.remarks[0], Contains(file.filename().string() + ": channel 3 of several"));
+    REQUIRE(reading.warnings.size() == 1);
+    CHECK_THAT(reading.warnings[0], Contains(file.filename().string() + ": channel 3 of several"));
   }
   // What can be read in two ways is not guessed by another program either.
   CHECK_THROWS_WITH(read_surface(ambiguous), Contains("decimal"));

@@ -104,9 +104,9 @@ TEST_CASE("One scan in the files of many programs is one surface", "[read]") {
       {"German points", "X/\xb5m;Y/\xb5m;Z/\xb5m\n" + points(";", ',', "***")},
   }));
   INFO(what);
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   ReadOptions options;
-  options.remarks = &remarks;
+  options.warnings = &warnings;
   const Surface surface = read_surface(scratch.file("scan.dat", content), options);
   REQUIRE(surface.grid.nx == columns);
   REQUIRE(surface.grid.ny == rows);
@@ -119,7 +119,7 @@ TEST_CASE("One scan in the files of many programs is one surface", "[read]") {
         CHECK(std::isnan(surface.heights(ix, iy)));
       else
         CHECK(surface.heights(ix, iy) == Approx(1e-8 * hundredths(ix, iy)).margin(1e-20));
-  CHECK(remarks.empty());
+  CHECK(warnings.empty());
 }
 
 TEST_CASE("A row that begins with an empty field is a row", "[read]") {

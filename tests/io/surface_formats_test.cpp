@@ -122,18 +122,18 @@ TEST_CASE("Of several channels of Gwyddion the one that is named is read", "[for
                           channel("/2/data", "m", ones(2)) + text("/2/data/title", "Trace") +
                           channel("/3/data", "m", ones(3)) + text("/3/data/title", "Retrace") +
                           channel("/5/data", "m", ones(5)) + text("/5/data/title", "Retrace")));
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   const auto height = [&](const std::string& wanted) {
-    return read_surface(file, {.channel = wanted, .remarks = &remarks}).heights(0, 0);
+    return read_surface(file, {.channel = wanted, .warnings = &warnings}).heights(0, 0);
   };
   CHECK(height("") == 2);
-  REQUIRE_FALSE(remarks.empty());
-  CHECK_THAT(remarks[0], Contains("channel 2 (Trace) was taken; the others are 3 (Retrace), 5 "
+  REQUIRE_FALSE(warnings.empty());
+  CHECK_THAT(warnings[0], Contains("channel 2 (Trace) was taken; the others are 3 (Retrace), 5 "
                                   "(Retrace); see `channel`"));
-  remarks.clear();
+  warnings.clear();
   CHECK(height("Trace") == 2);
   CHECK(height("5") == 5);
-  for (const std::string& remark : remarks) CHECK_THAT(remark, !Contains("channel"));
+  for (const std::string& warning : warnings) CHECK_THAT(warning, !Contains("channel"));
   CHECK_THROWS_WITH(height("Retrace"), Contains("name of several channels"));
   CHECK_THROWS_WITH(height("4"), Contains("channel: 4 is no channel of") && Contains("0 (Error)"));
   CHECK_THROWS_WITH(height("Error"), Contains("'V', which is no unit of length"));
@@ -164,9 +164,9 @@ TEST_CASE("Units of a simple field come from it, or from the user where it has n
   const Surface bare = read_surface(field(""), {.lateral_unit = "um", .height_unit = "nm"});
   CHECK(bare.grid.lx == Approx(4e-6));
   CHECK(bare.heights(1, 0) == Approx(2e-9));
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   const auto stated = field("XYUnits = m\nZUnits = m\n");
-  CHECK(read_surface(stated, {.lateral_unit = "um", .remarks = &remarks}).grid.lx == 4);
+  CHECK(read_surface(stated, {.lateral_unit = "um", .warnings = &warnings}).grid.lx == 4);
   CHECK_THROWS_WITH(read_surface(stated, {.height_unit = "nm"}),
                     Catch::Contains("states the unit of its heights"));
   for (const std::string entry : {"ZUnit = nm", "ZScale = 1e-9", "Pixel size = 2 um", "NoData = 4",

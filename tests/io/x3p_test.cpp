@@ -152,16 +152,16 @@ TEST_CASE("Infinite heights of X3P are undefined points", "[x3p]") {
   const Scratch scratch;
   const double infinity = std::numeric_limits<double>::infinity();
   const std::string xml = replaced(main_xml, "<DataType>I</DataType>", "<DataType>D</DataType>");
-  std::vector<std::string> remarks;
+  std::vector<std::string> warnings;
   const Surface surface = read_surface(
       archive(scratch, {{"main.xml", xml},
                         {"data.bin", bytes_of<double>({1, infinity, 3, -infinity, 5, 6})}}),
-      {.remarks = &remarks});
+      {.warnings = &warnings});
   CHECK(std::isnan(surface.heights(1, 0)));
   CHECK(std::isnan(surface.heights(0, 1)));
   CHECK(surface.undefined_points() == 2);
-  REQUIRE(remarks.size() == 1);
-  CHECK_THAT(remarks[0], Contains("2 infinite heights"));
+  REQUIRE(warnings.size() == 1);
+  CHECK_THAT(warnings[0], Contains("2 infinite heights"));
 }
 
 TEST_CASE("An entry of X3P that the standard does not have is refused by name", "[x3p]") {

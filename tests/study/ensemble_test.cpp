@@ -534,7 +534,7 @@ TEST_CASE("A smooth shape has no summits from moments, and everything else", "[e
 TEST_CASE("An ensemble says what is too small about it", "[ensemble]") {
   const auto names = [](const StudyResult& result) {
     std::vector<std::string> found;
-    for (const StudyFlag& flag : result.flags) found.push_back(flag.name);
+    for (const EnsembleWarning& found : result.ensemble_warnings) found.push_back(flag.name);
     return found;
   };
   StudyConfiguration configuration = quick_study(1);

@@ -179,7 +179,7 @@ TEST_CASE("A study tells what the scans leave open from what differs from place 
   CHECK(open.scan_share() > 0.75);
   CHECK(std::isnan(run_study(small_study()).scan_share()));
   const auto flagged = [](const StudyResult& result) {
-    return std::ranges::any_of(result.flags, [](const auto& flag) { return flag.name == "twin"; });
+    return std::ranges::any_of(result.ensemble_warnings, [](const auto& flag) { return flag.name == "twin"; });
   };
   CHECK(flagged(open));
   const EnsembleMean length = open.decay_length();

@@ -29,32 +29,32 @@ Surface ripple(double factor, double tilt = 0) {
 
 TEST_CASE("Heights whose unit was forgotten are doubted with the unit that is plausible",
           "[plausibility]") {
-  CHECK_FALSE(doubt_of_heights(ripple(1)));
+  CHECK_FALSE(warning_of_heights(ripple(1)));
   for (const auto& [factor, unit] : {std::pair(1e3, "mm"), {1e6, "\u00b5m"}, {1e9, "nm"}}) {
-    const auto doubt = doubt_of_heights(ripple(factor));
-    REQUIRE(doubt);
-    CHECK_THAT(*doubt, Contains(std::string("heights in ") + unit + "? rms slope would be 0.08"));
+    const auto warning = warning_of_heights(ripple(factor));
+    REQUIRE(warning);
+    CHECK_THAT(*warning, Contains(std::string("heights in ") + unit + "? rms slope would be 0.08"));
   }
   // What was taken for micrometres and are nanometres.
-  const auto doubt = doubt_of_heights(ripple(1e3), 1e-6);
-  REQUIRE(doubt);
-  CHECK_THAT(*doubt, Contains("heights in nm? rms slope would be 0.08"));
+  const auto warning = warning_of_heights(ripple(1e3), 1e-6);
+  REQUIRE(warning);
+  CHECK_THAT(*warning, Contains("heights in nm? rms slope would be 0.08"));
 }
 
 TEST_CASE("The tilt of a stage is no slope of the surface", "[plausibility]") {
-  CHECK_FALSE(doubt_of_heights(ripple(1, 10)));
-  const auto doubt = doubt_of_heights(ripple(1e6, 10));
-  REQUIRE(doubt);
-  CHECK_THAT(*doubt, Contains("heights in \u00b5m? rms slope would be 0.08"));
+  CHECK_FALSE(warning_of_heights(ripple(1, 10)));
+  const auto warning = warning_of_heights(ripple(1e6, 10));
+  REQUIRE(warning);
+  CHECK_THAT(*warning, Contains("heights in \u00b5m? rms slope would be 0.08"));
 }
 
 TEST_CASE("A slope that no unit explains is doubted without one", "[plausibility]") {
-  CHECK_FALSE(doubt_of_slope(1));
-  CHECK_FALSE(doubt_of_slope(std::numeric_limits<double>::quiet_NaN()));
+  CHECK_FALSE(warning_of_slope(1));
+  CHECK_FALSE(warning_of_slope(std::numeric_limits<double>::quiet_NaN()));
   for (const double slope : {1.01, 3.0, 1e14, std::numeric_limits<double>::infinity()}) {
-    const auto doubt = doubt_of_slope(slope);
-    REQUIRE(doubt);
-    CHECK_THAT(*doubt, Contains("is above 1") && Contains("check the unit") && !Contains("?"));
+    const auto warning = warning_of_slope(slope);
+    REQUIRE(warning);
+    CHECK_THAT(*warning, Contains("is above 1") && Contains("check the unit") && !Contains("?"));
   }
 }
 
@@ -63,38 +63,38 @@ TEST_CASE("Profiles are doubted as maps are", "[plausibility]") {
     return sampled({64, 1, 64e-6, 1e-6}, false,
                    [&](double x, double) { return factor * 1e-7 * std::sin(4e5 * x); });
   };
-  CHECK_FALSE(doubt_of_heights(wave(1)));
-  const auto doubt = doubt_of_heights(wave(1e6));
-  REQUIRE(doubt);
-  CHECK_THAT(*doubt, Contains("heights in \u00b5m?"));
+  CHECK_FALSE(warning_of_heights(wave(1)));
+  const auto warning = warning_of_heights(wave(1e6));
+  REQUIRE(warning);
+  CHECK_THAT(*warning, Contains("heights in \u00b5m?"));
 }
 
 TEST_CASE("Heights without pairs of neighbours are not doubted", "[plausibility]") {
   const auto spikes = [](double x, double) { return x > 0.5 ? 1e9 : 0; };
-  CHECK_FALSE(doubt_of_heights(sampled({1, 1, 1, 1}, false, spikes)));
+  CHECK_FALSE(warning_of_heights(sampled({1, 1, 1, 1}, false, spikes)));
   Surface holes = ripple(1e6);
   for (Index ix = 0; ix < holes.grid.nx; ++ix)
     for (Index iy = ix % 2; iy < holes.grid.ny; iy += 2)
       holes.heights(ix, iy) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_FALSE(doubt_of_heights(holes));
+  CHECK_FALSE(warning_of_heights(holes));
   // A hole is no step.
   Surface hole = ripple(1);
   hole.heights(5, 5) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_FALSE(doubt_of_heights(hole));
+  CHECK_FALSE(warning_of_heights(hole));
 }
 
 TEST_CASE("Values that are no heights are doubted", "[plausibility]") {
   const Field heights = ripple(1).heights;
-  CHECK(doubts_of_values(heights, 1.).empty());
+  CHECK(warnings_of_values(heights, 1.).empty());
   const auto only = [](const Field& changed, std::optional<double> unit = 1.) {
-    const auto doubts = doubts_of_values(changed, unit);
-    return doubts.size() == 1 ? doubts[0] : std::to_string(doubts.size()) + " doubts";
+    const auto warnings = warnings_of_values(changed, unit);
+    return warnings.size() == 1 ? doubts[0] : std::to_string(warnings.size()) + " doubts";
   };
   SECTION("Whole numbers, unless the file states their unit") {
     const Field whole = 1e-9 * (1e8 * heights).round();
     CHECK_THAT(only(whole, 1e-9), Contains("whole numbers"));
-    CHECK(doubts_of_values(whole, {}).empty());
-    CHECK(doubts_of_values(whole, 1.).empty());
+    CHECK(warnings_of_values(whole, {}).empty());
+    CHECK(warnings_of_values(whole, 1.).empty());
   }
   SECTION("A first row or column of one value") {
     Field changed = ripple(1, 0.1).heights;
@@ -103,14 +103,14 @@ TEST_CASE("Values that are no heights are doubted", "[plausibility]") {
     changed = heights;
     changed.col(0) = 1e-7;
     CHECK_THAT(only(changed), Contains("first row"));
-    CHECK(doubts_of_values(changed, {}).empty());
+    CHECK(warnings_of_values(changed, {}).empty());
     // Each column of a ripple along x holds one value, the second as the first.
-    CHECK(doubts_of_values(heights, 1.).empty());
+    CHECK(warnings_of_values(heights, 1.).empty());
   }
   SECTION("Repeated pits and peaks that may be marks") {
     Field changed = heights;
     changed(3, 4) = -9.999e-3;
-    CHECK(doubts_of_values(changed, 1.).empty());
+    CHECK(warnings_of_values(changed, 1.).empty());
     changed(30, 40) = -9.999e-3;
     CHECK_THAT(only(changed), Contains("2 heights of -0.009999 are farther"));
     changed = heights;

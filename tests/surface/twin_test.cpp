@@ -270,7 +270,7 @@ TEST_CASE("What no scan sees is said and gets a limit", "[twin]") {
   CHECK(!twin.rms_slope.seen);
   CHECK(holds(twin.hurst, 0.7));
   std::string notes;
-  for (const std::string& note : twin.notes) notes += note + "\n";
+  for (const std::string& warning : twin.warnings) notes += note + "\n";
   CHECK_THAT(notes, Contains("roll-off is not seen"));
   CHECK_THAT(notes, Contains("short cut-off is not seen"));
   // Draws go up to the prior's 30 times the largest scan, never to its size.
@@ -340,7 +340,7 @@ TEST_CASE("A bad scan is left out, and a bad instrument is named", "[twin]") {
   CHECK(twin.scans[3].misfit > 3 * twin.scans[2].misfit);
   CHECK(std::count_if(twin.scans.begin(), twin.scans.end(),
                       [](const TwinScan& scan) { return scan.left_out; }) == 1);
-  CHECK_THAT(twin.notes.front(), Contains("scan C3 is left out"));
+  CHECK_THAT(twin.warnings.front(), Contains("scan C3 is left out"));
   CHECK(twin.hurst.value == Approx(good.hurst.value).margin(0.03));
   CHECK(!quick_twin(spoiled, {.drop_bad_scans = false, .leave_one_out = false}).scans[3].left_out);
 

@@ -73,7 +73,7 @@ struct ContactSolution {
   std::optional<ForceCurve> curve = {};            ///< curve behind the law
   std::optional<Surface> surface = {};             ///< swept surface, residual after first loading
   std::optional<FirstLoading> first_loading = {};  ///< first loading that left the residual surface
-  std::vector<std::string> doubts = {};            ///< warnings: the input is valid but suspicious
+  std::vector<std::string> warnings = {};            ///< warnings: the input is valid but suspicious
 
   /// Index of the sample of the curve whose load is nearest to the first operating point.
   std::size_t load() const;
@@ -159,6 +159,6 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
 
 /// Warns about a table of radii beyond 1 m, most likely in another unit, or so coarse that omitting
 /// every other point changes the indentation at this contact radius by more than 5 %.
-std::vector<std::string> doubts_of_profile(const IndenterProfile& profile, double contact_radius);
+std::vector<std::string> warnings_of_profile(const IndenterProfile& profile, double contact_radius);
 
 }  // namespace salebra

@@ -56,7 +56,7 @@ struct DampingSolution {
   /// For a slow motion with a known excursion X: W·2X/w with w = 2πv/ω, J.
   std::vector<double> work_there_and_back = {};
   std::vector<Assumptions> assumptions = {};
-  std::vector<std::string> doubts = {};  ///< warnings besides those of the contact
+  std::vector<std::string> warnings = {};  ///< warnings besides those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
@@ -147,7 +147,7 @@ struct DamperSolution {
   /// For each amplitude at the highest frequency: slip does not depend on frequency, inertia grows
   /// with it.
   std::vector<Assumptions> assumptions = {};
-  std::vector<std::string> doubts = {};  ///< warnings besides those of the contact
+  std::vector<std::string> warnings = {};  ///< warnings besides those of the contact
 
   const std::optional<FirstLoading>& first_loading() const { return contact.first_loading; }
 };
@@ -200,7 +200,7 @@ struct JointSolution {
   std::vector<JointLoss> simulated = {};  ///< the same, simulated cell by cell
   EqualFrequency largest = {};            ///< largest of the motions
   Assumptions assumptions = {};                 ///< for the largest motion
-  std::vector<std::string> remarks = {};  ///< warnings about the losses and their error
+  std::vector<std::string> warnings = {};  ///< warnings about the losses and their error
 };
 
 /// Computes the loss of each motion.
@@ -217,7 +217,7 @@ JointSolution solve(JointProblem problem, const Context& context = {});
 
 /// Warns about a slow motion, case (b), that advances by more than a contact patch in one normal
 /// cycle: the patch that sticks is then no longer the one that opens. An unknown radius is NaN.
-std::vector<std::string> doubts_of_path(double drag_velocity, double angular_frequency,
+std::vector<std::string> warnings_of_path(double drag_velocity, double angular_frequency,
                                         double spot_radius);
 
 }  // namespace salebra

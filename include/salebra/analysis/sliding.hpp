@@ -29,7 +29,7 @@ struct SlidingProblem {
 struct SlidingSolution {
   std::vector<SlidingPoint> points;  ///< amplitude by amplitude
   std::optional<RegimeMap> regimes;
-  std::vector<std::string> doubts = {};  ///< beside those of the contact
+  std::vector<std::string> warnings = {};  ///< beside those of the contact
 };
 
 /// Computes steady sliding of a law, and the regimes if excursions are given.

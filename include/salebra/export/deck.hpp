@@ -85,7 +85,7 @@ struct DeckProblem {
   double smallest_force = 0.01;  ///< T/(μF) from which the loss of the Jenkins sliders is accurate
   std::string name = "contact";  ///< prefix of every name in a C header
   std::string source = {};       ///< source of the contacts, for the header
-  std::string remark = {};       ///< additional sentence for the header
+  std::string comment = {};       ///< additional sentence for the header
   Provenance provenance = {};
 };
 

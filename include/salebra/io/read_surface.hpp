@@ -38,7 +38,7 @@ struct ReadOptions {
   bool known_formats = false;  ///< ignores the installed importer of other formats
   bool profiles = false;       ///< reads a line profile as a surface of one row; otherwise it is
                                ///< rejected
-  std::vector<std::string>* remarks =
+  std::vector<std::string>* warnings =
       nullptr;  ///< receives warnings, "<file>: <what>", on likely mistakes and on processing; on a
                 ///< distributed surface all processes give it or none, and all receive the same
 };
@@ -72,7 +72,7 @@ struct ReadOptions {
 /// ranks    processes that share the surface: each reads its rows of an HDF5 file unless the
 ///          heights are processed; the root reads any other file whole. Collective; a failure in
 ///          one process is thrown on all
-/// cost     one pass over the file; memory: the file and the heights. With remarks, a search for
+/// cost     one pass over the file; memory: the file and the heights. With warnings, a search for
 ///          spikes in a surface that is not periodic, 0.1 µs per point
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {},
                      const Communicator& ranks = {});

@@ -365,10 +365,10 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
 /// Returns the models of the configuration, in the order of contact_models().
 std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
-/// Reads and detrends a scan for a study. Lines of warnings are added to `remarks`. Throws as
+/// Reads and detrends a scan for a study. Lines of warnings are added to `warnings`. Throws as
 /// read_surface(), and for undefined points.
 Surface measured_surface(const MeasuredSurface& surface, const Communicator& ranks = {},
-                         std::vector<std::string>* remarks = nullptr);
+                         std::vector<std::string>* warnings = nullptr);
 
 /// Returns the surface of a seed, or the measured one, detrended as configured. Throws as
 /// generators and readers do. progress: of the generator. ranks: the processes over which the
@@ -382,8 +382,8 @@ struct StudyLoads {
   /// random fluctuation, or from the measured surface.
   double contact_scale = 0;
   std::vector<double> pressures = {};  ///< of the sweep, Pa
-  /// Warnings of read_surface(), doubt_of_slope() and doubt_of_pressure().
-  std::vector<std::string> doubts = {};
+  /// Warnings of read_surface(), warning_of_slope() and warning_of_pressure().
+  std::vector<std::string> warnings = {};
 };
 
 /// Computes the loads. Throws InvalidInput for a window of the fit with fewer than three pressures,

@@ -20,14 +20,14 @@ struct Shard;
 
 /// A warning on a result: it is that of the residual surface, or it may be biased, not only
 /// scattered.
-struct StudyFlag {
+struct EnsembleWarning {
   std::string name;  ///< "first_loading", "finite_size", "discretisation", "twin" or "few_spots"
   std::string text;  ///< a sentence for the user
 };
 
-constexpr void describe(auto&& visit, std::type_identity<StudyFlag>) {
-  visit(&StudyFlag::name, Kept{"name", "what may be off"});
-  visit(&StudyFlag::text, Kept{"text", "a sentence for the user"});
+constexpr void describe(auto&& visit, std::type_identity<EnsembleWarning>) {
+  visit(&EnsembleWarning::name, Kept{"name", "what may be off"});
+  visit(&EnsembleWarning::text, Kept{"text", "a sentence for the user"});
 }
 
 /// A mean with its 95 % interval; NaN limits if unavailable.
@@ -119,7 +119,7 @@ struct StudyResult {
   std::vector<double> pressures;
   std::vector<Realisation> realisations;
   std::vector<std::string> warnings;  ///< sentences for the user
-  std::vector<StudyFlag> flags;
+  std::vector<EnsembleWarning> ensemble_warnings;
   bool interrupted = false;        ///< realisations has only the finished ones
   bool precision_reached = false;  ///< fewer realisations than seeds sufficed
 
@@ -209,7 +209,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyResult>) {
   visit(&S::pressures, Kept{"pressures", "nominal pressures", Dimension::pressure});
   visit(&S::realisations, Kept{"realisations", "what was computed for each surface"});
   visit(&S::warnings, Kept{"warnings", "sentences for the user"});
-  visit(&S::flags, Kept{"flags", "why the result may be off for other reasons than chance"});
+  visit(&S::ensemble_warnings, Kept{"ensemble_warnings", "why the result may be off for other reasons than chance"});
   visit(&S::interrupted, Kept{"interrupted", "whether surfaces that were asked for are missing"});
   visit(&S::precision_reached,
         Kept{"precision_reached", "whether fewer surfaces than seeds were enough"});

@@ -35,14 +35,14 @@ std::vector<TwinMeasurement> read_twin_measurements(const std::filesystem::path&
 /// Throws as read_surface() and scan_spectrum(); Interrupted.
 std::vector<ScanSpectrum> spectra_of(const std::vector<TwinMeasurement>& measurements,
                                      const Progress& progress = {},
-                                     std::vector<std::string>* remarks = nullptr);
+                                     std::vector<std::string>* warnings = nullptr);
 
 /// Fits a surface twin: fit_twin() of spectra_of(). Throws as they do.
 ///
 ///     SurfaceTwin twin = twin_of(read_twin_measurements("scans.toml"));
 SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements,
                     const TwinOptions& options = {}, const Progress& progress = {},
-                    std::vector<std::string>* remarks = nullptr);
+                    std::vector<std::string>* warnings = nullptr);
 
 /// Writes an HDF5 file with the group `twin`: parameters with their limits, `twin/spectrum` with
 /// its band, `twin/draws`.

@@ -197,7 +197,7 @@ struct SurfaceTwin {
   std::vector<TwinGroup> groups;
   std::vector<TwinScan> scans;
   std::vector<TwinWithout> without;
-  std::vector<std::string> notes;  ///< warnings: what was omitted or not seen, and why
+  std::vector<std::string> warnings;  ///< what was omitted or not seen, and why
   std::vector<TwinDraw> draws;
 
   /// Returns the draw selected by the seed: the parameters of one realisation.
@@ -227,7 +227,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceTwin>) {
   visit(&S::groups, Kept{"groups", "scans of one instrument and size"});
   visit(&S::scans, Kept{"scans", "each scan against the fit"});
   visit(&S::without, Kept{"without", "fits without one instrument"});
-  visit(&S::notes, Kept{"notes", "what was left out or not seen"});
+  visit(&S::warnings, Kept{"warnings", "what was left out or not seen"});
   visit(&S::draws, Kept{"draws", "draws of the posterior"});
 }
 

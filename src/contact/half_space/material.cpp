@@ -76,7 +76,7 @@ Material Material::of_contact_modulus(double contact_modulus) {
           .cerruti_directed = unknown};
 }
 
-std::optional<std::string> doubt_of_pressure(double nominal_pressure, double contact_modulus) {
+std::optional<std::string> warning_of_pressure(double nominal_pressure, double contact_modulus) {
   constexpr double most_strain = 0.1;
   const double ratio = nominal_pressure / contact_modulus;
   if (!(ratio > most_strain)) return {};

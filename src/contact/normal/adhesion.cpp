@@ -20,7 +20,7 @@
 namespace salebra {
 namespace {
 
-constexpr double doubtful_zone = 1 / 0.3, least_zone = 1 / 0.7;
+constexpr double coarse_zone = 1 / 0.3, least_zone = 1 / 0.7;
 // Largest part of the largest tension that may act at the edge of an isolated surface.
 constexpr double edge_tension = 1e-2;
 // Steps that Anderson's extrapolation looks back.
@@ -121,8 +121,8 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
   require(zone >= least_zone || options.force_coarse, "adhesion_range", adhesion.range,
           fmt::format("leaves {:.2g} cells in the process zone, and the cells decide what sticks; "
                       "use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
-                      zone, adhesion.range * std::sqrt(doubtful_zone / zone),
-                      std::max(surface.grid.dx(), surface.grid.dy()) * zone / doubtful_zone));
+                      zone, adhesion.range * std::sqrt(coarse_zone / zone),
+                      std::max(surface.grid.dx(), surface.grid.dy()) * zone / coarse_zone));
 }
 
 class AdhesiveSolve {
@@ -562,16 +562,16 @@ double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, doubl
   return contact_modulus * adhesion.work / (top * top * std::max(grid.dx(), grid.dy()));
 }
 
-std::optional<std::string> doubt_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
+std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
                                                  double contact_modulus) {
   const double zone = cells_in_process_zone(adhesion, grid, contact_modulus);
-  if (zone >= doubtful_zone) return {};
+  if (zone >= coarse_zone) return {};
   return fmt::format(
       "the process zone of adhesion has {:.2g} cells, and from 3.3 of them the cells do not "
       "matter; "
       "use a range of {:.3g} m or cells of {:.3g} m",
-      zone, adhesion.range * std::sqrt(doubtful_zone / zone),
-      std::max(grid.dx(), grid.dy()) * zone / doubtful_zone);
+      zone, adhesion.range * std::sqrt(coarse_zone / zone),
+      std::max(grid.dx(), grid.dy()) * zone / coarse_zone);
 }
 
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,

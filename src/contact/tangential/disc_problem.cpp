@@ -13,7 +13,7 @@ namespace salebra::detail {
 namespace {
 
 // The part of what is left of a misfit that the error of single precision may be.
-constexpr double allowed_doubt = 0.01;
+constexpr double allowed_error = 0.01;
 
 double largest(const std::vector<double>& vector) {
   return largest_of(vector.data(), static_cast<Index>(vector.size()));
@@ -81,7 +81,7 @@ DiscProblem::Iterate DiscProblem::moved(const Iterate& from, std::vector<double>
   for_values([&](std::size_t i) { change[i] = tractions[i] - from.tractions[i]; });
   Iterate iterate{std::move(tractions), std::vector<double>(targets_.size()), 0};
   system_.response().apply_loosely(points_, change.data(), iterate.gradient.data());
-  iterate.doubt = from.doubt + SurfaceResponse::loose_error * largest(iterate.gradient);
+  iterate.error_bound = from.error_bound + SurfaceResponse::loose_error * largest(iterate.gradient);
   for_values([&](std::size_t i) { iterate.gradient[i] += from.gradient[i]; });
   return iterate;
 }
@@ -92,7 +92,7 @@ DiscProblem::Iterate DiscProblem::start(std::vector<double> tractions, const Kno
   Iterate begin{known->tractions, known->displacements, known->error};
   for_values([&](std::size_t i) { begin.gradient[i] -= targets_[i]; });
   Iterate iterate = moved(begin, std::move(tractions));
-  if (iterate.doubt < allowed_doubt * residual(iterate)) return iterate;
+  if (iterate.error_bound < allowed_error * residual(iterate)) return iterate;
   return evaluated(std::move(iterate.tractions));
 }
 
@@ -155,9 +155,9 @@ DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, con
   });
   const double goal =
       std::max(reduction * std::sqrt(dot(misfit, misfit)), 0.3 * tolerance_ * root_of_count());
-  // What the response to the step in single precision would leave in doubt, beside what is to be
+  // What the response to the step in single precision would leave in error_bound, beside what is to be
   // left of the misfit.
-  const double doubt = iterate.doubt + SurfaceResponse::loose_error * largest(misfit);
+  const double error_bound = iterate.error_bound + SurfaceResponse::loose_error * largest(misfit);
   const int before = report.iterations;
   const CgOutcome outcome = conjugate_gradients(
       [&](const std::vector<double>& in, std::vector<double>& out) {
@@ -180,7 +180,7 @@ DiscProblem::Direction DiscProblem::newton_direction(const Iterate& iterate, con
       dot, solution, misfit);
   // A step that the system's accuracy did not allow has cost as much as one taken.
   report.iterations += outcome.iterations + (outcome.exhausted ? 1 : 0);
-  return {std::move(solution), /*small=*/doubt < allowed_doubt * goal / root_of_count()};
+  return {std::move(solution), /*small=*/doubt < allowed_error * goal / root_of_count()};
 }
 
 // Armijo's rule for the energy, which a step d changes by d·(g + g')/2, with room for round-off.
@@ -265,7 +265,7 @@ PartialSlipReport DiscProblem::solve(double tolerance, int max_iterations, const
   std::vector<unsigned char> last_bound;
   for (;;) {
     report.residual = residual(iterate);
-    if (report.residual < tolerance && iterate.doubt > allowed_doubt * tolerance) {
+    if (report.residual < tolerance && iterate.error_bound > allowed_error * tolerance) {
       iterate = evaluated(std::move(iterate.tractions));
       report.residual = residual(iterate);
     }

@@ -50,7 +50,7 @@ class DiscProblem {
   };
   struct Iterate {
     std::vector<double> tractions, gradient;
-    double doubt = 0;  // how far the gradient may be off, m
+    double error_bound = 0;  // how far the gradient may be off, m
   };
   struct Direction {
     std::vector<double> step;  // Pa

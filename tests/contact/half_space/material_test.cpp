@@ -41,10 +41,10 @@ TEST_CASE("A missing tangential modulus is an error where it is needed, never a 
 }
 
 TEST_CASE("A pressure above a tenth of E* is doubted", "[material]") {
-  CHECK_FALSE(doubt_of_pressure(0.1e9, 1e9));
-  CHECK(doubt_of_pressure(0.2e9, 1e9)
+  CHECK_FALSE(warning_of_pressure(0.1e9, 1e9));
+  CHECK(warning_of_pressure(0.2e9, 1e9)
             .value()
             .starts_with("a nominal pressure of 200 MPa is 0.2 times E* = 1 GPa"));
-  CHECK(doubt_of_pressure(1e6, 115).value().starts_with(
+  CHECK(warning_of_pressure(1e6, 115).value().starts_with(
       "a nominal pressure of 1 MPa is 8696 times E* = 115 Pa"));
 }

@@ -618,8 +618,8 @@ TEST_CASE("An adhesive contact refuses what it cannot answer", "[adhesion]") {
   };
   CHECK(press_adhesive(surface, 1, load, good, stopping).termination == Termination::interrupted);
 
-  CHECK_FALSE(doubt_of_process_zone(good, surface.grid, 1));
-  CHECK(doubt_of_process_zone({AdhesionPotential::exponential, 1, 1}, surface.grid, 1));
+  CHECK_FALSE(warning_of_process_zone(good, surface.grid, 1));
+  CHECK(warning_of_process_zone({AdhesionPotential::exponential, 1, 1}, surface.grid, 1));
 }
 
 namespace {

@@ -78,6 +78,6 @@ constexpr void describe(auto&& visit, std::type_identity<Material>) {
 
 /// Returns the text of a warning if the nominal pressure exceeds E*/10: strains of the whole
 /// surface are then no longer small, and usually a unit was forgotten.
-std::optional<std::string> doubt_of_pressure(double nominal_pressure, double contact_modulus);
+std::optional<std::string> warning_of_pressure(double nominal_pressure, double contact_modulus);
 
 }  // namespace salebra

@@ -52,7 +52,7 @@ constexpr void describe(auto&& visit, std::type_identity<Adhesion>) {
 double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, double contact_modulus);
 
 /// Returns the text of a warning if the process zone has fewer than 3.3 cells.
-std::optional<std::string> doubt_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
+std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, const Grid2D& grid,
                                                  double contact_modulus);
 
 struct AdhesiveContactOptions {
