@@ -7,7 +7,7 @@
 #include <cstring>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <string>
 #include <vector>
 
@@ -35,7 +35,7 @@ inline std::string text_of(int rank, std::size_t length) {
 }
 
 inline void check_broadcast(const Communicator& ranks) {
-  for (int from = 0; from < ranks.ranks(); ++from)
+  for (int from = 0; from < ranks.size(); ++from)
     for (const std::size_t length : {0, 1, 1000, 1 << 20}) {
       std::string text = ranks.rank() == from ? text_of(from, length) : std::string(length, '?');
       ranks.broadcast(text.data(), text.size(), from);
@@ -46,7 +46,7 @@ inline void check_broadcast(const Communicator& ranks) {
 inline void check_gathers(const Communicator& ranks) {
   const std::vector<std::string> texts =
       ranks.gather_all(text_of(ranks.rank(), length_of(ranks.rank())));
-  for (int rank = 0; rank < ranks.ranks(); ++rank)
+  for (int rank = 0; rank < ranks.size(); ++rank)
     expect(texts[static_cast<std::size_t>(rank)] == text_of(rank, length_of(rank)),
            "gather: other bytes");
 }
@@ -61,7 +61,7 @@ inline void check_exchange(const Communicator& ranks) {
   for (const std::size_t unit : {1, 8, 64, 128, 5000}) {
     std::vector<std::int64_t> sent, received;
     std::string from;
-    for (int other = 0; other < ranks.ranks(); ++other) {
+    for (int other = 0; other < ranks.size(); ++other) {
       sent.push_back(units_between(me, other));
       received.push_back(units_between(other, me));
       from += text_of(100 * me + other, unit * static_cast<std::size_t>(sent.back()));
@@ -69,7 +69,7 @@ inline void check_exchange(const Communicator& ranks) {
     const Exchange plan(unit, sent, received);
     std::string to(unit * static_cast<std::size_t>(plan.received_units()), '?');
     ranks.exchange(plan, from.data(), to.data());
-    for (int other = 0; other < ranks.ranks(); ++other) {
+    for (int other = 0; other < ranks.size(); ++other) {
       const std::size_t length =
           unit * static_cast<std::size_t>(received[static_cast<std::size_t>(other)]);
       expect(to.substr(unit * static_cast<std::size_t>(plan.received_place(other)), length) ==
@@ -81,20 +81,20 @@ inline void check_exchange(const Communicator& ranks) {
 
 inline void check_rows(const Communicator& ranks) {
   const Index rows = 100, ny = 5;
-  const Share share(ranks, rows);
+  const RowPartition share(ranks, rows);
   std::vector<double> mine;
-  for (Index k = share.begin() * ny; k < share.end() * ny; ++k)
+  for (Index k = partition.begin() * ny; k < partition.end() * ny; ++k)
     mine.push_back(static_cast<double>(k));
   const auto wanted = [&](int rank) {
-    return RowExchange::Window{share.begin_of(rank) - 2,
-                               share.end_of(rank) - share.begin_of(rank) + 4};
+    return RowExchange::Window{partition.begin_of(rank) - 2,
+                               partition.end_of(rank) - partition.begin_of(rank) + 4};
   };
-  std::vector<double> window(static_cast<std::size_t>((share.count() + 4) * ny), -1);
-  RowExchange(share, wanted, RowExchange::Edge::repeat)(
+  std::vector<double> window(static_cast<std::size_t>((partition.count() + 4) * ny), -1);
+  RowExchange(partition, wanted, RowExchange::Edge::repeat)(
       mine.data(), ny * sizeof(double), window.data(), ny * sizeof(double), ny * sizeof(double));
-  for (Index k = 0; k < share.count() + 4; ++k)
+  for (Index k = 0; k < partition.count() + 4; ++k)
     for (Index j = 0; j < ny; ++j) {
-      const Index row = (share.begin() - 2 + k + rows) % rows;
+      const Index row = (partition.begin() - 2 + k + rows) % rows;
       expect(window[static_cast<std::size_t>(k * ny + j)] == static_cast<double>(row * ny + j),
              "rows: a wrong one");
     }
@@ -102,7 +102,7 @@ inline void check_rows(const Communicator& ranks) {
 
 template <class Real>
 void check_convolution(const Communicator& ranks, Index nx, Index ny) {
-  const auto convolved = [&](const Share& rows) {
+  const auto convolved = [&](const RowPartition& rows) {
     Convolution2D<Real> convolution({nx, ny, nx, ny}, 1, rows);
     convolution.set_symbol(0, 0, [](Index i, Index j) {
       return 1 / (1 + static_cast<double>(i * i) + 0.5 * static_cast<double>(j * j));
@@ -114,8 +114,8 @@ void check_convolution(const Communicator& ranks, Index nx, Index ny) {
     convolution.apply(field.data(), result.data());
     return result;
   };
-  const std::vector<Real> alone = convolved(Share(nx));
-  const Share rows(ranks, nx);
+  const std::vector<Real> alone = convolved(RowPartition(nx));
+  const RowPartition rows(ranks, nx);
   const std::vector<Real> together = convolved(rows);
   expect(together.empty() || std::memcmp(together.data(), alone.data() + rows.begin() * ny,
                                          together.size() * sizeof(Real)) == 0,
@@ -123,7 +123,7 @@ void check_convolution(const Communicator& ranks, Index nx, Index ny) {
 }
 
 inline void check_failure(const Communicator& ranks) {
-  const int failing = ranks.ranks() - 1;
+  const int failing = ranks.size() - 1;
   try {
     collectively(ranks, [&] {
       if (ranks.rank() == failing) throw InvalidInput("FILE", "x.h5", "must exist; name another");
@@ -139,19 +139,19 @@ inline void check_failure(const Communicator& ranks) {
 inline void check_split(const Communicator& ranks) {
   const Communicator group = ranks.split(ranks.rank() % 3 == 0 ? 1 : 0);
   int members = 0, place = 0;
-  for (int rank = 0; rank < ranks.ranks(); ++rank)
+  for (int rank = 0; rank < ranks.size(); ++rank)
     if ((rank % 3 == 0) == (ranks.rank() % 3 == 0)) {
       if (rank < ranks.rank()) ++place;
       ++members;
     }
-  expect(group.ranks() == members && group.rank() == place, "split: another group");
+  expect(group.size() == members && group.rank() == place, "split: another group");
   check_broadcast(group);
   check_gathers(group);
   check_exchange(group);
 }
 
 inline void check_groups(const Communicator& ranks) {
-  for (int count = 1; count <= ranks.ranks(); ++count) {
+  for (int count = 1; count <= ranks.size(); ++count) {
     const Groups groups(ranks, count);
     const std::vector<std::string> places =
         ranks.gather_all(std::string(1, static_cast<char>('a' + groups.place())));
@@ -160,8 +160,8 @@ inline void check_groups(const Communicator& ranks) {
                places.back()[0] == static_cast<char>('a' + count - 1),
            "groups: not of consecutive processes");
     const auto size = std::count(places.begin(), places.end(), mine);
-    expect(size == groups.own().ranks() && size >= ranks.ranks() / count &&
-               size <= ranks.ranks() / count + 1,
+    expect(size == groups.own().size() && size >= ranks.size() / count &&
+               size <= ranks.size() / count + 1,
            "groups: of another size");
     check_gathers(groups.own());
   }

@@ -21,7 +21,7 @@ class OneOfMany : public detail::Transport {
   Count exchanged, gathered;
 
   int rank() const override { return rank_; }
-  int ranks() const override { return ranks_; }
+  int size() const override { return ranks_; }
   void broadcast(void* bytes, std::size_t count, int from) override {
     if (from != rank_) std::memset(bytes, 0, count);
   }

@@ -116,7 +116,7 @@ class ThreadTransport : public detail::Transport {
   }
 
   int rank() const override { return rank_; }
-  int ranks() const override { return ranks_; }
+  int size() const override { return ranks_; }
 
   void broadcast(void* bytes, std::size_t count, int from) override {
     meeting_->meet(

@@ -100,8 +100,8 @@ std::optional<HeightDistribution> distribution_of(const GenerateArguments& argum
 }
 
 void report_memory(const Grid2D& grid, std::size_t bytes, Session& session) {
-  require_memory(grid, static_cast<double>(bytes), "a surface", session.ranks());
-  const NodeMemory memory = memory_of_nodes(static_cast<double>(bytes), session.ranks());
+  require_memory(grid, static_cast<double>(bytes), "a surface", session.communicator());
+  const NodeMemory memory = memory_of_nodes(static_cast<double>(bytes), session.communicator());
   session.inform(fmt::format("memory: {} needed, {} available{}", memory_text(memory.needed),
                            memory_text(memory.available),
                            memory.nodes > 1 ? " on node " + memory.node : ""));
@@ -123,10 +123,10 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
   spectrum->require_carried_by(grid);
   report_memory(grid,
                 arguments.non_gaussian() ? non_gaussian_memory(grid)
-                                         : generation_memory(grid, session.ranks()),
+                                         : generation_memory(grid, session.communicator()),
                 session);
   Forecast expected;
-  collectively(session.ranks(), [&] { expected = forecast(grid, *spectrum, session.progress()); });
+  collectively(session.communicator(), [&] { expected = forecast(grid, *spectrum, session.progress()); });
   session.warn(expected.warnings);
   const std::string method = method_of(arguments);
   answer.add(asked(arguments.seed, arguments.non_gaussian() ? "non-gaussian" : method,
@@ -150,12 +150,12 @@ Surface random_surface(const GenerateArguments& arguments, const Grid2D& grid, S
     return std::move(made.surface);
   }
   if (method == "random-phase")
-    return random_phase(grid, *spectrum, arguments.seed, session.progress(), session.ranks());
+    return random_phase(grid, *spectrum, arguments.seed, session.progress(), session.communicator());
   if (method == "exact-rms")
     return exact_rms(grid, *spectrum, arguments.seed,
                      arguments.spectrum.rms_slope ? Rms::slope : Rms::height, session.progress(),
-                     session.ranks());
-  return filtered_noise(grid, *spectrum, arguments.seed, session.progress(), session.ranks());
+                     session.communicator());
+  return filtered_noise(grid, *spectrum, arguments.seed, session.progress(), session.communicator());
 }
 
 /// Rows of i, j, Re ĥ, Im ĥ.

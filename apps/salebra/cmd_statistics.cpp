@@ -132,7 +132,7 @@ ArealParameters other_statistics(const Surface& surface, const PowerSpectrum* sp
                                  std::vector<ResultTable>& tables) {
   std::optional<CorrelationMap> map;
   std::optional<BearingCurve> curve;
-  if (surface.ranks.alone()) {
+  if (surface.communicator.alone()) {
     map = correlation_map(surface);
     curve.emplace(surface);
   }
@@ -183,7 +183,7 @@ void analyse(const StatisticsArguments& arguments, const Surface& surface, Sessi
         undefined));
   Json whole = answer;
   if (all) {
-    if (!surface.ranks.alone()) session.inform(needs_whole);
+    if (!surface.communicator.alone()) session.inform(needs_whole);
     const bool own = undefined == 0 && window == Window::automatic;
     whole["areal"] = json_of(other_statistics(surface, own ? &*spectrum : nullptr, tables));
     whole["differences"] = json_of(difference_moments(surface));

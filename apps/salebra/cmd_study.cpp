@@ -313,7 +313,7 @@ void run(const StudyArguments& arguments, Session& session) {
                                       {session.has_plot(), "--plot"}})
     if (given) session.require_one_process(option);
   StudyConfiguration configuration;
-  collectively(session.ranks(), [&] { configuration = arguments.study(); });
+  collectively(session.communicator(), [&] { configuration = arguments.study(); });
   run_study("study", configuration, arguments, session, [&](const StudyResult& result) {
     const StudySolution answer = solution_of(result);
     return PointAnswer{study_json(result, answer),

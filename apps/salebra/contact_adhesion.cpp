@@ -8,7 +8,7 @@
 #include <iterator>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/results/force_curve_file.hpp>
 #include <salebra/surface/moments.hpp>
@@ -62,7 +62,7 @@ void require_converged(const AdhesiveCycle& cycle) {
 /// In the first process.
 void write(const Branch& loading, const Branch& unloading, const AdhesiveCycle& cycle,
            const Session& session) {
-  if (!session.has_output() || !session.ranks().is_root()) return;
+  if (!session.has_output() || !session.communicator().is_root()) return;
   if (cycle.unloading.empty())
     return write_force_curve(session.output(), loading.curve, session.provenance(),
                              session.write_options(), loading.beside);
@@ -135,7 +135,7 @@ void press_adhesively(const ContactArguments& arguments, Session& session) {
           "begin farther out");
   }
   answer.add(json_of(mean_summit(surface, adhesion, material.contact_modulus)));
-  collectively(session.ranks(), [&] { write(loading, unloading, cycle, session); });
+  collectively(session.communicator(), [&] { write(loading, unloading, cycle, session); });
   if (session.has_plot())
     session.plot(arguments.cycle ? cycle_figure(loading.curve, unloading.curve)
                                  : curve_figure(loading.curve));

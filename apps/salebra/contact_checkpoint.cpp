@@ -19,7 +19,7 @@ namespace {
 
 /// An answer of the root.
 bool is_there(const Session& session, const std::string& file) {
-  return session.ranks().all_agree(!session.ranks().is_root() || std::filesystem::exists(file));
+  return session.communicator().all_agree(!session.communicator().is_root() || std::filesystem::exists(file));
 }
 
 constexpr const char* mark = "checkpoint";
@@ -47,8 +47,8 @@ void ContactCheckpoint::check(const Session& session, const std::string& initial
   if (every)
     require(*every >= 0 && std::isfinite(*every), "--checkpoint-every", *every, "must be >= 0");
   if (file.empty()) return;
-  collectively(session.ranks(), [&] {
-    if (!session.ranks().is_root()) return;
+  collectively(session.communicator(), [&] {
+    if (!session.communicator().is_root()) return;
     const bool replaces = session.write_options().overwrite || same_file(file, initial);
     require_that(
         replaces || !std::filesystem::exists(file), file,
@@ -76,12 +76,12 @@ void ContactCheckpoint::add_to(NormalContactOptions& options, Session& session,
 }
 
 bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field& pressure) const {
-  const bool empty = session.ranks().all_agree(!(pressure > 0).any());
+  const bool empty = session.communicator().all_agree(!(pressure > 0).any());
   if (file.empty() || empty) return false;
   try {
     std::optional<ResultFile> result;
-    collectively(session.ranks(), [&] {
-      result.emplace(file, session.provenance(), WriteOptions{.overwrite = true}, session.ranks());
+    collectively(session.communicator(), [&] {
+      result.emplace(file, session.provenance(), WriteOptions{.overwrite = true}, session.communicator());
       QuantityGroup group(result->group("contact"));
       group.axes(grid);
       group.plain().attribute(mark, std::string("yes"));
@@ -100,7 +100,7 @@ bool ContactCheckpoint::write(Session& session, const Grid2D& grid, const Field&
 
 void ContactCheckpoint::remove(const Session& session) const {
   std::error_code ignored;
-  if (!file.empty() && session.ranks().is_root()) std::filesystem::remove(file, ignored);
+  if (!file.empty() && session.communicator().is_root()) std::filesystem::remove(file, ignored);
 }
 
 }  // namespace salebra::cli

@@ -22,7 +22,7 @@ int groups_of(const ContactArguments& arguments, const SurfaceWork& work, const 
   if (arguments.groups > 0) return arguments.groups;
   if (arguments.surface.recipe.empty() || work.ranks == 1 || work.loads.size() == 1) return 1;
   return groups_that_fit(work, [&](double bytes) {
-    if (!arguments.dry_run.dry_run) return memory_of_nodes(bytes, session.ranks()).suffices();
+    if (!arguments.dry_run.dry_run) return memory_of_nodes(bytes, session.communicator()).suffices();
     const double available = static_cast<double>(available_memory());
     return available == 0 || bytes * std::ceil(double(work.ranks) / work.nodes) <= available;
   });
@@ -76,8 +76,8 @@ std::vector<CurveColumn> add_beside(const ContactArguments& arguments, const For
 void answer_curve(const ContactArguments& arguments, const ForceCurve& curve, Json answer,
                   Session& session, const std::vector<FlowFactors>& flow) {
   const auto beside = add_beside(arguments, curve, flow, answer["curve"]);
-  collectively(session.ranks(), [&] {
-    if (session.has_output() && session.ranks().is_root())
+  collectively(session.communicator(), [&] {
+    if (session.has_output() && session.communicator().is_root())
       write_force_curve(session.output(), curve, session.provenance(), session.write_options(),
                         beside);
   });
@@ -91,7 +91,7 @@ void estimate_contacts(const ContactArguments& arguments, Session& session) {
 }
 
 int contact_groups(const ContactArguments& arguments, Session& session) {
-  if (arguments.groups > 0 || arguments.surface.recipe.empty() || session.ranks().alone())
+  if (arguments.groups > 0 || arguments.surface.recipe.empty() || session.communicator().alone())
     return std::max(1, arguments.groups);
   return work_of(arguments, arguments.surface.outline(session), session).groups;
 }
@@ -103,7 +103,7 @@ void press_often(const ContactArguments& arguments, Session& session) {
   options.contact = arguments.contact_options(session);
   options.stiffness = arguments.wants_stiffness();
   options.stick = arguments.stick;
-  options.groups = Groups(session.ranks(), groups);
+  options.groups = Groups(session.communicator(), groups);
   Surface surface = arguments.surface.read(session, options.groups->own());
   const std::vector<double> pressures = arguments.pressures_on(surface.grid.area());
   session.warn_if(warning_of_pressure(pressures.back(), material.contact_modulus));
@@ -117,7 +117,7 @@ void press_often(const ContactArguments& arguments, Session& session) {
   const ForceCurve curve = sweep_pressures(surface, material, pressures, options);
   if (session.stopped()) throw Interrupted("contact: interrupted; nothing was written");
   Json answer = {{"curve", to_json(curve)}};
-  if (!session.ranks().alone()) answer["groups"] = groups;
+  if (!session.communicator().alone()) answer["groups"] = groups;
   add_first_loading(answer, first_loading);
   answer_curve(arguments, curve, std::move(answer), session, flow);
   const auto lost = std::ranges::count(curve.samples, false, &ForceSample::converged);

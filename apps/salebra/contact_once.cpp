@@ -9,7 +9,7 @@
 #include <optional>
 #include <salebra/analysis/contact.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <salebra/contact/normal/distributions.hpp>  // a picture of one state
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
@@ -32,13 +32,13 @@ OperatingPoint point_of(const ContactArguments& arguments, const Surface& surfac
 
 /// Whether the contact of any process reaches the edge.
 bool reaches_edge(const Surface& surface, const Field& pressure) {
-  const Share share = surface.share();
+  const RowPartition partition = surface.partition();
   const Index rows = pressure.rows(), columns = pressure.cols();
   const bool reached =
-      pressure.size() > 0 && ((share.begin() == 0 && (pressure.row(0) > 0).any()) ||
-                              (share.end() == share.rows() && (pressure.row(rows - 1) > 0).any()) ||
+      pressure.size() > 0 && ((partition.begin() == 0 && (pressure.row(0) > 0).any()) ||
+                              (partition.end() == partition.rows() && (pressure.row(rows - 1) > 0).any()) ||
                               (pressure.col(0) > 0).any() || (pressure.col(columns - 1) > 0).any());
-  return !surface.ranks.all_agree(!reached);
+  return !surface.communicator.all_agree(!reached);
 }
 
 void write_contact(const ContactArguments& arguments, const Session& session, const Grid2D& grid,
@@ -48,8 +48,8 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
   const bool has_pressure = arguments.fields != "none";
   const bool has_gap = has_pressure && arguments.fields != "pressure";
   std::optional<ResultFile> file;
-  collectively(session.ranks(), [&] {
-    file.emplace(session.output(), session.provenance(), session.write_options(), session.ranks());
+  collectively(session.communicator(), [&] {
+    file.emplace(session.output(), session.provenance(), session.write_options(), session.communicator());
     QuantityGroup group(file->group("contact"));
     if (has_pressure) group.axes(grid);
     if (has_pressure) group.dataset("contact_pressure", state.contact_pressure, "x", "y", type);
@@ -73,20 +73,20 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
 }
 
 /// The largest pressure of all processes.
-double max_pressure(const Communicator& ranks, const NormalContactState& state) {
-  return -ranks.least_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
+double max_pressure(const Communicator& communicator, const NormalContactState& state) {
+  return -communicator.least_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
                                                            : 0.0);
 }
 
 /// Reads the rows of this process.
-Field read_initial(const std::string& file, const Share& share) {
+Field read_initial(const std::string& file, const RowPartition& partition) {
   const ResultReader reader(file);
   const std::string pressure = "contact/contact_pressure";
   if (reader.has("contact") && !reader.has(pressure))
     throw InvalidInput(
         "--initial", file,
         "has no contact pressure; name a file that was written without --fields none");
-  return reader.field(pressure, share);
+  return reader.field(pressure, partition);
 }
 
 /// The operating point from the surface to the answer, step by step.
@@ -132,7 +132,7 @@ class OneContact {
 
   void answer() {
     answer_ =
-        json_of(ContactPressures{state_.mean_pressure, max_pressure(session_.ranks(), state_)});
+        json_of(ContactPressures{state_.mean_pressure, max_pressure(session_.communicator(), state_)});
     answer_.add(json_of<NormalContactState>(state_));
     if (arguments_.adhesive()) add_adhesion();
     answer_["seconds"] = seconds_;
@@ -160,8 +160,8 @@ class OneContact {
     if (arguments_.checkpoint.starts_anew(session_, arguments_.initial)) {
       session_.inform(arguments_.initial + " is not there yet: the contact starts anew");
     } else if (!arguments_.initial.empty()) {
-      collectively(session_.ranks(),
-                   [&] { initial_ = read_initial(arguments_.initial, surface_.share()); });
+      collectively(session_.communicator(),
+                   [&] { initial_ = read_initial(arguments_.initial, surface_.partition()); });
       options_.initial_pressure = &initial_;
     }
     arguments_.checkpoint.add_to(options_, session_, surface_.grid);

@@ -142,8 +142,8 @@ SurfaceWork planned(const DryRunOptions& options, const Grid2D& grid, const Sess
   SurfaceWork work;
   work.grid = grid;
   work.threads = parallel::threads();
-  work.ranks = options.ranks > 0 ? options.ranks : session.ranks().ranks();
-  const int here = memory_of_nodes(0, session.ranks()).nodes;
+  work.ranks = options.ranks > 0 ? options.ranks : session.communicator().size();
+  const int here = memory_of_nodes(0, session.communicator()).nodes;
   work.nodes = options.nodes > 0 ? options.nodes : std::min(here, work.ranks);
   return work;
 }

@@ -57,10 +57,10 @@ void open_standard_streams() {
 }  // namespace
 
 void require_one_process(const Launch& launch, std::string_view what) {
-  if (launch.ranks.alone()) return;
+  if (launch.communicator.alone()) return;
   throw InvalidInput(what, fmt::format("is computed by one process alone, and these are {}; use "
                                        "salebra, or one process",
-                                       launch.ranks.ranks()));
+                                       launch.communicator.size()));
 }
 
 void prepare_process(char** argv) {

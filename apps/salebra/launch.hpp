@@ -13,7 +13,7 @@ namespace salebra::cli {
 struct Launch {
   std::string name = "salebra";     ///< of the program, in messages
   std::string mpi = {};             ///< of salebra-mpi, its library; empty: salebra
-  Communicator ranks = {};          ///< all processes
+  Communicator communicator = {};          ///< all processes
   Communicator ranks_of_node = {};  ///< those on this machine
   /// True once all processes have come here, false where some do not within seconds.
   std::function<bool()> all_here = [] { return true; };

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     cli::Launch launch;
     launch.name = "salebra-mpi";
     launch.mpi = mpi::library();
-    launch.ranks = mpi.ranks();
+    launch.communicator = mpi.communicator();
     launch.ranks_of_node = mpi.ranks_of_node();
     // All of them learn of a failure within milliseconds, or are about to wait for ever.
     launch.all_here = [&mpi] { return mpi.all_here(std::chrono::seconds(5)); };

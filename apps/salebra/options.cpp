@@ -225,14 +225,14 @@ void SurfaceOptions::add_recipe_to(Command& app) {
 
 namespace {
 
-StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& ranks) {
+StudyConfiguration recipe_of(const SurfaceOptions& options, const Communicator& communicator) {
   require_that(options.file.empty() && !options.size_x && !options.size_y &&
                    options.height_unit.empty() && options.pixel_size.empty() &&
                    options.lateral_unit.empty() && options.channel.empty() &&
                    options.crop.empty() && !options.despike && !options.fill && !options.transpose,
                "--recipe", "given together with a file or with options of files; give one of them");
   StudyConfiguration study;
-  collectively(ranks, [&] { study = read_study_configuration(options.recipe); });
+  collectively(communicator, [&] { study = read_study_configuration(options.recipe); });
   require(std::holds_alternative<GeneratedSurfaces>(study.surfaces), "--recipe", options.recipe,
           "describes no surfaces to generate; name the file of the surface as SURFACE");
   return study;
@@ -266,10 +266,10 @@ MeasuredSurface SurfaceOptions::measured() const {
   return surface;
 }
 
-Surface SurfaceOptions::read(Session& session, const Communicator& ranks,
+Surface SurfaceOptions::read(Session& session, const Communicator& communicator,
                              std::optional<Undefined> points) const {
   if (!recipe.empty()) {
-    Surface made = study_surface(recipe_of(*this, ranks), seed, session.progress(), ranks);
+    Surface made = study_surface(recipe_of(*this, communicator), seed, session.progress(), communicator);
     session.warn(warnings_of_cells(made.grid));
     session.warn_if(warning_of_heights(made));
     const Detrend trend = parse_enum<Detrend>(detrend).value_or(default_detrend(made));
@@ -280,7 +280,7 @@ Surface SurfaceOptions::read(Session& session, const Communicator& ranks,
   options.profiles = profiles;
   std::vector<std::string> warnings;
   options.warnings = &warnings;
-  Surface surface = read_surface(file, options, ranks);
+  Surface surface = read_surface(file, options, communicator);
   session.warn(warnings);
   session.warn(warnings_of_cells(surface.grid));
   const Detrend method = parse_enum<Detrend>(detrend).value_or(default_detrend(surface));
@@ -293,7 +293,7 @@ std::string_view title_of(GenerationMethod method) {
 
 SurfaceOutline SurfaceOptions::outline(Session& session) const {
   if (!recipe.empty()) {
-    const StudyConfiguration study = recipe_of(*this, session.ranks());
+    const StudyConfiguration study = recipe_of(*this, session.communicator());
     const auto& generated = std::get<GeneratedSurfaces>(study.surfaces);
     return {generated.grid, generated.spectrum_of_all()->moments().rms_slope(),
             fmt::format("{}, seed {}", title_of(generated.method), seed)};
@@ -329,7 +329,7 @@ void DryRunOptions::add_to(Command& command, bool of_processes) {
                    "print what would run, with its memory and time, and run nothing");
   if (!of_processes) return;
   command
-      .add_option("--ranks", ranks,
+      .add_option("--ranks", communicator,
                   "with --dry-run: of so many processes of salebra-mpi, default those that run")
       ->range(1, 1 << 20);
   command.add_option("--nodes", nodes, "with --dry-run: on so many machines")->range(1, 1 << 20);

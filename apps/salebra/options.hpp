@@ -124,10 +124,10 @@ struct SurfaceOptions {
   /// for its kind, detrended. points: by default filled where they are few, as contacts
   /// need it, and all with --fill. Warns of cells, sizes and heights that are most likely a slip.
   Surface read(Session& session, std::optional<Undefined> points = {}) const {
-    return read(session, session.ranks(), points);
+    return read(session, session.communicator(), points);
   }
   /// Does so over one group of the processes.
-  Surface read(Session& session, const Communicator& ranks,
+  Surface read(Session& session, const Communicator& communicator,
                std::optional<Undefined> points = {}) const;
   /// Returns the surface of a file. Throws InvalidInput for lists of another length.
   MeasuredSurface measured() const;

@@ -169,7 +169,7 @@ Command& Program::add_command(const std::string& name, const std::string& what,
         if (!is_one_of(name, spread_commands)) require_one_process(launch, name);
         // One of several processes that stopped alone would leave the others waiting.
         std::optional<detail::StopCheck> stops;
-        if (launch.ranks.alone() && !is_one_of(name, keeping_commands)) stops.emplace(interrupted);
+        if (launch.communicator.alone() && !is_one_of(name, keeping_commands)) stops.emplace(interrupted);
         const int threads = std::min(common->threads, parallel::most_threads());
         parallel::set_threads(threads);
         Session session(*common, line, check, launch);
@@ -208,9 +208,9 @@ struct NotUnderstood : Error {
 };
 
 /// Processes with other arguments would wait for each other without end.
-void require_one_command(const std::string& command_line, const Communicator& ranks) {
+void require_one_command(const std::string& command_line, const Communicator& communicator) {
   const std::vector<std::string> lines =
-      ranks.gather_all(fmt::format("{} {}", version(), command_line));
+      communicator.gather_all(fmt::format("{} {}", version(), command_line));
   for (std::size_t rank = 1; rank < lines.size(); ++rank)
     if (lines[rank] != lines.front())
       throw InvalidInput(fmt::format("process {}", rank + 1),
@@ -249,7 +249,7 @@ void complete_options(const Command& command, std::vector<std::string>& words) {
 
 /// Parses and runs. Throws NotUnderstood, and what the command throws.
 void run(int argc, char** argv, const Launch& launch) {
-  require_one_command(join(argc, argv), launch.ranks);
+  require_one_command(join(argc, argv), launch.communicator);
   const std::string name(program_name());
   CLI::App app("Statistics of rough-surface contact and its relaxation damping.", name);
   app.set_version_flag("-V,--version", name + " " + std::string(version()));
@@ -260,7 +260,7 @@ void run(int argc, char** argv, const Launch& launch) {
 #undef SALEBRA_COMMAND
 
   const auto show = [&](const std::string& text) {
-    if (launch.ranks.is_root()) print_answer(wrapped(text, text_width()));
+    if (launch.communicator.is_root()) print_answer(wrapped(text, text_width()));
   };
   std::vector<std::string> words(argv + 1, argv + argc);
   // salebra help [COMMAND]
@@ -330,10 +330,10 @@ void print_lack_of_memory() noexcept {
 /// Exit status of a failure, which is said by the root where all processes have failed, and else by
 /// this one, which ends the others.
 int end(const Launch& launch, int status, std::string_view message) {
-  if (launch.ranks.alone()) return fail(status, message);
-  if (launch.all_here()) return launch.ranks.is_root() ? fail(status, message) : status;
+  if (launch.communicator.alone()) return fail(status, message);
+  if (launch.all_here()) return launch.communicator.is_root() ? fail(status, message) : status;
   fail(status,
-       fmt::format("process {} of {}: {}", launch.ranks.rank() + 1, launch.ranks.ranks(), message));
+       fmt::format("process {} of {}: {}", launch.communicator.rank() + 1, launch.communicator.size(), message));
   launch.abort(status);
   return status;
 }
@@ -350,7 +350,7 @@ int run_program(int argc, char** argv, const Launch& launch) {
   catch_interrupts();
   // Libraries of networks do not survive a child process. Several processes trust the files that
   // they are given.
-  if (launch.ranks.alone()) {
+  if (launch.communicator.alone()) {
     confinement::install();
     install_import_helper();
   }
@@ -369,7 +369,7 @@ int run_program(int argc, char** argv, const Launch& launch) {
   } catch (const Interrupted& error) {
     return end(launch, 130, error.what());
   } catch (const std::bad_alloc&) {
-    if (!launch.ranks.alone()) return end(launch, 1, no_memory);
+    if (!launch.communicator.alone()) return end(launch, 1, no_memory);
     print_lack_of_memory();
     return 1;
   } catch (const std::exception& error) {

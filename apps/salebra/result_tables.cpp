@@ -179,8 +179,8 @@ void write_files(const Session& session, const std::string& group, const Json& a
 
 void write_tables(const Session& session, const std::string& group, const Json& answer,
                   const std::vector<ResultTable>& tables) {
-  collectively(session.ranks(), [&] {
-    if (session.has_output() && session.ranks().is_root())
+  collectively(session.communicator(), [&] {
+    if (session.has_output() && session.communicator().is_root())
       write_files(session, group, answer, tables);
   });
 }

@@ -72,7 +72,7 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
     : launch_(launch),
       options_(std::move(options)),
       command_line_(std::move(command_line)),
-      bar_(launch.ranks.is_root() &&
+      bar_(launch.communicator.is_root() &&
            (options_.progress == "always" ||
             (options_.progress == "auto" && !options_.quiet && isatty(STDERR_FILENO) != 0))) {
   if (check == OutputCheck::curve) {
@@ -81,13 +81,13 @@ Session::Session(CommonOptions options, std::string command_line, OutputCheck ch
     require_result_name();
   }
   if (check != OutputCheck::by_command) require_free_output();
-  collectively(ranks(), [&] {
-    if (has_plot() && ranks().is_root()) require_plot(options_.plot, write_options());
+  collectively(communicator(), [&] {
+    if (has_plot() && communicator().is_root()) require_plot(options_.plot, write_options());
   });
-  if (!ranks().alone()) warn_of_few_cores();
+  if (!communicator().alone()) warn_of_few_cores();
   // A file may name others that are read. Of several processes only the root knows what is written,
   // and one that refuses alone would leave the others waiting.
-  if (options_.overwrite && ranks().alone())
+  if (options_.overwrite && communicator().alone())
     detail::set_input_watcher([this](const std::filesystem::path& file) {
       if (!may_read_output_) files_.opens(file);
     });
@@ -120,16 +120,16 @@ void Session::warn_of_few_cores() {
           ? fmt::format(
                 "{} processes with {} threads in all share {} cores of {}; use fewer "
                 "processes or --threads, or bind processes to more cores",
-                launch_.ranks_of_node.ranks(), threads, available, host)
+                launch_.ranks_of_node.size(), threads, available, host)
           : "";
-  for (const std::string& found : ranks().gather_all(line))
+  for (const std::string& found : communicator().gather_all(line))
     if (!found.empty()) return warn(found);
 }
 
-bool Session::stopped() const { return !ranks().all_agree(!interrupted()); }
+bool Session::stopped() const { return !communicator().all_agree(!interrupted()); }
 
 WriteOptions Session::write_options() const {
-  const std::string place = ranks().alone() ? place_among_tasks() : "";
+  const std::string place = communicator().alone() ? place_among_tasks() : "";
   if (!place.empty() && !launch_.mpi.empty())
     throw InvalidInput("--output",
                        fmt::format("would be written by each of several tasks, for this is {} "
@@ -151,8 +151,8 @@ void Session::require_result_name() const {
 }
 
 void Session::require_free_output() const {
-  collectively(ranks(), [&] {
-    if (has_output() && ranks().is_root()) require_output(output(), write_options());
+  collectively(communicator(), [&] {
+    if (has_output() && communicator().is_root()) require_output(output(), write_options());
   });
 }
 
@@ -177,16 +177,16 @@ void Session::name_files(const std::deque<Option>& options) {
 }
 
 void Session::reads(std::string_view option, const std::filesystem::path& file) {
-  require_one_file(file, ranks());
-  collectively(ranks(), [&] {
-    if (ranks().is_root()) files_.reads(option, file);
+  require_one_file(file, communicator());
+  collectively(communicator(), [&] {
+    if (communicator().is_root()) files_.reads(option, file);
   });
 }
 
 void Session::writes(std::string_view option, const std::filesystem::path& file,
                      std::string_view partner) {
-  collectively(ranks(), [&] {
-    if (ranks().is_root()) files_.writes(option, file, partner);
+  collectively(communicator(), [&] {
+    if (communicator().is_root()) files_.writes(option, file, partner);
   });
 }
 
@@ -199,12 +199,12 @@ Provenance Session::provenance() const {
 }
 
 void Session::plot(const Figure& figure) {
-  if (has_plot() && ranks().is_root()) write_plot(options_.plot, figure, write_options());
+  if (has_plot() && communicator().is_root()) write_plot(options_.plot, figure, write_options());
 }
 
 Progress Session::progress() {
   return [this](const ProgressReport& report) {
-    if (ranks().is_root()) bar_.draw(report);
+    if (communicator().is_root()) bar_.draw(report);
     return !interrupted();
   };
 }
@@ -212,13 +212,13 @@ Progress Session::progress() {
 Context Session::context() { return {progress(), interrupted}; }
 
 void Session::inform(std::string_view text) {
-  if (options_.quiet || !ranks().is_root()) return;
+  if (options_.quiet || !communicator().is_root()) return;
   bar_.clear();
   print_to_stderr(fmt::format("{}\n", printable(text)));
 }
 
 void Session::warn(std::string_view text) {
-  if (!ranks().is_root() || !warned_.emplace(text).second) return;
+  if (!communicator().is_root() || !warned_.emplace(text).second) return;
   const std::string& said = warnings_.emplace_back(printable(in_options(text)));
   if (options_.quiet) return;
   bar_.clear();
@@ -235,7 +235,7 @@ void Session::warn_if(const std::optional<std::string>& text) {
 }
 
 void Session::answer(const Json& object, const std::string& text) {
-  if (!ranks().is_root()) return;
+  if (!communicator().is_root()) return;
   bar_.clear();
   if (options_.json) {
     Json all = object;
@@ -253,7 +253,7 @@ void Session::answer(const Json& object) {
 
 Json Session::with_processes(Json object) const {
   if (!launch_.mpi.empty()) {
-    object["ranks"] = ranks().ranks();
+    object["ranks"] = communicator().size();
     object["threads"] = parallel::threads();
   }
   return object;

@@ -59,7 +59,7 @@ class Session {
   bool has_output() const { return !options_.output.empty(); }
   std::filesystem::path output() const { return options_.output; }
   /// The processes that compute together, for what is spread over them.
-  const Communicator& ranks() const { return launch_.ranks; }
+  const Communicator& communicator() const { return launch_.communicator; }
   void require_one_process(std::string_view what) const { cli::require_one_process(launch_, what); }
   /// interrupted() of any process. Collective: all processes get the same answer.
   bool stopped() const;

@@ -144,8 +144,8 @@ StudyReport::StudyReport(const StudyArguments& arguments, Session& session) : se
   lacks_assets_ = !can_report();
   if (lacks_assets_) return;
   session.writes("--output", session.output().replace_extension(".html"));
-  collectively(session.ranks(), [&] {
-    if (!session.ranks().is_root()) return;
+  collectively(session.communicator(), [&] {
+    if (!session.communicator().is_root()) return;
     page_ = session.output().replace_extension(".html");
     require(page_ != session.output(), "--output", page_.string(),
             "is a report's name; name the results .h5, or add --no-report");
@@ -178,7 +178,7 @@ std::optional<std::string> StudyReport::write() {
 }
 
 void StudyReport::require_written() const {
-  collectively(session_.ranks(), [&] {
+  collectively(session_.communicator(), [&] {
     if (!failure_.empty())
       throw IoError(
           fmt::format("{}; the results are complete in {}", failure_, session_.output().string()));
@@ -451,13 +451,13 @@ Provenance provenance_of(const StudyParts& parts, const Session& session) {
 /// Whether the output holds the results of all surfaces already, so that kept ones can go.
 bool is_complete(const StudyConfiguration& configuration, const std::filesystem::path& folder,
                  Session& session) {
-  const Communicator& ranks = session.ranks();
+  const Communicator& communicator = session.communicator();
   bool complete = false;
-  collectively(ranks, [&] {
-    complete = ranks.is_root() && is_result_of(session.output(), configuration);
+  collectively(communicator, [&] {
+    complete = communicator.is_root() && is_result_of(session.output(), configuration);
     if (complete) StudyParts(folder, true).discard();
   });
-  ranks.broadcast(&complete, sizeof complete);
+  communicator.broadcast(&complete, sizeof complete);
   return complete;
 }
 
@@ -476,10 +476,10 @@ void require_all(const StudyParts& parts, const std::vector<std::size_t>& missin
 /// Throws Interrupted where not all surfaces were computed, and says what is kept of them.
 void require_finished(const std::vector<StudyResult>& results,
                       const StudyConfiguration& configuration, const StudyParts* parts,
-                      const Communicator& ranks) {
+                      const Communicator& communicator) {
   const bool interrupted = results.size() < parameter_combinations(configuration).size() ||
                            std::ranges::any_of(results, &StudyResult::interrupted);
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     if (interrupted && parts && parts->count() > 0)
       throw Interrupted(fmt::format(
           "study: interrupted; {} finished surfaces are kept in {}; continue with the same command "
@@ -530,7 +530,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       !resume || session.has_output(), merge ? "--merge" : "--resume",
       merge ? "needs the --output of the shards" : "needs the --output of the run to continue");
   const std::filesystem::path folder = parts_folder(session);
-  const Communicator& ranks = session.ranks();
+  const Communicator& communicator = session.communicator();
   session.may_read_output(resume);
   const bool complete = resume && is_complete(configuration, folder, session);
   session.may_read_output(false);
@@ -544,15 +544,15 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
   }
   session.require_free_output();
   std::unique_ptr<StudyParts> parts;
-  collectively(ranks, [&] {
-    if (!ranks.is_root()) return;
+  collectively(communicator, [&] {
+    if (!communicator.is_root()) return;
     if (merge)
       parts = StudyParts::to_merge(folder);
     else if (session.has_output())
       parts = std::make_unique<StudyParts>(folder, resume);
   });
 
-  Reporter reporter(session, Groups(ranks, std::max(1, arguments.groups)));
+  Reporter reporter(session, Groups(communicator, std::max(1, arguments.groups)));
   StudyRun run = reporter.run(parts.get());
   std::vector<std::size_t> missing;
   if (merge) run.missing = &missing;
@@ -565,7 +565,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
     warn_of_parts(*parts, others, merge, session);
   }
   for (const StudyResult& result : results) session.warn(result.warnings);
-  require_finished(results, configuration, parts.get(), ranks);
+  require_finished(results, configuration, parts.get(), communicator);
   if (configuration.relative_error > 0) {
     try {
       require_relative_error(results);
@@ -574,7 +574,7 @@ std::vector<StudyResult> run_and_keep(const StudyConfiguration& configuration,
       throw;
     }
   }
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     if (!parts) return;
     write_ensembles(session.output(), results, provenance_of(*parts, session),
                     session.write_options());
@@ -594,7 +594,7 @@ bool run_without_results(const StudyConfiguration& configuration, const StudyArg
     if (std::holds_alternative<MeasuredSurface>(configuration.surfaces))
       session.require_one_process("--dry-run of a file");
     const SurfaceWork work = planned(arguments.dry_run, {}, session);
-    answer_dry_run(configuration, {work.ranks, work.nodes, std::max(1, arguments.groups)},
+    answer_dry_run(configuration, {work.communicator, work.nodes, std::max(1, arguments.groups)},
                    arguments.shard_seconds, session);
     return true;
   }
@@ -670,7 +670,7 @@ void run_study(const std::string& command, const StudyConfiguration& configurati
     text += point.text;
   }
   answer["files"] = salebra::to_json(files);
-  if (!session.ranks().alone()) answer["groups"] = std::max(1, arguments.groups);
+  if (!session.communicator().alone()) answer["groups"] = std::max(1, arguments.groups);
   if (const std::string where = files.text(); !where.empty()) text += "\n" + where;
   session.answer(session.with_processes(std::move(answer)), text);
   report.require_written();

@@ -32,7 +32,7 @@ std::string version_text(const Launch& launch) {
                             can_report() ? "with reports" : "without plotly.js: no reports"));
   line("threads", std::to_string(parallel::threads()));
   line("processes",
-       launch.mpi.empty() ? "one" : fmt::format("{} by {}", launch.ranks.ranks(), launch.mpi));
+       launch.mpi.empty() ? "one" : fmt::format("{} by {}", launch.communicator.size(), launch.mpi));
   line("system", fmt::format("{} {} {}, glibc {}", system.sysname, system.release, system.machine,
                              gnu_get_libc_version()));
   return text;

@@ -51,7 +51,7 @@ Solved solve(const Surface& surface, const Case& c, MultilevelShare share) {
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const detail::ScaledOperatingPoint target{ControlQuantity::pressure, 0.1 * c.load,
                                             0.1 * c.hardness};
-  const auto levels = detail::multigrid_levels(surface.grid, surface.share(),
+  const auto levels = detail::multigrid_levels(surface.grid, surface.partition(),
                                                {surface.heights.data(), surface.heights.maxCoeff()},
                                                c.boundary, std::numeric_limits<int>::max());
   Solved solved;
@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
     const Index points = boundary == Boundary::free ? n / 2 : n;
     const Grid2D grid{points, points, static_cast<double>(points), static_cast<double>(points)};
     if (const auto multilevel = detail::MultilevelKernel::make(
-            grid, Share(points), detail::normal_symbol(grid, 1, boundary, Share(points)), 1,
+            grid, RowPartition(points), detail::normal_symbol(grid, 1, boundary, RowPartition(points)), 1,
             boundary))
       std::printf("%s: %d levels, eps %.4f, eps/(1 - eps) %.4f\n",
                   boundary == Boundary::free ? "free" : "periodic", multilevel->depth(),

@@ -61,7 +61,7 @@ double register_seconds(int threads) {
   });
 }
 
-struct Share {
+struct RowPartition {
   double setup = 0, prolongation = 0, single_pairs = 0, double_pairs = 0, multilevel = 0,
          pointwise = 0;
   double total() const {
@@ -77,10 +77,10 @@ void profile(const Surface& surface, double load) {
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
   const detail::ScaledOperatingPoint target{ControlQuantity::pressure, load * 0.1 * cell};
 
-  Share coarse, fine;
+  RowPartition coarse, fine;
   double start = now();
   const auto levels =
-      detail::multigrid_levels(grid, surface.share(), {surface.heights.data(), highest},
+      detail::multigrid_levels(grid, surface.partition(), {surface.heights.data(), highest},
                                Boundary::periodic, std::numeric_limits<int>::max());
   coarse.setup += now() - start;
   Field pressure, gap;
@@ -88,7 +88,7 @@ void profile(const Surface& surface, double load) {
   double pair = 0;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const detail::MultigridLevel& level = levels[k];
-    Share& share = k == 0 ? fine : coarse;
+    RowPartition& partition = k == 0 ? fine : coarse;
     start = now();
     Field guess(level.grid.nx, level.grid.ny);
     if (k + 1 == levels.size()) {
@@ -99,19 +99,19 @@ void profile(const Surface& surface, double load) {
     }
     pressure = std::move(guess);
     gap = Field(level.grid.nx, level.grid.ny);
-    share.prolongation += now() - start;
+    partition.prolongation += now() - start;
 
     start = now();
     detail::ActiveSetCg<float> solver(level.grid, 1, Boundary::periodic, level.heights, rms);
-    share.setup += now() - start;
+    partition.setup += now() - start;
     start = now();
     outcome =
         solver.solve(target, {k == 0 ? 1e-8 : 1e-3, 1000, k == 0}, pressure.data(), gap.data());
     const double solve = now() - start;
-    share.double_pairs += outcome.exact_fft_seconds;
-    share.single_pairs += outcome.fft_seconds - outcome.exact_fft_seconds;
-    share.multilevel += outcome.multilevel_seconds;
-    share.pointwise += solve - outcome.fft_seconds - outcome.multilevel_seconds;
+    partition.double_pairs += outcome.exact_fft_seconds;
+    partition.single_pairs += outcome.fft_seconds - outcome.exact_fft_seconds;
+    partition.multilevel += outcome.multilevel_seconds;
+    partition.pointwise += solve - outcome.fft_seconds - outcome.multilevel_seconds;
     pair = (outcome.fft_seconds - outcome.exact_fft_seconds) /
            (outcome.fft_count - outcome.exact_fft_count);
   }

@@ -29,7 +29,7 @@ double setup_seconds(const Surface& surface) {
   const auto start = std::chrono::steady_clock::now();
   const double side = static_cast<double>(surface.grid.nx);
   const auto levels =
-      detail::multigrid_levels({surface.grid.nx, surface.grid.ny, side, side}, surface.share(),
+      detail::multigrid_levels({surface.grid.nx, surface.grid.ny, side, side}, surface.partition(),
                                {surface.heights.data(), surface.heights.maxCoeff()},
                                Boundary::periodic, std::numeric_limits<int>::max());
   for (const auto& level : levels)

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "contact/half_space/multilevel_kernel.hpp"
@@ -27,7 +27,7 @@ void count(Index n, int ranks) {
   // A process in the middle has neighbours on both sides.
   const auto transport = std::make_shared<OneOfMany>(ranks / 2, ranks);
   const Communicator all(transport);
-  const Share rows(all, n);
+  const RowPartition rows(all, n);
   if (rows.count() < 16) {
     std::printf("%6ld %5d  slabs of fewer than 16 rows\n", long(n), ranks);
     return;

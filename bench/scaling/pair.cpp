@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 #include <salebra/generators/spectrum.hpp>
@@ -21,7 +21,7 @@ using namespace salebra;
 namespace {
 
 // Seconds by the clock from when all have begun to when the last has ended.
-std::vector<double> seconds_of(const Communicator& ranks, int repeats,
+std::vector<double> seconds_of(const Communicator& communicator, int repeats,
                                const std::function<void()>& body) {
   std::vector<double> times;
   for (int k = 0; k <= repeats; ++k) {
@@ -40,13 +40,13 @@ std::vector<double> seconds_of(const Communicator& ranks, int repeats,
 
 int main(int argc, char** argv) {
   const mpi::Session session;
-  const Communicator ranks = session.ranks();
+  const Communicator ranks = session.communicator();
   const Index n = argc > 1 ? std::atol(argv[1]) : 2048;
   parallel::set_threads(argc > 2 ? std::atoi(argv[2]) : 1);
   const int repeats = argc > 3 ? std::atoi(argv[3]) : 9;
   const double side = static_cast<double>(n);
   const Grid2D grid{n, n, side, side};
-  const Share rows(ranks, n);
+  const RowPartition rows(ranks, n);
 
   auto compliance = normal_compliance<float>(grid, 1, Boundary::periodic, ranks);
   std::vector<float> field(static_cast<std::size_t>(rows.count() * n), 1.0f), result(field.size());
@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   const auto contact =
       seconds_of(ranks, std::max(1, repeats / 3), [&] { press(surface, 1, at_pressure(1e-3)); });
   if (ranks.is_root())
-    std::printf("%ld %d %d %.2f %.2f %.3f %.3f\n", long(n), ranks.ranks(), parallel::threads(),
+    std::printf("%ld %d %d %.2f %.2f %.3f %.3f\n", long(n), ranks.size(), parallel::threads(),
                 1e3 * pair[pair.size() / 2], 1e3 * pair.front(), contact[contact.size() / 2],
                 contact.front());
 }

@@ -6,7 +6,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/generators/exact_rms.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <vector>
@@ -19,7 +19,7 @@ namespace {
 
 double mean_of(const Surface& surface, double (*term)(double height, double mean), double mean) {
   const Field& heights = surface.heights;
-  const double sum = parallel::sum_blocks(surface.share(), [&](Index begin, Index end) {
+  const double sum = parallel::sum_blocks(surface.partition(), [&](Index begin, Index end) {
     double of_block = 0;
     for (Index ix = begin; ix < end; ++ix)
       for (Index iy = 0; iy < heights.cols(); ++iy) of_block += term(heights(ix, iy), mean);
@@ -36,9 +36,9 @@ double rms_slope_of(const Surface& surface, double mean) {
   std::optional<Convolution2D<double>> laplacian;
   LargeArray<std::byte> spectrum;
   std::vector<double> of_rows;
-  collectively(surface.ranks, [&] {
+  collectively(surface.communicator, [&] {
     laplacian.emplace(Convolution2D<double>::Shape{grid.nx, grid.ny, grid.nx, grid.ny}, 1,
-                      surface.share());
+                      surface.partition());
     laplacian->set_symbol(0, 0, [=](Index i, Index j) {
       const double qx = step_x * static_cast<double>(i), qy = step_y * static_cast<double>(j);
       return qx * qx + qy * qy;
@@ -58,7 +58,7 @@ double rms_slope_of(const Surface& surface, double mean) {
           sum += (surface.heights(row, iy) - mean) * values[iy];
         of_rows[static_cast<std::size_t>(row)] = sum;
       });
-  const double sum = parallel::sum_blocks(surface.share(), [&](Index begin, Index end) {
+  const double sum = parallel::sum_blocks(surface.partition(), [&](Index begin, Index end) {
     double of_block = 0;
     for (Index row = begin; row < end; ++row) of_block += of_rows[static_cast<std::size_t>(row)];
     return of_block;
@@ -80,7 +80,7 @@ Surface scaled(Surface surface, double mean, double present, double target) {
 
 Surface scale_to_rms(Surface surface, Rms which, double target) {
   require_positive(target, which == Rms::height ? "rms_height" : "rms_slope");
-  collectively(surface.ranks, [&] { surface.require_complete_rows("scaling to an rms value"); });
+  collectively(surface.communicator, [&] { surface.require_complete_rows("scaling to an rms value"); });
   const double mean = mean_of(surface, [](double h, double) { return h; }, 0);
   double present = 0;
   if (which == Rms::height) {
@@ -95,9 +95,9 @@ Surface scale_to_rms(Surface surface, Rms which, double target) {
 }
 
 Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Rms which,
-                  const Progress& progress, const Communicator& ranks) {
+                  const Progress& progress, const Communicator& communicator) {
   const SpectralMoments moments = spectrum.moments();
-  Surface surface = random_phase(grid, spectrum, seed, progress, ranks);
+  Surface surface = random_phase(grid, spectrum, seed, progress, communicator);
   const auto keep_going = [&] {
     return !progress || progress({.stage = "surface", .fraction = 1});
   };
@@ -106,11 +106,11 @@ Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t se
   } else {
     // Random phase has the moments of the lattice.
     const SpectralMoments lattice =
-        spectrum.lattice_moments(grid, [&](const ProgressReport&) { return keep_going(); }, ranks);
+        spectrum.lattice_moments(grid, [&](const ProgressReport&) { return keep_going(); }, communicator);
     require_positive(moments.rms_slope(), "rms_slope");
     surface = scaled(std::move(surface), 0, lattice.rms_slope(), moments.rms_slope());
   }
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     if (!keep_going()) throw Interrupted("surface: interrupted");
   });
   surface.origin =

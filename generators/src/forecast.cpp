@@ -47,8 +47,8 @@ std::string sentence(const Parts&... parts) {
 
 }  // namespace
 
-std::size_t generation_memory(const Grid2D& grid, const Communicator& ranks) {
-  return column_fft_memory(grid.nx, grid.ny, Share(ranks, grid.nx));
+std::size_t generation_memory(const Grid2D& grid, const Communicator& communicator) {
+  return column_fft_memory(grid.nx, grid.ny, RowPartition(communicator, grid.nx));
 }
 
 Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& progress) {

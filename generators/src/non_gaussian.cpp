@@ -165,15 +165,15 @@ NonGaussianSurface non_gaussian(const Grid2D& grid, const Spectrum& spectrum,
   Field& heights = result.surface.heights;
 
   TargetAmplitudes amplitudes(heights);
-  RankMap ranks(ordered_heights(distribution, grid.points(), rms_height));
-  if (!keep_going() || !ranks.apply(heights, keep_going))
+  RankMap communicator(ordered_heights(distribution, grid.points(), rms_height));
+  if (!keep_going() || !communicator.apply(heights, keep_going))
     throw Interrupted("non-gaussian: interrupted");
   result.spectrum_mismatch = amplitudes.measure(heights);
   while (result.iterations < options.max_iterations && !result.converged()) {
     const Field previous = heights;
     const double before = result.spectrum_mismatch;
     amplitudes.impose(heights);
-    if (!keep_going() || !ranks.apply(heights, keep_going) || !keep_going()) {
+    if (!keep_going() || !communicator.apply(heights, keep_going) || !keep_going()) {
       heights = previous;
       result.termination = Termination::interrupted;
       break;

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <sstream>
 #include <vector>
@@ -61,12 +61,12 @@ void Spectrum::density_row(Index first, double step_x, double qy,
 }
 
 SpectralMoments Spectrum::lattice_moments(const Grid2D& grid, const Progress& progress,
-                                          const Communicator& ranks) const {
+                                          const Communicator& communicator) const {
   const detail::CarriedModes carried(grid, *this);
-  const Share columns(ranks, carried.j_max() + 1);
+  const RowPartition columns(communicator, carried.j_max() + 1);
   std::vector<SpectralMoments> own, all;
   LoopProgress loop(progress, "moments", columns.count());
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     own.resize(static_cast<std::size_t>(columns.count()));
     all.resize(static_cast<std::size_t>(columns.rows()));
     parallel::for_slabs(columns.count(), [&](Index begin, Index end) {
@@ -80,10 +80,10 @@ SpectralMoments Spectrum::lattice_moments(const Grid2D& grid, const Progress& pr
     loop.finish();
   });
   std::vector<std::size_t> bytes;
-  for (int rank = 0; rank < ranks.ranks(); ++rank)
+  for (int rank = 0; rank < communicator.size(); ++rank)
     bytes.push_back(static_cast<std::size_t>(columns.end_of(rank) - columns.begin_of(rank)) *
                     sizeof(SpectralMoments));
-  ranks.gather_all(own.data(), bytes, all.data());
+  communicator.gather_all(own.data(), bytes, all.data());
   SpectralMoments sum;
   for (const SpectralMoments& column : all) add(sum, column);
   return sum;

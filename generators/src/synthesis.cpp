@@ -11,10 +11,10 @@
 namespace salebra::detail {
 
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
-                 const Progress& progress, const Communicator& ranks) {
+                 const Progress& progress, const Communicator& communicator) {
   const CarriedModes carried(grid, spectrum);
-  const Share rows(ranks, grid.nx);
-  require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)), "a surface", ranks);
+  const RowPartition rows(communicator, grid.nx);
+  require_memory(grid, double(column_fft_memory(grid.nx, grid.ny, rows)), "a surface", communicator);
   const RandomModes modes(carried, seed, chance);
   return backward_by_columns(
       grid.nx, grid.ny, carried.j_max() + 1,
@@ -27,18 +27,18 @@ Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t see
 namespace salebra {
 
 Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                       const Progress& progress, const Communicator& ranks) {
+                       const Progress& progress, const Communicator& communicator) {
   return {
       grid,
-      detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress, ranks),
-      true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description(), ranks};
+      detail::synthesise(grid, spectrum, seed, detail::Chance::gaussian_amplitude, progress, communicator),
+      true, "filtered noise, seed " + std::to_string(seed) + ", " + spectrum.description(), communicator};
 }
 
 Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                     const Progress& progress, const Communicator& ranks) {
-  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress, ranks),
+                     const Progress& progress, const Communicator& communicator) {
+  return {grid, detail::synthesise(grid, spectrum, seed, detail::Chance::phase, progress, communicator),
           true, "random phase, seed " + std::to_string(seed) + ", " + spectrum.description(),
-          ranks};
+          communicator};
 }
 
 }  // namespace salebra

@@ -12,6 +12,6 @@ namespace salebra::detail {
 /// of this process. Same bits for every number of threads and processes. progress as of
 /// filtered_noise.
 Field synthesise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Chance chance,
-                 const Progress& progress, const Communicator& ranks);
+                 const Progress& progress, const Communicator& communicator);
 
 }  // namespace salebra::detail

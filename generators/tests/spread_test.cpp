@@ -9,7 +9,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/generators/anisotropic_spectrum.hpp>
 #include <salebra/generators/composite.hpp>
 #include <salebra/generators/exact_rms.hpp>
@@ -96,9 +96,9 @@ TEST_CASE("A surface made by several processes has the bits of one process",
         std::atomic<int> right = 0;
         run_ranks(ranks, [&](const Communicator& together) {
           const Surface mine = make(grid, *spectrum, {}, together);
-          const Share rows = mine.share();
+          const RowPartition rows = mine.partition();
           right +=
-              mine.ranks.ranks() == ranks && mine.grid == alone.grid &&
+              mine.communicator.size() == ranks && mine.grid == alone.grid &&
               mine.periodic == alone.periodic && mine.origin == alone.origin &&
               mine.heights.rows() == rows.count() && mine.heights.cols() == grid.ny &&
               (rows.count() == 0 ||

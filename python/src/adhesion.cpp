@@ -109,7 +109,7 @@ void bind_press(nb::module_& m) {
                    contact_modulus, options.contact.boundary},
                   std::move(static_cast<AdhesionOfState&>(state))};
             },
-            surface.surface.ranks);
+            surface.surface.communicator);
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("adhesion"), nb::kw_only(),
       nb::arg("pressure") = nb::none(), nb::arg("mean_gap") = nb::none(),
@@ -200,7 +200,7 @@ AdhesiveContactState
               return BoundCycle{cycle, curve_of(cycle.loading), curve_of(cycle.unloading),
                                 cycle.converged()};
             },
-            surface.surface.ranks);
+            surface.surface.communicator);
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("adhesion"), nb::kw_only(),
       nb::arg("pressures") = nb::none(), nb::arg("mean_gaps") = nb::none(),

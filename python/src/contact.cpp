@@ -85,7 +85,7 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
   state
       .def_prop_ro(
           "rows",
-          [](const BoundContact& self) { return range_of(Share(self.ranks, self.grid.nx)); },
+          [](const BoundContact& self) { return range_of(RowPartition(self.communicator, self.grid.nx)); },
           nb::sig("def rows(self) -> range"),
           "Rows ix of the fields that this process holds, as those of the surface.")
       .def(
@@ -93,11 +93,11 @@ Unless `converged`, the numbers describe the last iterate and must not be used a
           [](nb::handle_t<BoundContact> self, int root) {
             const nb::handle object = self;
             const auto& mine = nb::cast<const BoundContact&>(object);
-            return gather(self, root, mine.ranks, [&] {
+            return gather(self, root, mine.communicator, [&] {
               return unlocked([&] {
-                const Share rows(mine.ranks, mine.grid.nx);
+                const RowPartition rows(mine.communicator, mine.grid.nx);
                 auto whole = std::make_unique<BoundContact>(mine);
-                whole->ranks = {};
+                whole->communicator = {};
                 whole->contact_pressure = gathered(rows, mine.contact_pressure, root);
                 whole->gap = gathered(rows, mine.gap, root);
                 return whole;
@@ -139,7 +139,7 @@ void bind_presses(nb::module_& m) {
                         operating_point_of(pressure, mean_gap, indentation, force), options),
                   surface.surface.grid, contact_modulus, options.boundary};
             },
-            surface.surface.ranks);
+            surface.surface.communicator);
       },
       nb::arg("surface"), nb::arg("material"), nb::kw_only(), nb::arg("pressure") = nb::none(),
       nb::arg("mean_gap") = nb::none(), nb::arg("indentation") = nb::none(),
@@ -211,7 +211,7 @@ doi:10.1115/1.2833523.
               options.on_progress = std::move(told);
               return normal_stiffness(state, state.grid, state.contact_modulus, options);
             },
-            state.ranks);
+            state.communicator);
       },
       nb::arg("state"), nb::kw_only(), nb::arg("tolerance") = 1e-10,
       nb::arg("max_iterations") = 1000, nb::arg("progress") = false,
@@ -301,7 +301,7 @@ void bind_spots(nb::module_& m) {
       [](const BoundContact& state) {
         cite({"yastrebov2017"});
         return unlocked([&] {
-          return contact_spots(state.contact_pressure, state.grid, state.boundary, state.ranks);
+          return contact_spots(state.contact_pressure, state.grid, state.boundary, state.communicator);
         });
       },
       nb::arg("state"),

@@ -110,7 +110,7 @@ void bind_sweep(nb::module_& m) {
               options.contact.on_progress = std::move(told);
               return sweep_pressures(surface.surface, material, pressures.values, options);
             },
-            surface.surface.ranks);
+            surface.surface.communicator);
       },
       nb::arg("surface"), nb::arg("material"), nb::arg("pressures"), nb::kw_only(),
       nb::arg("stiffness") = true, nb::arg("stick") = false, nb::arg("concurrent_loads") = 0,

@@ -46,7 +46,7 @@ void bind_files(nb::module_& m) {
          bool transpose, const PixelSize& pixel_size, const std::string& lateral_unit,
          std::optional<double> despike, const std::optional<std::vector<double>>& crop, bool fill,
          bool profiles, const std::string& channel, const ProcessesArgument& comm) {
-        const Communicator ranks = comm.ranks();
+        const Communicator communicator = comm.communicator();
         std::vector<std::string> warnings;
         ReadOptions options;
         options.size_x = size_x;
@@ -62,7 +62,7 @@ void bind_files(nb::module_& m) {
         if (fill) options.undefined = Undefined::fill;
         options.profiles = profiles;
         options.warnings = &warnings;
-        Surface surface = unlocked([&] { return read_surface(file, options, ranks); });
+        Surface surface = unlocked([&] { return read_surface(file, options, communicator); });
         for (const std::string& line : warnings) warn_user(line);
         return new_surface(std::move(surface));
       },

@@ -173,11 +173,11 @@ void maker(nb::module_& m, const char* name, std::type_identity<void(Further...)
       [make](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, Further... further,
              const ProcessesArgument& comm, const ProgressArgument& progress) {
         cite({"salmon2011"});
-        const Communicator ranks = comm.ranks();
+        const Communicator communicator = comm.communicator();
         const auto made = [&](const Progress& told) {
-          return make(grid, spectrum, seed, further..., told, ranks);
+          return make(grid, spectrum, seed, further..., told, communicator);
         };
-        return new_surface(interruptible(progress, made, ranks));
+        return new_surface(interruptible(progress, made, communicator));
       },
       nb::arg("grid"), nb::arg("spectrum"), nb::arg("seed"), arguments..., nb::kw_only(),
       nb::arg("comm") = nb::none(), nb::arg("progress") = false, description);
@@ -222,8 +222,8 @@ rms height, slope and all moments equal :meth:`Spectrum.lattice_moments` for eac
   maker(
       m, "exact_rms", std::type_identity<void(const Choice<Rms>&)>{},
       [](const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed, const Choice<Rms>& which,
-         const Progress& told, const Communicator& ranks) {
-        return exact_rms(grid, spectrum, seed, which.value("which"), told, ranks);
+         const Progress& told, const Communicator& communicator) {
+        return exact_rms(grid, spectrum, seed, which.value("which"), told, communicator);
       },
       "A random-phase surface scaled so that its own rms height (or slope) is that of the "
       "continuum, `spectrum.moments`.",

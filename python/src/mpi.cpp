@@ -34,7 +34,7 @@ std::string library_version() {
 }
 
 nb::capsule communicator(int handle) {
-  std::unique_ptr<salebra::Communicator> ranks;
+  std::unique_ptr<salebra::Communicator> communicator;
   {
     const nb::gil_scoped_release unlocked;
     int granted = MPI_THREAD_SINGLE;
@@ -42,10 +42,10 @@ nb::capsule communicator(int handle) {
     salebra::require_that(granted >= MPI_THREAD_FUNNELED, "comm",
                           "needs an MPI that was started for programs with threads; call "
                           "mpi4py.MPI.Init_thread(), or let mpi4py start MPI");
-    ranks =
+    communicator =
         std::make_unique<salebra::Communicator>(salebra::mpi::communicator(MPI_Comm_f2c(handle)));
   }
-  return {ranks.release(), "salebra.Communicator",
+  return {communicator.release(), "salebra.Communicator",
           [](void* held) noexcept { delete static_cast<salebra::Communicator*>(held); }};
 }
 

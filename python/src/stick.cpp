@@ -36,14 +36,14 @@ void bind_stiffness(nb::module_& m) {
                              .max_iterations = max_iterations,
                              .boundary = boundary.value("boundary"),
                              .hold_lateral = hold_lateral};
-        const Communicator ranks = comm.ranks();
+        const Communicator communicator = comm.communicator();
         return interruptible(
             progress,
             [&](Progress told) {
               options.on_progress = std::move(told);
-              return stick_stiffness(contact.set, grid, material, options, along_x_only, {}, ranks);
+              return stick_stiffness(contact.set, grid, material, options, along_x_only, {}, communicator);
             },
-            ranks);
+            communicator);
       },
       nb::arg("contact"), nb::arg("grid"), nb::arg("material"), nb::kw_only(),
       nb::arg("tolerance") = 1e-6, nb::arg("max_iterations") = 1000,

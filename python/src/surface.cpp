@@ -90,7 +90,7 @@ True
           "Heights (nx, ny), m: the memory of the surface, not a copy. Of a surface that is spread "
           "over processes: its `rows` alone.")
       .def_prop_ro(
-          "rows", [](const BoundSurface& self) { return range_of(self.surface.share()); },
+          "rows", [](const BoundSurface& self) { return range_of(self.surface.partition()); },
           nb::sig("def rows(self) -> range"),
           "Rows ix that this process holds: all of them, unless the surface is spread over "
           "processes.")
@@ -98,9 +98,9 @@ True
           "gather",
           [](nb::handle_t<BoundSurface> self, int root) {
             const Surface& mine = nb::cast<const BoundSurface&>(nb::handle(self)).surface;
-            return gather(self, root, mine.ranks, [&] {
+            return gather(self, root, mine.communicator, [&] {
               return std::make_unique<BoundSurface>(unlocked([&] {
-                return Surface{mine.grid, gathered(mine.share(), mine.heights, root), mine.periodic,
+                return Surface{mine.grid, gathered(mine.partition(), mine.heights, root), mine.periodic,
                                mine.origin};
               }));
             });

@@ -88,7 +88,7 @@ void bind_surface_damping(nb::module_& m) {
                                                 *curve, options),
                                 *curve, oscillation(motion));
               },
-              surface.surface.ranks);
+              surface.surface.communicator);
         std::vector<std::string> warnings;
         BoundDampingCurve found = interruptible(
             progress,
@@ -106,7 +106,7 @@ void bind_surface_damping(nb::module_& m) {
               warnings.insert(warnings.end(), solution.warnings.begin(), solution.warnings.end());
               return curve_of(solution, pressures->values);
             },
-            surface.surface.ranks);
+            surface.surface.communicator);
         for (const std::string& warning : warnings) warn_user(warning);
         return found;
       },

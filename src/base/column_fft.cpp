@@ -64,8 +64,8 @@ detail::FftwPlan<double> plan_row_forward(Index ny) {
 struct Deal {
   Index groups, ranks, at_once, batches;
 
-  Deal(Index ny, Index columns, const Share& rows)
-      : groups((columns + block - 1) / block), ranks(rows.ranks().ranks()) {
+  Deal(Index ny, Index columns, const RowPartition& rows)
+      : groups((columns + block - 1) / block), ranks(rows.communicator().size()) {
     const Index most = (groups + ranks - 1) / ranks;
     // A batch has three buffers of 16 complex columns for each group: as many bytes as ny/ranks
     // real columns.
@@ -80,10 +80,10 @@ struct Deal {
   }
   // Units of a batch are the columns of a group in one row, by the process, then by the group, then
   // by the row.
-  Exchange exchange(const Share& rows, Index batch) const {
-    const Index mine = count(rows.ranks().rank(), batch);
+  Exchange exchange(const RowPartition& rows, Index batch) const {
+    const Index mine = count(rows.communicator().rank(), batch);
     std::vector<std::int64_t> sent, received;
-    for (int rank = 0; rank < rows.ranks().ranks(); ++rank) {
+    for (int rank = 0; rank < rows.communicator().size(); ++rank) {
       sent.push_back(mine * (rows.end_of(rank) - rows.begin_of(rank)));
       received.push_back(count(rank, batch) * rows.count());
     }
@@ -100,14 +100,14 @@ struct Deal {
 
 class BackwardByColumns {
  public:
-  BackwardByColumns(Index nx, Index ny, Index columns, const Share& rows)
+  BackwardByColumns(Index nx, Index ny, Index columns, const RowPartition& rows)
       : nx_(nx),
         ny_(ny),
         columns_(columns),
         stored_(std::min(columns, ny / 2)),
         rows_(rows),
-        rank_(rows.ranks().rank()),
-        alone_(rows.ranks().alone()),
+        rank_(rows.communicator().rank()),
+        alone_(rows.communicator().alone()),
         deal_(ny, columns, rows) {}
 
   // Takes all memory but the few rows and columns of each thread.
@@ -128,20 +128,20 @@ class BackwardByColumns {
     LoopProgress loop(progress, stage, deal_.columns(rank_, columns_), 0, 0.7);
     for (Index batch = 0; batch < deal_.batches; ++batch) {
       std::optional<Exchange> plan;
-      collectively(rows_.ranks(), [&] {
+      collectively(rows_.communicator(), [&] {
         if (!alone_) plan.emplace(deal_.exchange(rows_, batch));
         make_columns(batch, column, plan, loop);
         loop.finish();
       });
       if (alone_) return;
-      rows_.ranks().exchange(*plan, sent_.get(), received_.get());
+      rows_.communicator().exchange(*plan, sent_.get(), received_.get());
       keep_received(batch, *plan);
     }
   }
 
   Field rows(const Progress& progress) {
     LoopProgress loop(progress, stage, rows_.count(), 0.7, 1);
-    collectively(rows_.ranks(), [&] {
+    collectively(rows_.communicator(), [&] {
       parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
         const auto modes = detail::fftw_array<Complex>(static_cast<std::size_t>(ny_ / 2 + 1));
         const auto values = detail::fftw_array<double>(static_cast<std::size_t>(ny_));
@@ -193,7 +193,7 @@ class BackwardByColumns {
   // Group number k of a batch into what is sent: the rows of each process apart, a row of the group
   // after the other.
   void pack(Index k, Index count, const Exchange& plan, const Complex* modes, Index pitch) {
-    for (int rank = 0; rank < rows_.ranks().ranks(); ++rank) {
+    for (int rank = 0; rank < rows_.communicator().size(); ++rank) {
       const Index first = rows_.begin_of(rank), number = rows_.end_of(rank) - first;
       Complex* to = sent_.get() + (plan.sent_place(rank) + k * number) * block;
       for (Index row = first; row < first + number; ++row, to += block) {
@@ -205,7 +205,7 @@ class BackwardByColumns {
 
   void keep_received(Index batch, const Exchange& plan) {
     parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
-      for (int rank = 0; rank < rows_.ranks().ranks(); ++rank)
+      for (int rank = 0; rank < rows_.communicator().size(); ++rank)
         for (Index k = 0; k < deal_.count(rank, batch); ++k) {
           const Complex* modes =
               received_.get() + (plan.received_place(rank) + k * rows_.count()) * block;
@@ -233,7 +233,7 @@ class BackwardByColumns {
   }
 
   Index nx_, ny_, columns_, stored_;
-  Share rows_;
+  RowPartition rows_;
   int rank_;
   bool alone_;
   Deal deal_;
@@ -247,28 +247,28 @@ class BackwardByColumns {
 
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
                           const Progress& progress) {
-  return backward_by_columns(nx, ny, columns, column, progress, Share(nx));
+  return backward_by_columns(nx, ny, columns, column, progress, RowPartition(nx));
 }
 
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
-                          const Progress& progress, const Share& rows) {
+                          const Progress& progress, const RowPartition& rows) {
   require(columns >= 1 && columns <= ny / 2 + 1, "columns", columns, "must lie in 1 … ny/2+1");
   require(rows.rows() == nx, "rows", rows.rows(), "must be nx rows in all");
   BackwardByColumns transform(nx, ny, columns, rows);
-  collectively(rows.ranks(), [&] { transform.prepare(); });
+  collectively(rows.communicator(), [&] { transform.prepare(); });
   transform.columns(column, progress);
   return transform.rows(progress);
 }
 
 void forward_by_columns(Index nx, Index ny,
                         const std::function<void(Index row, std::span<double> values)>& row,
-                        const SpectrumColumn& visit, const Share& rows, const Share& columns) {
+                        const SpectrumColumn& visit, const RowPartition& rows, const RowPartition& columns) {
   require(rows.rows() == nx, "rows", rows.rows(), "must be nx rows in all");
   require(columns.rows() == ny / 2 + 1, "columns", columns.rows(), "must be ny/2+1 in all");
   const Index pitch = column_pitch(ny / 2 + 1);
   LargeArray<Complex> modes;
   detail::FftwPlan<double> column_plan;
-  collectively(rows.ranks(), [&] {
+  collectively(rows.communicator(), [&] {
     modes = large_array<Complex>(static_cast<std::size_t>(rows.count() * pitch));
     column_plan = plan_column(nx, FFTW_FORWARD);
     const auto row_plan = plan_row_forward(ny);
@@ -291,7 +291,7 @@ void forward_by_columns(Index nx, Index ny,
       });
 }
 
-std::size_t column_fft_memory(Index nx, Index ny, const Share& rows) {
+std::size_t column_fft_memory(Index nx, Index ny, const RowPartition& rows) {
   const Index threads = parallel::threads(), columns = ny / 2 + 1;
   const Deal deal(ny, columns, rows);
   const Index for_columns = std::min(threads, deal.at_once) * block * column_pitch(nx),

@@ -6,7 +6,7 @@
 #include <functional>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <span>
 
 namespace salebra {
@@ -39,7 +39,7 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
 /// throws    InvalidInput also where rows has another number of rows than nx
 /// cost      collective; each process sends and receives 16·nx·columns/ranks bytes
 Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColumn& column,
-                          const Progress& progress, const Share& rows);
+                          const Progress& progress, const RowPartition& rows);
 
 /// The forward transform of RealFft2D over the processes of a share of the nx rows, of a field that
 /// is read row by row:
@@ -52,10 +52,10 @@ Field backward_by_columns(Index nx, Index ny, Index columns, const SpectrumColum
 ///          each process sends that much once
 void forward_by_columns(Index nx, Index ny,
                         const std::function<void(Index row, std::span<double> values)>& row,
-                        const SpectrumColumn& visit, const Share& rows, const Share& columns);
+                        const SpectrumColumn& visit, const RowPartition& rows, const RowPartition& columns);
 
 /// Peak memory of backward_by_columns in this process with the present number of threads, bytes,
 /// result included.
-std::size_t column_fft_memory(Index nx, Index ny, const Share& rows);
+std::size_t column_fft_memory(Index nx, Index ny, const RowPartition& rows);
 
 }  // namespace salebra

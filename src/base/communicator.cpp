@@ -105,7 +105,7 @@ void Communicator::gather_all(const void* mine, std::span<const std::size_t> byt
 
 std::vector<std::string> Communicator::gather_all(const std::string& mine) const {
   if (alone()) return {mine};
-  const auto count = static_cast<std::size_t>(ranks());
+  const auto count = static_cast<std::size_t>(communicator());
   const std::size_t length = mine.size();
   std::vector<std::size_t> lengths(count);
   gather_all(&length, std::vector<std::size_t>(count, sizeof length), lengths.data());
@@ -124,7 +124,7 @@ bool Communicator::all_agree(bool yes) const { return least_of(yes ? 1 : 0) > 0;
 
 double Communicator::least_of(double mine) const {
   if (alone()) return mine;
-  const std::vector<std::size_t> one(static_cast<std::size_t>(ranks()), sizeof mine);
+  const std::vector<std::size_t> one(static_cast<std::size_t>(communicator()), sizeof mine);
   std::vector<double> all(one.size());
   gather_all(&mine, one, all.data());
   return *std::min_element(all.begin(), all.end());
@@ -144,16 +144,16 @@ Communicator Communicator::split(int group) const {
 }
 
 Groups::Groups(const Communicator& all, int count) : all_(all), own_(all), count_(count) {
-  require(count >= 1 && count <= all.ranks(), "groups", count,
+  require(count >= 1 && count <= all.size(), "groups", count,
           "must lie between 1 and the number of processes");
   if (count == 1) return;
-  place_ = static_cast<int>(std::int64_t{all.rank()} * count / all.ranks());
+  place_ = static_cast<int>(std::int64_t{all.rank()} * count / all.size());
   own_ = all.split(place_);
 }
 
-void collectively(const Communicator& ranks, const std::function<void()>& body) {
-  if (ranks.alone()) return body();
-  for (const std::string& failure : ranks.gather_all(failure_of(body)))
+void collectively(const Communicator& communicator, const std::function<void()>& body) {
+  if (communicator.alone()) return body();
+  for (const std::string& failure : communicator.gather_all(failure_of(body)))
     if (!failure.empty()) fail(failure);
 }
 

@@ -54,7 +54,7 @@ struct Convolution2D<Real>::Passes {
   const detail::SpectrumKernels<Real>& kernels = detail::spectrum_kernels<Real>();
   Shape shape;
   int components;
-  Share rows_of_all;
+  RowPartition rows_of_all;
   // The columns k = low … low + low_count of a process, then −k = high … high + high_count, without
   // those that are their own mirror.
   struct Columns {
@@ -88,7 +88,7 @@ struct Convolution2D<Real>::Passes {
   };
   std::shared_ptr<const Plans> plans;
 
-  Passes(const Shape& fields, int number, const Share& rows)
+  Passes(const Shape& fields, int number, const RowPartition& rows)
       : shape(fields), components(number), rows_of_all(rows) {
     require(shape.nx >= 1 && shape.ny >= 1, "nx, ny", std::min(shape.nx, shape.ny), "must be >= 1");
     require(shape.period_x >= shape.nx && shape.period_x < 1 << 24, "period_x", shape.period_x,
@@ -112,7 +112,7 @@ struct Convolution2D<Real>::Passes {
 
   // The rows and columns of each process, and what goes from one to another.
   void spread_work() {
-    const int ranks = rows_of_all.ranks().ranks(), me = rows_of_all.ranks().rank();
+    const int ranks = rows_of_all.communicator().size(), me = rows_of_all.communicator().rank();
     for (int rank = 0; rank < ranks; ++rank) {
       const Index begin = rows_of_all.begin_of(rank), end = rows_of_all.end_of(rank);
       require(begin % rows_at_once == 0 || begin == shape.nx, "rows", begin,
@@ -120,7 +120,7 @@ struct Convolution2D<Real>::Passes {
       const Index blocks = (end - begin + rows_at_once - 1) / rows_at_once;
       rows_of.push_back({begin / rows_at_once, blocks, column_stride(blocks, ranks), 0});
     }
-    const Share columns = detail::spectrum_columns(rows_of_all, shape.period_y);
+    const RowPartition columns = detail::spectrum_columns(rows_of_all, shape.period_y);
     for (int rank = 0; rank < ranks; ++rank) {
       const Index begin = columns.begin_of(rank), end = columns.end_of(rank);
       // −k of these k, but for k = 0 and k = period_y/2.
@@ -158,9 +158,9 @@ struct Convolution2D<Real>::Passes {
     const bool whole_pages = length * static_cast<Index>(sizeof(Complex)) % 4096 == 0;
     return ranks > 1 && !whole_pages ? length : padded(length);
   }
-  const Rows& mine() const { return rows_of[static_cast<std::size_t>(rows_of_all.ranks().rank())]; }
+  const Rows& mine() const { return rows_of[static_cast<std::size_t>(rows_of_all.communicator().rank())]; }
   const Columns& my_columns() const {
-    return columns_of[static_cast<std::size_t>(rows_of_all.ranks().rank())];
+    return columns_of[static_cast<std::size_t>(rows_of_all.communicator().rank())];
   }
   // Points of the transform in this process.
   Index points() const { return mine().blocks * rows_at_once * shape.period_y; }
@@ -450,9 +450,9 @@ struct Convolution2D<Real>::Passes {
       place_spectrum(own_spectrum.get());
     }
     rows_forward(source);
-    if (to_columns) rows_of_all.ranks().exchange(*to_columns, by_rows, by_columns);
+    if (to_columns) rows_of_all.communicator().exchange(*to_columns, by_rows, by_columns);
     columns();
-    if (to_rows) rows_of_all.ranks().exchange(*to_rows, by_columns, by_rows);
+    if (to_rows) rows_of_all.communicator().exchange(*to_rows, by_columns, by_rows);
     rows_backward(place, done);
   }
 
@@ -465,9 +465,9 @@ struct Convolution2D<Real>::Passes {
 
 template <class Real>
 Convolution2D<Real>::Convolution2D(const Shape& shape, int components)
-    : Convolution2D(shape, components, Share(shape.nx)) {}
+    : Convolution2D(shape, components, RowPartition(shape.nx)) {}
 template <class Real>
-Convolution2D<Real>::Convolution2D(const Shape& shape, int components, const Share& rows)
+Convolution2D<Real>::Convolution2D(const Shape& shape, int components, const RowPartition& rows)
     : passes_(std::make_unique<Passes>(shape, components, rows)) {}
 template <class Real>
 Convolution2D<Real>::Convolution2D(const Convolution2D& other)

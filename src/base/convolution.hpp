@@ -6,7 +6,7 @@
 #include <functional>
 #include <memory>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 
 namespace salebra {
 
@@ -39,7 +39,7 @@ class Convolution2D {
   /// of rows are then those of this process; spectra and symbols are spread by columns. apply() is
   /// collective and sends each number of a spectrum twice. The result has the same bits for every
   /// number of processes.
-  Convolution2D(const Shape& shape, int components, const Share& rows);
+  Convolution2D(const Shape& shape, int components, const RowPartition& rows);
   /// Shares the symbols that have been set, and the plans, which are not made again.
   Convolution2D(const Convolution2D& other);
   Convolution2D(Convolution2D&&) noexcept;

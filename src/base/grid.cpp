@@ -3,7 +3,7 @@
 #include <cmath>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <string>
 
 #include "undefined_points.hpp"
@@ -19,12 +19,12 @@ void Grid2D::validate() const {
 
 Index Surface::undefined_points() const { return heights.isNaN().count(); }
 
-Share Surface::share() const { return {ranks, grid.nx}; }
+RowPartition Surface::partition() const { return {communicator, grid.nx}; }
 
 void Surface::require_whole(const std::string& purpose) const {
-  if (ranks.alone()) return;
+  if (communicator.alone()) return;
   throw InvalidInput("surface", "",
-                     "is spread over " + std::to_string(ranks.ranks()) + " processes, and " +
+                     "is spread over " + std::to_string(communicator.size()) + " processes, and " +
                          purpose + " needs it whole; gather it or use one process");
 }
 

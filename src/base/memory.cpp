@@ -92,9 +92,9 @@ bool NodeMemory::suffices() const {
   return needed < not_asked_for || available == 0 || needed <= available;
 }
 
-NodeMemory memory_of_nodes(double bytes, const Communicator& ranks) {
+NodeMemory memory_of_nodes(double bytes, const Communicator& communicator) {
   const auto own = static_cast<double>(available_memory());
-  if (ranks.alone()) return {"", 1, bytes, own};
+  if (communicator.alone()) return {"", 1, bytes, own};
   struct {
     char node[256] = "";
     double needed = 0, shared = 0, own = 0;
@@ -103,22 +103,22 @@ NodeMemory memory_of_nodes(double bytes, const Communicator& ranks) {
   mine.needed = bytes;
   mine.shared = static_cast<double>(detail::shared_memory_left("/").value_or(0));
   mine.own = own;
-  std::vector<decltype(mine)> all(static_cast<std::size_t>(ranks.ranks()));
-  ranks.gather_all(&mine, std::vector<std::size_t>(all.size(), sizeof mine), all.data());
+  std::vector<decltype(mine)> all(static_cast<std::size_t>(communicator.size()));
+  communicator.gather_all(&mine, std::vector<std::size_t>(all.size(), sizeof mine), all.data());
   std::vector<detail::ProcessMemory> processes;
   for (const auto& one : all) processes.push_back({one.node, one.needed, one.shared, one.own});
   return detail::shortest_memory(processes);
 }
 
 void require_memory(const Grid2D& grid, double bytes, std::string_view work,
-                    const Communicator& ranks) {
-  if (ranks.alone() && bytes < not_asked_for) return;
-  const NodeMemory memory = memory_of_nodes(bytes, ranks);
+                    const Communicator& communicator) {
+  if (communicator.alone() && bytes < not_asked_for) return;
+  const NodeMemory memory = memory_of_nodes(bytes, communicator);
   if (memory.suffices()) return;
   const std::string where =
       memory.nodes > 1 ? fmt::format(" on node {}, one of {},", memory.node, memory.nodes) : "";
   const std::string more =
-      ranks.alone() ? ""
+      communicator.alone() ? ""
                     : fmt::format("{:.0f} nodes, or ",
                                   std::ceil(memory.nodes * memory.needed / memory.available));
   throw InvalidInput(

@@ -65,7 +65,7 @@ struct NodeMemory {
 
 /// bytes: what this process is about to take. The processes of a machine share its memory.
 /// Collective.
-NodeMemory memory_of_nodes(double bytes, const Communicator& ranks);
+NodeMemory memory_of_nodes(double bytes, const Communicator& communicator);
 
 /// Throws InvalidInput "points: 4096 x 4096 need 721 MB of memory for WORK and 450 MB are
 /// available; use fewer points" where bytes do not fit: asked before the work, since the system
@@ -74,6 +74,6 @@ NodeMemory memory_of_nodes(double bytes, const Communicator& ranks);
 /// their own, those of a machine from the same memory; all of them throw, and name the machine and
 /// how many of its kind would do. Collective.
 void require_memory(const Grid2D& grid, double bytes, std::string_view work,
-                    const Communicator& ranks = {});
+                    const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -186,7 +186,7 @@ void TaskLoop::run(Index count, const std::function<void(Index)>& body) {
   around_ = here.loop;
   depth_ = here.depth;
   most_ = options_.at_once > 0 ? std::min(options_.at_once, threads) : threads;
-  const bool single = count <= 1 || most_ <= 1 || !options_.ranks.alone();
+  const bool single = count <= 1 || most_ <= 1 || !options_.communicator.alone();
   if (single || (!here.pool && omp_in_parallel())) {
     const Within this_loop({here.pool, this, here.depth});
     tell();
@@ -230,7 +230,7 @@ void TaskLoop::one_by_one() {
   for (Index task = 0; task < count_; ++task) {
     // One process may have been told to stop where the others were not. One that failed calls them
     // no more.
-    if (failure_ || !options_.ranks.all_agree(!stopped_)) stopped_ = true;
+    if (failure_ || !options_.communicator.all_agree(!stopped_)) stopped_ = true;
     if (stopped_ || closed_) return;
     perform(task);
     tell();

@@ -28,7 +28,7 @@ class TaskLoop {
     int at_once = 0;  ///< most tasks side by side, 1: in the calling thread; 0: one for each thread
     /// The processes that make the loop together. Of several, each does a task at a time, and
     /// begins another only where all go on.
-    Communicator ranks = {};
+    Communicator communicator = {};
     /// Called by the calling thread alone: at the beginning, when a task on it asks going_on() and
     /// the last call is a millisecond ago, after each such task, every 20 ms while it waits for
     /// others, and at the end. False stops the loop, and so does what it throws, which run() throws

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/surface/moments.hpp>
@@ -47,7 +47,7 @@ ForceSample force_sample(const NormalContactState& state, const Surface& surface
       stick.on_progress = options.contact.on_progress;
       const StickStiffness stiffness =
           stick_stiffness(contact_set(state), surface.grid, material, stick, true,
-                          punch_pressure * material.modulus_ratio(), surface.ranks);
+                          punch_pressure * material.modulus_ratio(), surface.communicator);
       sample.tangential_stiffness = stiffness.xx;
       sample.converged = sample.converged && stiffness.converged();
     } else if (std::isfinite(material.tangential_modulus)) {
@@ -123,7 +123,7 @@ void gather(const Groups& groups, Samples& samples) {
 
 ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                            const std::vector<double>& pressures, const SweepOptions& options) {
-  const Groups groups = options.groups.value_or(Groups(surface.ranks, 1));
+  const Groups groups = options.groups.value_or(Groups(surface.communicator, 1));
   collectively(groups.all(), [&] { surface.require_complete_rows("a contact calculation"); });
   validate(pressures);
   require(options.concurrent_loads >= 0, "concurrent_loads", options.concurrent_loads,
@@ -142,13 +142,13 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
   SweepOptions inner = options;
   const Progress& on_progress = options.contact.on_progress;
   std::atomic<double> residual = 0;  // of the contact that was heard of last
-  detail::TaskLoop loop({.at_once = concurrent, .ranks = surface.ranks, .talk = [&] {
+  detail::TaskLoop loop({.at_once = concurrent, .communicator = surface.communicator, .talk = [&] {
                            const int done = loop.finished();
                            return !on_progress ||
                                   on_progress({"sweep", double(done) / loads, done, residual});
                          }});
   // Processes that solve a contact together all ask, or none.
-  if (on_progress || surface.ranks.alone())
+  if (on_progress || surface.communicator.alone())
     inner.contact.on_progress = [&](const ProgressReport& report) {
       residual = report.residual;
       return loop.going_on();
@@ -160,7 +160,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
     if (state.termination == Termination::interrupted) return loop.stop();
     const ForceSample sample = force_sample(state, surface, material, inner);
     // A stiffness solve that was stopped half-way is not a load that failed.
-    if (!surface.ranks.all_agree(!loop.stopped() || sample.converged)) return loop.stop();
+    if (!surface.communicator.all_agree(!loop.stopped() || sample.converged)) return loop.stop();
     samples[k] = sample;
     if (options.on_state && state.converged()) options.on_state(k, state);
   });

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/surface_damping.hpp>
@@ -485,16 +485,16 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
 /// If a side has an odd number n of points, (n + 1)/2 share its length: slopes grow by 1/n, which
 /// counts as an error of the cells.
 Surface every_second(const Surface& surface) {
-  Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.ranks};
+  Surface coarse{surface.grid, {}, surface.periodic, surface.origin, surface.communicator};
   coarse.grid.nx = (surface.grid.nx + 1) / 2;
   coarse.grid.ny = (surface.grid.ny + 1) / 2;
   // Each process refines its own rows, which are not those that it has of the coarse grid.
-  const Share fine = surface.share(), rows = coarse.share();
+  const RowPartition fine = surface.partition(), rows = coarse.partition();
   std::vector<Index> begins;
-  for (int rank = 0; rank < surface.ranks.ranks(); ++rank)
+  for (int rank = 0; rank < surface.communicator.size(); ++rank)
     begins.push_back((fine.begin_of(rank) + 1) / 2);
   begins.push_back(coarse.grid.nx);
-  const Share found(surface.ranks, begins);
+  const RowPartition found(surface.communicator, begins);
   const Field mine =
       surface.heights(Eigen::seqN(2 * found.begin() - fine.begin(), found.count(), 2),
                       Eigen::seqN(0, coarse.grid.ny, 2));
@@ -520,7 +520,7 @@ Eigen::ArrayXd taper(Index count) {
 
 Surface windowed(Surface surface) {
   const double mean = height_statistics(surface).mean;
-  const Share rows = surface.share();
+  const RowPartition rows = surface.partition();
   const Eigen::ArrayXd x = taper(surface.grid.nx).segment(rows.begin(), rows.count()),
                        y = taper(surface.grid.ny);
   surface.heights = mean + (surface.heights - mean) * (x.matrix() * y.matrix().transpose()).array();
@@ -551,15 +551,15 @@ void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
 /// The contacts of some loads on one grid, side by side.
 void solve_on(const Surface& fine, const std::vector<Load*>& open,
               const SurfaceDampingOptions& options) {
-  const Communicator& ranks = fine.ranks;
+  const Communicator& communicator = fine.communicator;
   // Two loads of a surface that is spread would send through each other.
   const int wanted =
-      ranks.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
+      communicator.alone() ? std::min(static_cast<int>(open.size()), parallel::threads()) : 1;
   require_memory(fine.grid, wanted * detail::contact_memory(fine, {.boundary = options.boundary}),
                  wanted > 1 ? "contacts on all threads (fewer `threads` need less)" : "a contact",
-                 ranks);
+                 communicator);
   std::atomic<double> residual = 0;  // of the contact that was heard of last
-  detail::TaskLoop loop({.at_once = wanted, .ranks = ranks, .talk = [&] {
+  detail::TaskLoop loop({.at_once = wanted, .communicator = communicator, .talk = [&] {
                            const int done = loop.finished();
                            return !options.on_progress ||
                                   options.on_progress({"damping",
@@ -574,7 +574,7 @@ void solve_on(const Surface& fine, const std::vector<Load*>& open,
   loop.run(static_cast<Index>(open.size()), [&](Index turn) {
     open[open.size() - 1 - static_cast<std::size_t>(turn)]->solve(fine, progress);
   });
-  if (!ranks.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
+  if (!communicator.all_agree(!loop.stopped())) throw Interrupted("damping: interrupted");
 }
 
 }  // namespace
@@ -582,8 +582,8 @@ void solve_on(const Surface& fine, const std::vector<Load*>& open,
 std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Material& material,
                                             const Oscillation& motion, const ForceCurve& curve,
                                             const SurfaceDampingOptions& options) {
-  const Communicator& ranks = surface.ranks;
-  collectively(ranks, [&] { surface.require_complete_rows("a contact calculation"); });
+  const Communicator& communicator = surface.communicator;
+  collectively(communicator, [&] { surface.require_complete_rows("a contact calculation"); });
   validate(curve, options);
   std::vector<Load> loads;
   for (std::size_t k = 0; k < curve.samples.size(); ++k)

@@ -9,7 +9,7 @@
 #include <optional>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/half_space/material.hpp>
 #include <salebra/contact/law/force_curve.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
@@ -161,7 +161,7 @@ class Levels {
     stick.on_progress = options_.on_progress;
     const StickStiffness tangential =
         stick_stiffness(contact_set(state), surface_.grid, material, stick, true,
-                        punch_pressure * material.modulus_ratio(), surface_.ranks);
+                        punch_pressure * material.modulus_ratio(), surface_.communicator);
     converged_ = converged_ && tangential.converged();
     return {sample.force, tangential.xx / (material.modulus_ratio() * sample.stiffness)};
   }
@@ -193,7 +193,7 @@ class Levels {
     if (sample.indentation != last_at_) press(sample.indentation);
     NormalContactState state;
     state.contact_pressure = *last_;
-    state.ranks = surface_.ranks;
+    state.communicator = surface_.communicator;
     Field own;
     if (!punch_pressure) punch_pressure = &own;
     sample.stiffness =
@@ -208,7 +208,7 @@ class Levels {
   /// remains is round-off, so that forces of contacts at any distance may be subtracted.
   void correct_force(StiffnessSample& sample, const Field& punch_pressure) {
     const double sum = parallel::sum_blocks(
-        surface_.share(),
+        surface_.partition(),
         [&](Index begin, Index end) {
           double part = 0;
           for (Index k = begin * surface_.grid.ny; k < end * surface_.grid.ny; ++k)
@@ -247,7 +247,7 @@ class Levels {
     converged_ = converged_ && state.converged();
     StiffnessSample& sample = known_[state.indentation];
     const ContactSpots spots =
-        contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.ranks);
+        contact_spots(state.contact_pressure, surface_.grid, options_.boundary, surface_.communicator);
     sample.indentation = state.indentation;
     sample.force = state.force;
     sample.cells =

@@ -126,7 +126,7 @@ struct TangentialContact::State {
   void release(double new_indentation, double new_x) {
     const double descent = indentation - new_indentation, travel = new_x - x;
     auto position = [&](double level) { return x + (indentation - level) / descent * travel; };
-    auto share = [&](double stretch) {
+    auto partition = [&](double stretch) {
       if (std::isinf(slope_limit)) return 1.0;
       const double retreat = slope_limit * descent;
       const double pull = stretch > 0 ? retreat + travel : retreat - travel;

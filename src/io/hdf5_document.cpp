@@ -169,11 +169,11 @@ void Document::numbers(const std::string& path, std::span<double> values) const 
   read(path, object, 0, object.shape.empty() ? 1 : object.shape[0], values);
 }
 
-void Document::rows(const std::string& path, const Share& share, std::span<double> values) const {
+void Document::rows(const std::string& path, const RowPartition& partition, std::span<double> values) const {
   const Object& object = numeric(path);
-  const auto begin = static_cast<std::uint64_t>(share.begin()),
-             end = static_cast<std::uint64_t>(share.end());
-  if (object.shape.size() != 2 || object.shape[0] != static_cast<std::uint64_t>(share.rows()) ||
+  const auto begin = static_cast<std::uint64_t>(partition.begin()),
+             end = static_cast<std::uint64_t>(partition.end());
+  if (object.shape.size() != 2 || object.shape[0] != static_cast<std::uint64_t>(partition.rows()) ||
       values.size() != (end - begin) * object.shape[1])
     refuse(file_.path(), "has other rows in " + path);
   if (values.empty()) return;

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 #include <salebra/base/describe.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,7 +75,7 @@ class Document {
   /// Throws InvalidInput as numeric() does, and where they turn out to be damaged.
   void numbers(const std::string& path, std::span<double> values) const;
   /// Reads the rows of a field that a process holds.
-  void rows(const std::string& path, const Share& share, std::span<double> values) const;
+  void rows(const std::string& path, const RowPartition& partition, std::span<double> values) const;
 
  private:
   void read(const std::string& path, const Object& object, std::uint64_t begin, std::uint64_t end,

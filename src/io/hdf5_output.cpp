@@ -8,7 +8,7 @@
 #include <array>
 #include <bit>
 #include <numeric>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <salebra/base/version.hpp>
 
 namespace salebra::detail::hdf5 {
@@ -95,9 +95,9 @@ void require_free(hid_t group, const std::string& name) {
 }  // namespace
 
 Output::Output(const std::filesystem::path& file, const Provenance& provenance,
-               const WriteOptions& options, const Communicator& ranks, Fields fields)
-    : target_(file), ranks_(ranks), copies_fields_(ranks.alone() && fields == Fields::copied) {
-  if (!ranks_.is_root()) return;
+               const WriteOptions& options, const Communicator& communicator, Fields fields)
+    : target_(file), communicator_(communicator), copies_fields_(communicator.alone() && fields == Fields::copied) {
+  if (!communicator_.is_root()) return;
   atomic_.emplace(file, options);
   be_silent();
   closed_before_ = failed_closes();
@@ -117,7 +117,7 @@ Output::Output(const std::filesystem::path& file, const Provenance& provenance,
 }
 
 Group Output::group(const std::string& path) {
-  if (!ranks_.is_root()) return {};
+  if (!communicator_.is_root()) return {};
   const Properties links(H5Pcreate(H5P_LINK_CREATE), "prepare a group");
   check(H5Pset_create_intermediate_group(links, 1), "prepare a group");
   bool exists = true;
@@ -132,7 +132,7 @@ Group Output::group(const std::string& path) {
 
 template <class T>
 void Output::number(hid_t object, const std::string& name, const T& value) {
-  if (!ranks_.is_root()) return;
+  if (!communicator_.is_root()) return;
   const Types types = types_of(&value);
   const Space space(H5Screate(H5S_SCALAR), "write " + name);
   const Attribute attribute(
@@ -154,7 +154,7 @@ void Output::attribute(hid_t object, const std::string& name, std::uint64_t valu
 }
 
 void Output::attribute(hid_t object, const std::string& name, std::string_view value) {
-  if (!ranks_.is_root()) return;
+  if (!communicator_.is_root()) return;
   // Variable length: h5py and xarray read it as str, fixed length as bytes; and it may exceed the
   // 64 KiB of an object header.
   const Type type = text_type(H5T_VARIABLE);
@@ -204,7 +204,7 @@ Dataset Output::create(hid_t group, const std::string& name, const T* values,
 template <class T>
 Dataset Output::dataset(hid_t group, const std::string& name, const T* values, std::size_t count,
                         const std::vector<std::string>& dimensions, const Label& label) {
-  if (!ranks_.is_root()) return {};
+  if (!communicator_.is_root()) return {};
   const Scales scales = scales_of(group, name, dimensions);
   require(points_of(scales.shape) == count, name, count,
           "values do not fill " + joined(scales.shape));
@@ -222,7 +222,7 @@ Dataset Output::field(hid_t group, const std::string& name, const Field& values,
     return dataset(group, name, rounded.data(), count, dimensions, label);
   }
   fields_.push_back({&values, type});
-  if (!ranks_.is_root()) return {};
+  if (!communicator_.is_root()) return {};
   const Scales scales = scales_of(group, name, dimensions);
   const auto first = static_cast<float>(*values.data());
   Dataset result = single ? create(group, name, &first, scales.shape, label, true)
@@ -238,14 +238,14 @@ Dataset Output::field(hid_t group, const std::string& name, const Field& values,
 template <class T>
 void Output::scale(hid_t group, const std::string& name, const T* values, std::size_t count,
                    const Label& label) {
-  if (!ranks_.is_root()) return;
+  if (!communicator_.is_root()) return;
   const Dataset dataset = create(group, name, values, {count}, label);
   check(H5DSset_scale(dataset, name.c_str()), "write " + name);
 }
 
 void Output::text_scale(hid_t group, const std::string& name,
                         const std::vector<std::string>& values, const std::string& long_name) {
-  if (!ranks_.is_root()) return;
+  if (!communicator_.is_root()) return;
   require_free(group, name);
   std::vector<const char*> pointers;
   for (const std::string& value : values) pointers.push_back(value.c_str());
@@ -272,11 +272,11 @@ void Output::write_without_fields() {
 }
 
 void Output::commit() {
-  collectively(ranks_, [&] {
-    if (ranks_.is_root()) write_without_fields();
+  collectively(communicator_, [&] {
+    if (communicator_.is_root()) write_without_fields();
   });
   if (!copies_fields_) write_fields();
-  collectively(ranks_, [&] {
+  collectively(communicator_, [&] {
     if (atomic_) atomic_->commit();
   });
 }
@@ -285,22 +285,22 @@ void Output::write_fields() {
   static_assert(std::endian::native == std::endian::little);
   std::string temporary = atomic_ ? atomic_->temporary().string() : "";
   std::array<std::size_t, 2> lengths{temporary.size(), spread_.size()};
-  ranks_.broadcast(lengths.data(), sizeof lengths);
+  communicator_.broadcast(lengths.data(), sizeof lengths);
   temporary.resize(lengths[0]);
-  ranks_.broadcast(temporary.data(), temporary.size());
+  communicator_.broadcast(temporary.data(), temporary.size());
   spread_.resize(lengths[1]);
-  ranks_.broadcast(spread_.data(), spread_.size() * sizeof(Spread));
-  collectively(ranks_, [&] {
+  communicator_.broadcast(spread_.data(), spread_.size() * sizeof(Spread));
+  collectively(communicator_, [&] {
     require(fields_.size() == spread_.size(), "result file", fields_.size(),
             "fields are given by one process, and others by another");
     const OthersFile file(temporary, target_);
     for (std::size_t k = 0; k < spread_.size(); ++k) {
       const auto& [place, rows, columns] = spread_[k];
-      const Share share(ranks_, rows);
+      const RowPartition share(communicator_, rows);
       const Field& mine = *fields_[k].values;
-      require(mine.rows() == share.count() && mine.cols() == columns, "field", mine.rows(),
+      require(mine.rows() == partition.count() && mine.cols() == columns, "field", mine.rows(),
               "rows are not those of this process");
-      const auto begin = static_cast<std::uint64_t>(share.begin() * columns);
+      const auto begin = static_cast<std::uint64_t>(partition.begin() * columns);
       if (mine.size() > 0 && fields_[k].type == FieldType::float32)
         write_rounded(target_, file.descriptor(), place + begin * sizeof(float), mine);
       else if (mine.size() > 0)

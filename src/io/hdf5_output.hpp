@@ -35,7 +35,7 @@ class Output {
   enum class Fields { copied, stay };
   /// Not collective: a failure must be made known before commit(), by collectively().
   Output(const std::filesystem::path& file, const Provenance& provenance,
-         const WriteOptions& options, const Communicator& ranks = {},
+         const WriteOptions& options, const Communicator& communicator = {},
          Fields fields = Fields::copied);
 
   hid_t root() const { return root_; }
@@ -85,7 +85,7 @@ class Output {
   };
 
   std::filesystem::path target_;
-  Communicator ranks_;
+  Communicator communicator_;
   bool copies_fields_;                ///< to the pages, as this process has all of them
   std::optional<AtomicFile> atomic_;  ///< of the root
   std::vector<Spread> spread_;        ///< of the root, until commit()

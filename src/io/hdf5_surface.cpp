@@ -132,13 +132,13 @@ LoadedSurface read_profile(const Document& document, const std::string& name,
 }  // namespace
 
 LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& channel,
-                        const Communicator& ranks) {
+                        const Communicator& communicator) {
   const Document document{InputFile(file)};
   LoadedSurface surface;
   const std::string name = heights_name(document, channel, surface);
   const Object& heights = document.dataset(name);
   const Object& root = document.group("/");
-  if (heights.shape.size() == 1 && ranks.alone())
+  if (heights.shape.size() == 1 && communicator.alone())
     return read_profile(document, name, std::move(surface));
   if (heights.shape.size() != 2 || heights.shape[0] == 0 || heights.shape[1] == 0)
     refuse(document.path(),
@@ -153,10 +153,10 @@ LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& ch
   if (const auto periodic = number("periodic")) surface.periodic = *periodic != 0;
   surface.unit = unit_of(document, heights);
   surface.stated_unit = root.text("source_units").value_or("");
-  const Share share(ranks, static_cast<Index>(heights.shape[0]));
-  surface.rows = share.rows();
-  surface.heights = heights_of(file, share.count(), static_cast<Index>(heights.shape[1]));
-  document.rows(name, share,
+  const RowPartition share(communicator, static_cast<Index>(heights.shape[0]));
+  surface.rows = partition.rows();
+  surface.heights = heights_of(file, partition.count(), static_cast<Index>(heights.shape[1]));
+  document.rows(name, partition,
                 {surface.heights.data(), static_cast<std::size_t>(surface.heights.size())});
   unpack(document, heights,
          {surface.heights.data(), static_cast<std::size_t>(surface.heights.size())});

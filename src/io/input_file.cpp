@@ -132,12 +132,12 @@ bool InputFile::may_be_hdf5() const {
 
 }  // namespace detail
 
-void require_one_file(const std::filesystem::path& file, const Communicator& ranks) {
-  if (ranks.alone()) return;
+void require_one_file(const std::filesystem::path& file, const Communicator& communicator) {
+  if (communicator.alone()) return;
   struct stat status = {};
   const bool there = stat(file.c_str(), &status) == 0;
   const std::vector<std::string> copies =
-      ranks.gather_all(there ? fmt::format("{} {} {} {}", status.st_ino, status.st_size,
+      communicator.gather_all(there ? fmt::format("{} {} {} {}", status.st_ino, status.st_size,
                                            status.st_mtim.tv_sec, status.st_mtim.tv_nsec)
                              : "");
   const auto require_equal = [&](const std::vector<std::string>& all) {
@@ -151,15 +151,15 @@ void require_one_file(const std::filesystem::path& file, const Communicator& ran
   };
   if (std::ranges::count(copies, copies.front()) == std::ssize(copies)) return;
   if (std::ranges::find(copies, "") != copies.end()) return require_equal(copies);
-  const auto mine = copies.begin() + ranks.rank();
+  const auto mine = copies.begin() + communicator.rank();
   const bool first = std::find(copies.begin(), mine, *mine) == mine;
   std::string content;
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     if (!first) return;
     const detail::InputFile input(file);
     content = fmt::format("{} {}", input.size(), input.checksum());
   });
-  std::vector<std::string> contents = ranks.gather_all(content);
+  std::vector<std::string> contents = communicator.gather_all(content);
   // Those of one copy have what its first process read.
   for (std::size_t rank = 0; rank < contents.size(); ++rank)
     contents[rank] = contents[static_cast<std::size_t>(std::ranges::find(copies, copies[rank]) -

@@ -103,6 +103,6 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
 /// The reader of HDF5; those of other formats are in surface_formats.cpp.
 /// ranks: each gets its rows.
 LoadedSurface read_hdf5(const std::filesystem::path& file, const std::string& channel = {},
-                        const Communicator& ranks = {});
+                        const Communicator& communicator = {});
 
 }  // namespace salebra::detail

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/crop.hpp>
@@ -361,26 +361,26 @@ ReadSurface completed(const std::filesystem::path& file, LoadedSurface loaded,
 namespace {
 
 /// The rows of each process of a surface that the root holds.
-Surface spread(const Surface& surface, const Communicator& ranks) {
+Surface spread(const Surface& surface, const Communicator& communicator) {
   std::string origin = surface.origin;
   struct {
     Grid2D grid;
     std::size_t length;
     bool periodic;
   } head{surface.grid, origin.size(), surface.periodic};
-  ranks.broadcast(&head, sizeof head);
+  communicator.broadcast(&head, sizeof head);
   origin.resize(head.length);
-  ranks.broadcast(origin.data(), origin.size());
-  Surface rows{head.grid, {}, head.periodic, origin, ranks};
-  rows.heights = scattered(rows.share(), head.grid.ny, surface.heights);
+  communicator.broadcast(origin.data(), origin.size());
+  Surface rows{head.grid, {}, head.periodic, origin, communicator};
+  rows.heights = scattered(rows.partition(), head.grid.ny, surface.heights);
   return rows;
 }
 
 /// Those of the root in all processes.
-void share(std::vector<std::string>& lines, const Communicator& ranks) {
+void share(std::vector<std::string>& lines, const Communicator& communicator) {
   std::string text;
   for (const std::string& line : lines) text += line + '\n';
-  std::istringstream of_root(ranks.gather_all(text).front());
+  std::istringstream of_root(communicator.gather_all(text).front());
   lines.clear();
   for (std::string line; std::getline(of_root, line);) lines.push_back(line);
 }
@@ -522,23 +522,23 @@ Surface read_whole(const std::filesystem::path& file, const ReadOptions& options
 void set_surface_importer(SurfaceImporter importer) { surface_importer = importer; }
 
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options,
-                     const Communicator& ranks) {
-  if (ranks.alone()) return read_whole(file, options);
+                     const Communicator& communicator) {
+  if (communicator.alone()) return read_whole(file, options);
   const bool changed = options.transpose || options.despike || options.crop;
   bool by_rows = false;
-  collectively(ranks, [&] { by_rows = ranks.is_root() && !changed && detail::is_hdf5(file); });
-  ranks.broadcast(&by_rows, sizeof by_rows);
+  collectively(communicator, [&] { by_rows = communicator.is_root() && !changed && detail::is_hdf5(file); });
+  communicator.broadcast(&by_rows, sizeof by_rows);
   if (by_rows) {
     const std::size_t before = options.warnings ? options.warnings->size() : 0;
     // Each process reads its rows itself.
-    require_one_file(file, ranks);
+    require_one_file(file, communicator);
     detail::ReadSurface rows;
-    collectively(ranks, [&] {
-      rows = detail::completed(file, detail::read_hdf5(file, options.channel, ranks), options);
+    collectively(communicator, [&] {
+      rows = detail::completed(file, detail::read_hdf5(file, options.channel, communicator), options);
     });
-    rows.surface.ranks = ranks;
+    rows.surface.communicator = communicator;
     const bool complete = options.undefined == Undefined::keep ||
-                          ranks.all_agree(rows.surface.undefined_points() == 0);
+                          communicator.all_agree(rows.surface.undefined_points() == 0);
     if (complete) {
       warn_of_heights(file, rows, options);
       return std::move(rows.surface);
@@ -546,11 +546,11 @@ Surface read_surface(const std::filesystem::path& file, const ReadOptions& optio
     if (options.warnings) options.warnings->resize(before);
   }
   Surface surface;
-  collectively(ranks, [&] {
-    if (ranks.is_root()) surface = read_whole(file, options);
+  collectively(communicator, [&] {
+    if (communicator.is_root()) surface = read_whole(file, options);
   });
-  if (options.warnings) share(*options.warnings, ranks);
-  return spread(surface, ranks);
+  if (options.warnings) share(*options.warnings, communicator);
+  return spread(surface, communicator);
 }
 
 }  // namespace salebra

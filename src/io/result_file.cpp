@@ -108,9 +108,9 @@ void ResultGroup::attribute(const std::string& name, std::string_view value) {
 }
 
 ResultFile::ResultFile(const std::filesystem::path& file, const Provenance& provenance,
-                       const WriteOptions& options, const Communicator& ranks)
+                       const WriteOptions& options, const Communicator& communicator)
     : state_(std::make_unique<State>()) {
-  state_->output = std::make_shared<Output>(file, provenance, options, ranks);
+  state_->output = std::make_shared<Output>(file, provenance, options, communicator);
 }
 
 ResultFile::ResultFile(ResultFile&&) noexcept = default;

@@ -75,11 +75,11 @@ Field ResultReader::field(const std::string& dataset) const {
   return values;
 }
 
-Field ResultReader::field(const std::string& dataset, const Share& share) const {
+Field ResultReader::field(const std::string& dataset, const RowPartition& partition) const {
   const auto& extents = state_->document.numeric(dataset).shape;
   if (extents.size() != 2) detail::refuse(file(), "has no field in " + dataset);
-  Field values(share.count(), static_cast<Index>(extents[1]));
-  state_->document.rows(dataset, share, {values.data(), static_cast<std::size_t>(values.size())});
+  Field values(partition.count(), static_cast<Index>(extents[1]));
+  state_->document.rows(dataset, partition, {values.data(), static_cast<std::size_t>(values.size())});
   return values;
 }
 

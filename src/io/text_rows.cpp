@@ -199,7 +199,7 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
     if (matrix.rows < 4)
       first_rows.push_back({lines.number(), std::string(content.substr(0, 100))});
     ++matrix.rows;
-    if (matrix.rows == enough_rows) make_room(matrix, lines.share());
+    if (matrix.rows == enough_rows) make_room(matrix, lines.partition());
   }
   if (matrix.rows == 0)
     refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");

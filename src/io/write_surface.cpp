@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/base/version.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
@@ -28,8 +28,8 @@ namespace salebra::detail {
 void write_hdf5(const std::filesystem::path& file, const Surface& surface,
                 const Provenance& provenance, const WriteOptions& options) {
   std::optional<hdf5::Output> output;
-  collectively(surface.ranks, [&] {
-    output.emplace(file, provenance, options, surface.ranks, hdf5::Output::Fields::stay);
+  collectively(surface.communicator, [&] {
+    output.emplace(file, provenance, options, surface.communicator, hdf5::Output::Fields::stay);
     const Grid2D& grid = surface.grid;
     const std::vector<double> x = positions(grid.nx, grid.dx()), y = positions(grid.ny, grid.dy());
     output->scale(output->root(), "x", x.data(), x.size(), {"m", "position along x"});
@@ -151,9 +151,9 @@ void write_surface(const std::filesystem::path& file, const Surface& surface,
   const detail::SurfaceFormatEntry& format = written_format(file);
   if (format.write != detail::write_hdf5)
     surface.require_whole("a file of the format " + file.extension().string());
-  collectively(surface.ranks, [&] {
+  collectively(surface.communicator, [&] {
     surface.grid.validate();
-    require(surface.heights.rows() == surface.share().count() &&
+    require(surface.heights.rows() == surface.partition().count() &&
                 surface.heights.cols() == surface.grid.ny,
             "heights", surface.heights.size(), "points do not match the grid");
   });

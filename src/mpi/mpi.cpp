@@ -78,7 +78,7 @@ class MpiTransport : public detail::Transport {
   }
 
   int rank() const override { return rank_; }
-  int ranks() const override { return ranks_; }
+  int size() const override { return ranks_; }
 
   void broadcast(void* bytes, std::size_t count, int from) override {
     // In pieces, for a count is an int.
@@ -170,15 +170,15 @@ Session::~Session() {
   MPI_Finalize();
 }
 
-Communicator Session::ranks() const { return communicator(MPI_COMM_WORLD); }
+Communicator Session::communicator() const { return mpi::communicator(MPI_COMM_WORLD); }
 
 Communicator Session::ranks_of_node() const {
   MPI_Comm node = MPI_COMM_NULL;
   check(MPI_Comm_split_type(meeting_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node),
         "MPI_Comm_split_type");
-  Communicator ranks = communicator(node);
+  Communicator of_node = communicator(node);
   MPI_Comm_free(&node);
-  return ranks;
+  return of_node;
 }
 
 bool Session::all_here(std::chrono::milliseconds patience) {

@@ -37,7 +37,7 @@ class Session {
   ~Session();
 
   /// All processes, and those of them that share this one's memory. Collective.
-  Communicator ranks() const;
+  Communicator communicator() const;
   Communicator ranks_of_node() const;
   /// Waits until all processes have called this. False: some did not in time, for they compute, or
   /// wait for this one elsewhere; another call waits on.

@@ -89,7 +89,7 @@ class CaseRun {
       if (mine.realisation) found.push_back(std::move(mine));
       return found;
     }
-    std::vector<std::size_t> places(std::size_t(all.ranks()));
+    std::vector<std::size_t> places(std::size_t(all.size()));
     all.gather_all(&mine.place, std::vector(places.size(), sizeof mine.place), places.data());
     const std::vector<std::string> records =
         all.gather_all(mine.realisation ? encode({{}, *mine.realisation}, 0) : "");
@@ -249,7 +249,7 @@ class CaseRun {
   PrecisionRule precision_;
   std::atomic<std::size_t> limit_ = std::numeric_limits<std::size_t>::max();
   std::mutex guard_;
-  TaskLoop loop_{{.at_once = 0, .ranks = {}, .talk = [this] { return report(); }}};
+  TaskLoop loop_{{.at_once = 0, .communicator = {}, .talk = [this] { return report(); }}};
   bool stop_ = false;  // of several processes, as failure_
   std::exception_ptr failure_;
 };
@@ -283,11 +283,11 @@ void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& p
 
 Realisation realise(const StudyConfiguration& configuration, std::uint64_t seed,
                     const std::vector<double>& pressures, const Progress& progress,
-                    const Communicator& ranks) {
+                    const Communicator& communicator) {
   const Progress begun = [&](const ProgressReport&) {
     return !progress || progress({.stage = "realisation"});
   };
-  return analyse_realisation(study_surface(configuration, seed, begun, ranks), configuration, seed,
+  return analyse_realisation(study_surface(configuration, seed, begun, communicator), configuration, seed,
                              pressures, progress);
 }
 

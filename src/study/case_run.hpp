@@ -24,7 +24,7 @@ void require_some_of(StudyParts& parts, const std::vector<StudyConfiguration>& p
 /// it. ranks: the processes over which the surface is spread; collective. Throws as both do.
 Realisation realise(const StudyConfiguration& configuration, std::uint64_t seed,
                     const std::vector<double>& pressures, const Progress& progress,
-                    const Communicator& ranks = {});
+                    const Communicator& communicator = {});
 
 /// The rule by which a precision ends an ensemble.
 class PrecisionRule {

@@ -106,7 +106,7 @@ ModelResult boundary_elements(ModelWork& work) {
   if (work.configuration.flow_factors) realisation.flow.resize(work.pressures.size());
   sweep.on_state = [&](std::size_t k, const NormalContactState& state) {
     realisation.spots[k] = spot_statistics(
-        contact_spots(state.contact_pressure, surface.grid, Boundary::periodic, surface.ranks),
+        contact_spots(state.contact_pressure, surface.grid, Boundary::periodic, surface.communicator),
         surface.grid);
     if (work.configuration.flow_factors)
       if (const FlowFactors flow = flow_factors(state, surface.grid); flow.converged())

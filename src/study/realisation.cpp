@@ -8,7 +8,7 @@
 #include <optional>
 #include <salebra/analysis/slip.hpp>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/law/law.hpp>
 #include <salebra/damping/dissipation.hpp>
 #include <salebra/study/realisation.hpp>
@@ -28,7 +28,7 @@ namespace {
 double seam_step(const Surface& surface) {
   const Field& h = surface.heights;
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
-  const Share rows = surface.share();
+  const RowPartition rows = surface.partition();
   const auto square = [](double step) { return step * step; };
   const double along_y = parallel::sum_blocks(rows, [&](Index begin, Index end) {
     double sum = 0;
@@ -50,18 +50,18 @@ double seam_step(const Surface& surface) {
 
 /// The summits of all processes, in the order of one process, in the first of them.
 SummitList gathered(SummitList list, const Grid2D& grid) {
-  const Communicator& ranks = list.ranks;
-  if (ranks.alone()) return list;
+  const Communicator& communicator = list.communicator;
+  if (communicator.alone()) return list;
   std::vector<Index> begins{0};
-  for (const std::string& count : ranks.gather_all(std::to_string(list.summits.size())))
+  for (const std::string& count : communicator.gather_all(std::to_string(list.summits.size())))
     begins.push_back(begins.back() + std::stoll(count));
   static_assert(std::is_trivially_copyable_v<Summit> && sizeof(Summit) % sizeof(double) == 0);
   constexpr Index width = sizeof(Summit) / sizeof(double);
-  require_memory(grid, ranks.is_root() ? 3.0 * double(begins.back()) * sizeof(Summit) : 0,
-                 "all summits in the first process", ranks);
+  require_memory(grid, communicator.is_root() ? 3.0 * double(begins.back()) * sizeof(Summit) : 0,
+                 "all summits in the first process", communicator);
   Field mine(Index(list.summits.size()), width);
   std::memcpy(mine.data(), list.summits.data(), list.summits.size() * sizeof(Summit));
-  const Field all = gathered(Share(ranks, begins), mine);
+  const Field all = gathered(RowPartition(communicator, begins), mine);
   SummitList whole{std::vector<Summit>(std::size_t(all.rows())), list.searched_area};
   std::memcpy(static_cast<void*>(whole.summits.data()), all.data(),
               whole.summits.size() * sizeof(Summit));
@@ -313,7 +313,7 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configu
   const ResidualSurface loaded =
       first_loaded(std::move(drawn), configuration, pressures.back(), part(0));
   const Surface& surface = loaded.surface;
-  const Communicator& ranks = surface.ranks;
+  const Communicator& communicator = surface.communicator;
   SummitList summits = find_summits(surface);
   Realisation realisation = described(loaded, summits);
   realisation.seed = seed;
@@ -336,10 +336,10 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configu
     if (bem)
       result = model.press(work);
     else
-      collectively(ranks, [&] {
-        if (ranks.is_root()) result = model.press(work);
+      collectively(communicator, [&] {
+        if (communicator.is_root()) result = model.press(work);
       });
-    if (!ranks.all_agree(!stopped)) throw Interrupted("study: interrupted");
+    if (!communicator.all_agree(!stopped)) throw Interrupted("study: interrupted");
     result.model = model.id;
     if (bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
@@ -348,7 +348,7 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configu
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;
   }
-  if (!realisation.picture.empty()) realisation.picture.gather(ranks);
+  if (!realisation.picture.empty()) realisation.picture.gather(communicator);
   std::vector<double> corrected;
   for (const SpotStatistics& spots : realisation.spots)
     corrected.push_back(spots.corrected_area_fraction);

@@ -218,7 +218,7 @@ class ShardRun {
   std::vector<std::atomic<double>> fractions_;
   std::vector<RealisationReport> news_;
   std::mutex guard_;
-  detail::TaskLoop loop_{{.at_once = 0, .ranks = {}, .talk = [this] { return report(); }}};
+  detail::TaskLoop loop_{{.at_once = 0, .communicator = {}, .talk = [this] { return report(); }}};
 };
 
 }  // namespace

@@ -74,7 +74,7 @@ void warn(StudyResult& result) {
 
 /// What takes a surface whole.
 void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
-  if (groups.all().ranks() == groups.count()) return;
+  if (groups.all().size() == groups.count()) return;
   constexpr const char* why =
       "needs each surface whole, and groups of several processes spread them; use groups of one "
       "process each, or one process";
@@ -94,7 +94,7 @@ void require_room(const StudyResult& result, const Groups& groups) {
                           "the surfaces of all threads (fewer `threads` need less)");
   const SurfaceWork work =
       surface_work(point, result.grid, {result.pressures.back() / result.contact_scale},
-                   {.ranks = groups.all().ranks(), .groups = groups.count()});
+                   {.ranks = groups.all().size(), .groups = groups.count()});
   require_memory(result.grid, surface_memory(work),
                  groups.count() > 1 ? "the surfaces of all groups (fewer groups need less)"
                                     : "a surface of the study",

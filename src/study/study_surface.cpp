@@ -19,32 +19,32 @@ namespace salebra {
 namespace {
 
 Surface generate(const GeneratedSurfaces& recipe, std::uint64_t seed, const Progress& progress,
-                 const Communicator& ranks) {
+                 const Communicator& communicator) {
   const auto spectrum = recipe.spectrum_of(seed);
   return recipe.method == GenerationMethod::random_phase
-             ? random_phase(recipe.grid, *spectrum, seed, progress, ranks)
-             : filtered_noise(recipe.grid, *spectrum, seed, progress, ranks);
+             ? random_phase(recipe.grid, *spectrum, seed, progress, communicator)
+             : filtered_noise(recipe.grid, *spectrum, seed, progress, communicator);
 }
 
 }  // namespace
 
-Surface measured_surface(const MeasuredSurface& recipe, const Communicator& ranks,
+Surface measured_surface(const MeasuredSurface& recipe, const Communicator& communicator,
                          std::vector<std::string>* warnings) {
   require_that(!recipe.file.empty(), "surface",
                "none is given; name a file, or describe surfaces to generate");
   ReadOptions options = recipe.reading();
   options.warnings = warnings;
-  Surface surface = read_surface(recipe.file, options, ranks);
-  collectively(ranks, [&] { surface.require_complete_rows("a study"); });
+  Surface surface = read_surface(recipe.file, options, communicator);
+  collectively(communicator, [&] { surface.require_complete_rows("a study"); });
   const Detrend trend = recipe.detrend.value_or(default_detrend(surface));
   return detrended(std::move(surface), trend);
 }
 
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
-                      const Progress& progress, const Communicator& ranks) {
+                      const Progress& progress, const Communicator& communicator) {
   if (const auto* recipe = std::get_if<GeneratedSurfaces>(&configuration.surfaces))
-    return generate(*recipe, seed, progress, ranks);
-  return measured_surface(std::get<MeasuredSurface>(configuration.surfaces), ranks);
+    return generate(*recipe, seed, progress, communicator);
+  return measured_surface(std::get<MeasuredSurface>(configuration.surfaces), communicator);
 }
 
 namespace {
@@ -75,7 +75,7 @@ void require_below_hardness(const StudyConfiguration& configuration, StudyLoads&
 
 }  // namespace
 
-StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks) {
+StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& communicator) {
   StudyLoads loads{.pressures = configuration.pressures};
   std::optional<std::string> warning;
   double slope = 0;
@@ -86,7 +86,7 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     grid = recipe->grid;
   } else {
     const auto& measured = std::get<MeasuredSurface>(configuration.surfaces);
-    const Surface surface = measured_surface(measured, ranks, &loads.warnings);
+    const Surface surface = measured_surface(measured, communicator, &loads.warnings);
     slope = surface_moments(surface).rms_slope();
     grid = surface.grid;
   }

@@ -67,7 +67,7 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   picture.step_x = double(picture.stride) * grid.dx();
   picture.step_y = double(picture.stride) * grid.dy();
   const double mean = height_statistics(surface).mean;
-  const Share rows = surface.share(), mapped = picture.rows_of(surface);
+  const RowPartition rows = surface.partition(), mapped = picture.rows_of(surface);
   const Field mine = surface.heights(
       Eigen::seqN(mapped.begin() * picture.stride - rows.begin(), mapped.count(), picture.stride),
       Eigen::seqN(0, picture.ny, picture.stride));
@@ -92,7 +92,7 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
     if (hurst.found()) picture.law = "fitted";
   }
 
-  if (!surface.ranks.is_root()) return picture;
+  if (!surface.communicator.is_root()) return picture;
   const Grid2D cells{picture.nx, picture.ny, double(picture.nx), double(picture.ny)};
   const HeightHistogram histogram = height_histogram(BearingCurve({cells, heights, false, ""}));
   for (std::size_t i = 0; i < histogram.height.size(); ++i) {
@@ -102,20 +102,20 @@ SurfacePicture picture_of(const Surface& surface, const StudyConfiguration& conf
   return picture;
 }
 
-Share SurfacePicture::rows_of(const Surface& surface) const {
-  const Share rows = surface.share();
+RowPartition SurfacePicture::rows_of(const Surface& surface) const {
+  const RowPartition rows = surface.partition();
   std::vector<Index> begins;
-  for (int rank = 0; rank < surface.ranks.ranks(); ++rank)
+  for (int rank = 0; rank < surface.communicator.size(); ++rank)
     begins.push_back((rows.begin_of(rank) + stride - 1) / stride);
   begins.push_back(nx);
-  return {surface.ranks, begins};
+  return {surface.communicator, begins};
 }
 
 void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state,
                                  const Surface& surface) {
   if (k == mapped_load) contact_pressure.clear(), gap.clear();
   std::size_t point = 0;
-  for (Index ix = rows_of(surface).begin() * stride - surface.share().begin();
+  for (Index ix = rows_of(surface).begin() * stride - surface.partition().begin();
        ix < state.contact_pressure.rows(); ix += stride) {
     for (Index iy = 0; iy < state.contact_pressure.cols(); iy += stride, ++point) {
       std::int16_t& first = first_load[point];
@@ -128,14 +128,14 @@ void SurfacePicture::add_contact(std::int16_t k, const NormalContactState& state
   }
 }
 
-void SurfacePicture::gather(const Communicator& ranks) {
+void SurfacePicture::gather(const Communicator& communicator) {
   const auto join = [&](auto& values) {
     using Value = std::remove_cvref_t<decltype(values.front())>;
     const std::string mine(reinterpret_cast<const char*>(values.data()),
                            values.size() * sizeof(Value));
     std::string all;
-    for (const std::string& part : ranks.gather_all(mine)) all += part;
-    if (!ranks.is_root()) return;
+    for (const std::string& part : communicator.gather_all(mine)) all += part;
+    if (!communicator.is_root()) return;
     values.resize(all.size() / sizeof(Value));
     std::memcpy(values.data(), all.data(), all.size());
   };

@@ -128,7 +128,7 @@ void set_gradients(ArealParameters& result, const Surface& surface) {
   };
   const Index columns = surface.periodic ? grid.ny : grid.ny - 1;
   Sums total;
-  for (const Sums& block : parallel::map_blocks<Sums>(surface.share(), [&](Index begin, Index end) {
+  for (const Sums& block : parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
          Sums sums;
          for (Index ix = begin; ix < end; ++ix) {
            const double *here = rows[ix], *right = rows[ix + 1];
@@ -204,7 +204,7 @@ ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts
   result.Sp = heights.maximum - heights.mean;
   result.Sv = heights.mean - heights.minimum;
   result.Sz = heights.maximum - heights.minimum;
-  result.Sa = parallel::sum_blocks(surface.share(),
+  result.Sa = parallel::sum_blocks(surface.partition(),
                                    [&](Index begin, Index end) {
                                      double sum = 0;
                                      for (Index ix = begin; ix < end; ++ix)
@@ -219,7 +219,7 @@ ArealParameters areal_parameters(const Surface& surface, const ArealParts& parts
   require(surface.grid.nx >= 3, "nx", surface.grid.nx, "must be >= 3 to have peaks");
   require(surface.grid.ny >= 3, "ny", surface.grid.ny, "must be >= 3 to have peaks");
   set_gradients(result, surface);
-  if (surface.ranks.alone()) {
+  if (surface.communicator.alone()) {
     set_of_whole(result, surface, parts);
   } else {
     for (double* parameter : {&result.Sal, &result.Str, &result.Std, &result.Sk, &result.Spk,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <span>
 #include <vector>
 
@@ -52,7 +52,7 @@ double student(const Eigen::Array4Xd& of_parts) {
 double along(const Surface& surface, Axis axis) {
   const Index n = axis == Axis::x ? surface.grid.nx : surface.grid.ny;
   const double step = axis == Axis::x ? surface.grid.dx() : surface.grid.dy();
-  const Share profiles = profiles_of(surface, axis);
+  const RowPartition profiles = profiles_of(surface, axis);
   // A few profiles are cut along their length alone.
   const Index groups = profiles.rows() < parts ? 1 : 6, pieces = parts / groups;
   std::vector<Index> lags;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/correlation.hpp>
 #include <salebra/surface/moments.hpp>
 
@@ -42,7 +42,7 @@ class PairSums {
         [&](Index j, std::span<std::complex<double>> column) {
           std::ranges::copy(column, modes.get() + j * nx_);
         },
-        Share(nx_), Share(columns));
+        RowPartition(nx_), RowPartition(columns));
     return modes;
   }
 
@@ -146,7 +146,7 @@ Correlation radial_correlation(const CorrelationMap& map, int bins_per_octave) {
   const detail::RingMeans<2> rings(std::min(map.grid.dx(), map.grid.dy()), longest,
                                    bins_per_octave);
   const std::vector<double> sums = parallel::sum_blocks(
-      Share(map.pairs.rows()), rings.size(),
+      RowPartition(map.pairs.rows()), rings.size(),
       [&](Index begin, Index end, std::span<double> of_block) {
         for (Index row = begin; row < end; ++row) {
           std::size_t ring = 0;

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <salebra/surface/detrend.hpp>
 #include <salebra/surface/moments.hpp>
 #include <vector>
@@ -33,19 +33,19 @@ Eigen::Vector<double, Terms> terms_at(double x, double y) {
 template <int Terms>
 void subtract_fit(Surface& surface) {
   const Index nx = surface.grid.nx, ny = surface.grid.ny;
-  const Share share = surface.share();
+  const RowPartition partition = surface.partition();
   const double mean = height_statistics(surface).mean;
   // The rows of the normal equations' matrix, then their right side.
   constexpr std::size_t equations = Terms, numbers = equations * (equations + 1);
   using Sums = std::array<double, numbers>;
   Sums total{};
-  for (const Sums& block : parallel::map_blocks<Sums>(share, [&](Index begin, Index end) {
+  for (const Sums& block : parallel::map_blocks<Sums>(partition, [&](Index begin, Index end) {
          Sums sums{};
          for (Index row = begin; row < end; ++row) {
            for (Index iy = 0; iy < ny; ++iy) {
              const double height = surface.heights(row, iy);
              if (std::isnan(height)) continue;
-             const auto terms = terms_at<Terms>(centred(share.begin() + row, nx), centred(iy, ny));
+             const auto terms = terms_at<Terms>(centred(partition.begin() + row, nx), centred(iy, ny));
              for (std::size_t a = 0; a < equations; ++a) {
                const double term = terms(static_cast<Index>(a));
                for (std::size_t b = 0; b < equations; ++b)
@@ -60,11 +60,11 @@ void subtract_fit(Surface& surface) {
   const Eigen::Map<const Eigen::Matrix<double, Terms, Terms, Eigen::RowMajor>> normal(total.data());
   const Eigen::Map<const Eigen::Vector<double, Terms>> right(total.data() + Terms * Terms);
   const Eigen::Vector<double, Terms> trend = detail::least_squares(normal, right);
-  parallel::for_slabs(share.count(), [&](Index begin, Index end) {
+  parallel::for_slabs(partition.count(), [&](Index begin, Index end) {
     for (Index row = begin; row < end; ++row)
       for (Index iy = 0; iy < ny; ++iy)
         surface.heights(row, iy) -=
-            mean + trend.dot(terms_at<Terms>(centred(share.begin() + row, nx), centred(iy, ny)));
+            mean + trend.dot(terms_at<Terms>(centred(partition.begin() + row, nx), centred(iy, ny)));
   });
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <span>
 #include <utility>
@@ -180,9 +180,9 @@ class ModesWithin {
         greatest = std::max(greatest, mode.x);
       }
     }
-    return {ranks().least_of(least), -ranks().least_of(-greatest)};
+    return {communicator().least_of(least), -communicator().least_of(-greatest)};
   }
-  const Communicator& ranks() const { return columns_.ranks(); }
+  const Communicator& communicator() const { return columns_.communicator(); }
 
  private:
   Index size() const { return parallel::block_rows(columns_.rows()); }
@@ -190,7 +190,7 @@ class ModesWithin {
     return blocks_[static_cast<std::size_t>(begin / size())];
   }
 
-  Share columns_;
+  RowPartition columns_;
   std::vector<std::vector<Mode>> blocks_;
 };
 
@@ -212,9 +212,9 @@ Eigen::Vector2d fit_power_law(const ModesWithin& modes, double mean_power,
     law += step;
     // Processors of two types may not agree on the last digits of a logarithm, but on when to end
     // they must.
-    modes.ranks().broadcast(law.data(), 2 * sizeof(double));
+    modes.communicator().broadcast(law.data(), 2 * sizeof(double));
     double length = step.norm();
-    modes.ranks().broadcast(&length, sizeof length);
+    modes.communicator().broadcast(&length, sizeof length);
     if (length < 1e-10) break;
   }
   return law;
@@ -284,7 +284,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
   const RadialSpectrum radial = radial_spectrum(spectrum);
   if (radial.modes.empty() || !(std::ranges::max(radial.psd) > 0)) return {};
   Range range = self_affine_range(spectrum, radial, highest);
-  spectrum.ranks.broadcast(&range, sizeof range);
+  spectrum.communicator.broadcast(&range, sizeof range);
   ModesWithin modes(spectrum, range);
   const auto [count, weight, moment, power, all] =
       modes.sums<5>([](std::span<double> sums, const Mode& mode) {
@@ -297,7 +297,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
   if (count < 3) return {};
 
   double centre = moment / weight;
-  spectrum.ranks.broadcast(&centre, sizeof centre);
+  spectrum.communicator.broadcast(&centre, sizeof centre);
   modes.shift(centre);
   const auto second = modes.sums<3>([](std::span<double> sums, const Mode& mode) {
     sums[0] += mode.weight;
@@ -343,7 +343,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
 HurstEstimate estimate_hurst(const PowerSpectrum& spectrum, double shortest_wavelength) {
   if (shortest_wavelength == 0) shortest_wavelength = spectrum.asymmetric_wavelength;
   HurstEstimate estimate = found_or_not(spectrum, 2 * pi / shortest_wavelength);
-  spectrum.ranks.broadcast(&estimate, sizeof estimate);
+  spectrum.communicator.broadcast(&estimate, sizeof estimate);
   return estimate;
 }
 

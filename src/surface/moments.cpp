@@ -6,7 +6,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/axis.hpp>
 #include <salebra/surface/moments.hpp>
 #include <vector>
@@ -25,7 +25,7 @@ namespace {
 template <class Sums, class Add>
 Sums sum_defined(const Surface& surface, const Add& add) {
   Sums total;
-  for (const Sums& block : parallel::map_blocks<Sums>(surface.share(), [&](Index begin, Index end) {
+  for (const Sums& block : parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
          Sums sums;
          for (Index k = begin * surface.grid.ny; k < end * surface.grid.ny; ++k)
            if (const double height = surface.heights.data()[k]; !std::isnan(height))
@@ -76,7 +76,7 @@ struct HeightSums {
 };
 
 HeightSums sums_of_heights(const Surface& surface) {
-  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
+  collectively(surface.communicator, [&] { detail::require_shape_of_rows(surface); });
   return sum_defined<HeightSums>(
       surface, [](HeightSums& sums, double height) { sums.add({height, height, height, 1}); });
 }
@@ -161,7 +161,7 @@ SpectralMoments spectral_moments(const Surface& surface) {
   const HeightSums range = sums_of_heights(surface);
   const bool complete = range.count == surface.grid.points() && std::isfinite(range.sum);
   if (!complete)
-    collectively(surface.ranks, [&] { surface.require_complete_rows("spectral moments"); });
+    collectively(surface.communicator, [&] { surface.require_complete_rows("spectral moments"); });
   require(surface.periodic, "surface", surface.origin.empty() ? "not periodic" : surface.origin,
           "is not periodic and has no spectral moments; use moments by finite differences");
   const ProfileMoments along_x = profile_moments(surface, Axis::x, range.mean());
@@ -176,7 +176,7 @@ SpectralMoments spectral_moments(const Surface& surface) {
 }
 
 SpectralMoments difference_moments(const Surface& surface) {
-  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
+  collectively(surface.communicator, [&] { detail::require_shape_of_rows(surface); });
   const Grid2D& grid = surface.grid;
   require(grid.nx >= 3, "nx", grid.nx, "must be >= 3 for second differences");
   require(grid.ny >= 3, "ny", grid.ny, "must be >= 3 for second differences");
@@ -185,7 +185,7 @@ SpectralMoments difference_moments(const Surface& surface) {
   };
   const detail::NeighbourRows rows(surface);
   Sums total;
-  for (const Sums& block : parallel::map_blocks<Sums>(surface.share(), [&](Index begin, Index end) {
+  for (const Sums& block : parallel::map_blocks<Sums>(surface.partition(), [&](Index begin, Index end) {
          Sums sums;
          for (Index ix = begin; ix < end; ++ix) {
            const double *left = rows[ix - 1], *here = rows[ix], *right = rows[ix + 1];

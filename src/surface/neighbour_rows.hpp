@@ -2,7 +2,7 @@
 #pragma once
 
 #include <salebra/base/grid.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <vector>
 
 namespace salebra::detail {
@@ -12,11 +12,11 @@ namespace salebra::detail {
 class NeighbourRows {
  public:
   explicit NeighbourRows(const Surface& surface) {
-    const Share share = surface.share();
+    const RowPartition partition = surface.partition();
     const RowExchange exchange(
-        share,
+        partition,
         [&](int rank) -> RowExchange::Window {
-          const Index begin = share.begin_of(rank), count = share.end_of(rank) - begin;
+          const Index begin = partition.begin_of(rank), count = partition.end_of(rank) - begin;
           if (count == 0) return {};
           return {begin - 1, count + 2};
         },

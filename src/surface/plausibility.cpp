@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <utility>
 
 #include "neighbour_rows.hpp"
@@ -139,7 +139,7 @@ std::optional<std::string> warning_of_heights(const Surface& surface, double uni
   };
   Both total;
   for (const Both& block : parallel::map_blocks<Both>(
-           surface.share(),
+           surface.partition(),
            [&](Index begin, Index end) {
              Both sums;
              for (Index ix = begin; ix < end; ++ix) {

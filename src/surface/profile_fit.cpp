@@ -64,7 +64,7 @@ double end_of_law(std::span<const detail::SpectrumBin> bins, const detail::Power
                   const detail::SelfAffineDensity& density) {
   // Long waves are too few: some of them lack power by chance.
   for (std::size_t i = bins.size() / 3; i < bins.size(); ++i) {
-    const auto share = [&](const detail::SpectrumBin& bin) {
+    const auto partition = [&](const detail::SpectrumBin& bin) {
       return bin.power / (law.amplitude * density(bin.wavenumber, law.hurst.value, law.q_rolloff));
     };
     if (share(bins[i]) > 0.25) continue;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/axis.hpp>
 #include <span>
 #include <vector>
@@ -14,8 +14,8 @@ namespace salebra::detail {
 
 /// The profiles of a surface along an axis: its columns along x, its rows along y. Each process has
 /// some of them.
-inline Share profiles_of(const Surface& surface, Axis axis) {
-  return axis == Axis::x ? Share(surface.ranks, surface.grid.ny) : surface.share();
+inline RowPartition profiles_of(const Surface& surface, Axis axis) {
+  return axis == Axis::x ? RowPartition(surface.communicator, surface.grid.ny) : surface.partition();
 }
 
 /// One Value for each block of profiles of this process. add(value of its block, heights) takes
@@ -23,13 +23,13 @@ inline Share profiles_of(const Surface& surface, Axis axis) {
 template <class Value, class Add>
 std::vector<Value> map_profiles(const Surface& surface, Axis axis, const Value& start,
                                 const Add& add) {
-  const Share profiles = profiles_of(surface, axis);
+  const RowPartition profiles = profiles_of(surface, axis);
   const Index size = parallel::block_rows(profiles.rows()), ny = surface.grid.ny,
               number = (profiles.count() + size - 1) / size;
   std::vector<Value> blocks(static_cast<std::size_t>(number), start);
   if (axis == Axis::x) {
     visit_columns<double>(
-        surface.share(), profiles,
+        surface.partition(), profiles,
         [&](Index row, Index first, Index count, double* to) {
           std::copy_n(surface.heights.data() + row * ny + first, count, to);
         },
@@ -38,7 +38,7 @@ std::vector<Value> map_profiles(const Surface& surface, Axis axis, const Value& 
         });
     return blocks;
   }
-  collectively(surface.ranks, [&] {
+  collectively(surface.communicator, [&] {
     parallel::for_slabs(number, [&](Index begin, Index end) {
       const auto room = large_array<double>(static_cast<std::size_t>(ny));
       for (Index row = begin * size; row < std::min(profiles.count(), end * size); ++row) {

@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "base/fft.hpp"
@@ -101,23 +101,23 @@ Field spline(const Field& heights, Index factor) {
 }  // namespace
 
 Surface refined(const Surface& surface, Index factor) {
-  const Communicator& ranks = surface.ranks;
-  collectively(ranks, [&] { surface.require_complete_rows("refinement"); });
+  const Communicator& communicator = surface.communicator;
+  collectively(communicator, [&] { surface.require_complete_rows("refinement"); });
   require(factor >= 1, "factor", factor, "must be >= 1");
   const double fine_points =
       static_cast<double>(surface.grid.points()) * static_cast<double>(factor * factor);
-  require_memory(surface.grid, ranks.is_root() ? 24 * fine_points : 0,
-                 "its refinement (a smaller factor needs less)", ranks);
+  require_memory(surface.grid, communicator.is_root() ? 24 * fine_points : 0,
+                 "its refinement (a smaller factor needs less)", communicator);
   if (factor == 1) return surface;
-  Surface fine{surface.grid, gathered(surface.share(), surface.heights), surface.periodic,
-               surface.origin, ranks};
+  Surface fine{surface.grid, gathered(surface.partition(), surface.heights), surface.periodic,
+               surface.origin, communicator};
   fine.grid.nx *= factor;
   fine.grid.ny *= factor;
-  collectively(ranks, [&] {
-    if (ranks.is_root())
+  collectively(communicator, [&] {
+    if (communicator.is_root())
       fine.heights = fine.periodic ? fourier(fine.heights, factor) : spline(fine.heights, factor);
   });
-  if (!ranks.alone()) fine.heights = scattered(fine.share(), fine.grid.ny, fine.heights);
+  if (!communicator.alone()) fine.heights = scattered(fine.partition(), fine.grid.ny, fine.heights);
   return fine;
 }
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/scale_dependence.hpp>
 #include <span>
 #include <vector>
@@ -100,7 +100,7 @@ Sums differences(const double* heights, std::ptrdiff_t count, std::ptrdiff_t lag
 }  // namespace
 
 ScaleDependence scale_dependence(const Surface& surface, Axis axis) {
-  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
+  collectively(surface.communicator, [&] { detail::require_shape_of_rows(surface); });
   const Index n = axis == Axis::x ? surface.grid.nx : surface.grid.ny;
   const double step = axis == Axis::x ? surface.grid.dx() : surface.grid.dy();
   std::vector<Index> lags;

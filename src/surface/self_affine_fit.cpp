@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/self_affine_fit.hpp>
 #include <span>
 #include <vector>
@@ -161,7 +161,7 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
 }
 
 IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEstimate& hurst) {
-  const Share columns = spectrum.columns();
+  const RowPartition columns = spectrum.columns();
   const double exponent = 2 * (1 + hurst.value);
   const auto flat = [&](double q, double power) { return power * std::pow(q, exponent); };
   const std::vector<double> sums =
@@ -187,7 +187,7 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
                return found;
              }))
       best = std::min(best, of_block);
-    return sign * spectrum.ranks.least_of(best);
+    return sign * spectrum.communicator.least_of(best);
   };
   // A mode of the law is below a thousandth of it with a probability of a thousandth: a run of them
   // is the end.

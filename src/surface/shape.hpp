@@ -3,7 +3,7 @@
 
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <string>
 
 namespace salebra::detail {
@@ -11,7 +11,7 @@ namespace salebra::detail {
 /// The check of Surface::require_complete_rows without its demand that every height be defined.
 inline void require_shape_of_rows(const Surface& surface) {
   surface.grid.validate();
-  const Index rows = surface.share().count();
+  const Index rows = surface.partition().count();
   require(surface.heights.rows() == rows && surface.heights.cols() == surface.grid.ny, "heights",
           std::to_string(surface.heights.rows()) + " x " + std::to_string(surface.heights.cols()),
           "must have the shape of the grid, " + std::to_string(rows) + " x " +

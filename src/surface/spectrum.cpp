@@ -42,7 +42,7 @@ Eigen::ArrayXd profile_weights(Window window, Index points) {
 class Weights {
  public:
   Weights(Window window, const Surface& surface)
-      : grid_(surface.grid), rows_(surface.share()), radial_(window == Window::radial_hann) {
+      : grid_(surface.grid), rows_(surface.partition()), radial_(window == Window::radial_hann) {
     if (!radial_) {
       along_x_ = profile_weights(window, grid_.nx);
       along_y_ = profile_weights(window, grid_.ny);
@@ -79,7 +79,7 @@ class Weights {
 
  private:
   Grid2D grid_;
-  Share rows_;
+  RowPartition rows_;
   bool radial_;
   double scale_ = 1;
   Eigen::ArrayXd along_x_, along_y_;
@@ -112,14 +112,14 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
   const Grid2D& grid = surface.grid;
   window = chosen(window, surface);
   PowerSpectrum spectrum{grid, {}, window != Window::none};
-  spectrum.ranks = surface.ranks;
-  const Share columns = spectrum.columns();
-  collectively(surface.ranks, [&] {
+  spectrum.communicator = surface.communicator;
+  const RowPartition columns = spectrum.columns();
+  collectively(surface.communicator, [&] {
     surface.require_complete_rows("a power spectrum");
     // Half as many complex modes as points, the density of half of them, and what processes send
     // and receive.
     require_memory(grid,
-                   (surface.ranks.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
+                   (surface.communicator.alone() ? 12 : 20) * static_cast<double>(surface.heights.size()),
                    "a power spectrum");
     spectrum.psd = uninitialised_field(grid.nx, columns.count());
   });
@@ -152,14 +152,14 @@ PowerSpectrum power_spectrum(const Surface& surface, Window window) {
           spectrum.psd(i, j - columns.begin()) =
               scale * std::norm(column[static_cast<std::size_t>(i)]);
       },
-      surface.share(), columns);
+      surface.partition(), columns);
   // What rounding left of the mean.
   if (columns.begin() == 0 && columns.count() > 0) spectrum.psd(0, 0) = 0;
   return spectrum;
 }
 
 ProfilePsd profile_psd(const Surface& surface, Axis axis, Window window) {
-  collectively(surface.ranks, [&] { surface.require_complete_rows("a power spectrum"); });
+  collectively(surface.communicator, [&] { surface.require_complete_rows("a power spectrum"); });
   const Grid2D& grid = surface.grid;
   const bool along_x = axis == Axis::x;
   const Index n = along_x ? grid.nx : grid.ny;
@@ -200,7 +200,7 @@ RadialSpectrum radial_spectrum(const PowerSpectrum& spectrum, int bins_per_octav
   const Grid2D& grid = spectrum.grid;
   const detail::RingMeans<1> rings(2 * pi / std::max(grid.lx, grid.ly),
                                    std::hypot(pi / grid.dx(), pi / grid.dy()), bins_per_octave);
-  const Share columns = spectrum.columns();
+  const RowPartition columns = spectrum.columns();
   const std::vector<double> sums = parallel::sum_blocks(
       columns, rings.size(), [&](Index begin, Index end, std::span<double> of_block) {
         for (Index i = 0; i < grid.nx; ++i) {

@@ -83,12 +83,12 @@ Summit osculate(const Neighbourhood& h, double dx, double dy) {
 
 SummitList find_summits(const Surface& surface) {
   const Grid2D& grid = surface.grid;
-  collectively(surface.ranks, [&] { detail::require_shape_of_rows(surface); });
+  collectively(surface.communicator, [&] { detail::require_shape_of_rows(surface); });
   require(grid.nx >= 3, "nx", grid.nx, "must be >= 3 to have summits");
   require(grid.ny >= 3, "ny", grid.ny, "must be >= 3 to have summits");
   const Index border = surface.periodic ? 0 : 1;
   const detail::NeighbourRows rows(surface);
-  const Share share = surface.share();
+  const RowPartition partition = surface.partition();
   struct Found {
     std::vector<Summit> summits;
     Index searched = 0;
@@ -98,7 +98,7 @@ SummitList find_summits(const Surface& surface) {
     for (Index row = begin; row < end; ++row) {
       const std::array<const double*, 3> lines{rows[row - 1], rows[row], rows[row + 1]};
       if (!lines.front() || !lines.back()) continue;
-      const Index ix = share.begin() + row;
+      const Index ix = partition.begin() + row;
       for (Index iy = border; iy < grid.ny - border; ++iy) {
         const std::array<Index, 3> columns{iy > 0 ? iy - 1 : grid.ny - 1, iy,
                                            iy + 1 < grid.ny ? iy + 1 : 0};
@@ -117,16 +117,16 @@ SummitList find_summits(const Surface& surface) {
     }
     return found;
   };
-  SummitList list{{}, 0, surface.ranks, grid.nx};
+  SummitList list{{}, 0, surface.communicator, grid.nx};
   std::vector<Index> searched;
   for (const Found& found :
-       parallel::map_blocks_of<Found>(parallel::block_rows(grid.nx), share.count(), search)) {
+       parallel::map_blocks_of<Found>(parallel::block_rows(grid.nx), partition.count(), search)) {
     list.summits.insert(list.summits.end(), found.summits.begin(), found.summits.end());
     list.in_block.push_back(static_cast<Index>(found.summits.size()));
     searched.push_back(found.searched);
   }
   Index in_all = 0;
-  for (const Index of_block : parallel::gather_blocks(share, searched)) in_all += of_block;
+  for (const Index of_block : parallel::gather_blocks(partition, searched)) in_all += of_block;
   list.searched_area = static_cast<double>(in_all) * grid.cell_area();
   return list;
 }
@@ -134,7 +134,7 @@ SummitList find_summits(const Surface& surface) {
 SummitStatistics summit_statistics(const SummitList& list) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const bool of_surface = list.rows > 0;
-  const Share rows = of_surface ? Share(list.ranks, list.rows) : Share(1);
+  const RowPartition rows = of_surface ? RowPartition(list.communicator, list.rows) : RowPartition(1);
   const std::vector<Index> in_block =
       of_surface ? list.in_block : std::vector<Index>{static_cast<Index>(list.summits.size())};
   // Sum of term(summit) over all processes.

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "base/fft.hpp"
@@ -31,7 +31,7 @@ std::vector<std::complex<double>> some_modes(Index nx, Index ny, Index columns) 
 }
 
 // Whether the process has its rows of a field that one process has made, bit by bit.
-bool has_its_rows(const Field& mine, const Field& whole, const Share& rows) {
+bool has_its_rows(const Field& mine, const Field& whole, const RowPartition& rows) {
   return mine.rows() == rows.count() && mine.cols() == whole.cols() &&
          (mine.size() == 0 ||
           std::memcmp(mine.data(), whole.data() + rows.begin() * whole.cols(),
@@ -101,14 +101,14 @@ TEST_CASE("Columns of several processes transform to the bits of one process", "
           column(j, out);
         };
         run_ranks(ranks, [&, nx = nx, ny = ny](const Communicator& together) {
-          const Share rows(together, nx);
+          const RowPartition rows(together, nx);
           right +=
               has_its_rows(backward_by_columns(nx, ny, columns, counted, {}, rows), whole, rows);
           // Shares need not be blocks, and the first process may be the one without rows.
           std::vector<Index> begins(static_cast<std::size_t>(ranks) + 1, nx);
           for (std::size_t k = 0; k + 1 < begins.size(); ++k)
             begins[k] = k < 2 ? 0 : std::min<Index>(nx, 5 * Index(k) - 7);
-          const Share any(together, begins);
+          const RowPartition any(together, begins);
           right_of_any +=
               has_its_rows(backward_by_columns(nx, ny, columns, column, {}, any), whole, any);
         });
@@ -133,7 +133,7 @@ TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft]
   std::atomic<bool> in_order = true;
   parallel::set_threads(1);
   const auto work = [&](const Communicator& together, const Progress& on_progress) {
-    backward_by_columns(nx, ny, columns, zeros, on_progress, Share(together, nx));
+    backward_by_columns(nx, ny, columns, zeros, on_progress, RowPartition(together, nx));
   };
   run_ranks(ranks, [&](const Communicator& together) {
     double last = 0;
@@ -161,7 +161,7 @@ TEST_CASE("A stop or a failure of one process ends the transform on all", "[fft]
               if (j == failing) throw std::bad_alloc();
               zeros(j, out);
             },
-            {}, Share(together, nx));
+            {}, RowPartition(together, nx));
       } catch (const std::bad_alloc&) {
         ++failed;
       }
@@ -179,7 +179,7 @@ TEST_CASE(
   parallel::set_threads(2);
   std::atomic<int> right = 0;
   run_ranks(ranks, [&](const Communicator& together) {
-    const Share rows(together, n);
+    const RowPartition rows(together, n);
     const double of_rows = double(rows.count() * n) * sizeof(double),
                  memory = double(column_fft_memory(n, n, rows));
     // The rows and columns of two threads come on top where the batch does not count them.
@@ -199,7 +199,7 @@ TEST_CASE("The columns of a spectrum are those of RealFft2D, for any number of p
   using Complex = std::complex<double>;
   using Modes = std::vector<Complex>;
   const auto modes_of = [&, nx = nx, ny = ny](const Communicator& together, Modes& modes) {
-    const Share rows(together, nx), columns(together, all);
+    const RowPartition rows(together, nx), columns(together, all);
     std::atomic<Index> wrong = 0;
     forward_by_columns(
         nx, ny,

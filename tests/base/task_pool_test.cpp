@@ -110,7 +110,7 @@ TEST_CASE("No more tasks than allowed are side by side, and one at a time is the
     std::atomic<int> side_by_side = 0, too_many = 0;
     std::atomic<int> elsewhere = 0;
     const auto caller = std::this_thread::get_id();
-    TaskLoop loop({.at_once = at_once, .ranks = {}, .talk = {}});
+    TaskLoop loop({.at_once = at_once, .communicator = {}, .talk = {}});
     loop.run(60, [&](Index) {
       if (++side_by_side > at_once) ++too_many;
       if (std::this_thread::get_id() != caller) ++elsewhere;
@@ -161,7 +161,7 @@ TEST_CASE("What a caller says stops a loop, from the caller's thread alone", "[t
     const auto caller = std::this_thread::get_id();
     std::atomic<int> elsewhere = 0, begun = 0;
     int calls = 0;
-    TaskLoop loop({.at_once = 0, .ranks = {}, .talk = [&] {
+    TaskLoop loop({.at_once = 0, .communicator = {}, .talk = [&] {
                      if (std::this_thread::get_id() != caller) ++elsewhere;
                      return ++calls < 5;
                    }});
@@ -180,7 +180,7 @@ TEST_CASE("A caller that says stop before the first task has none begun", "[task
   for (const int threads : {1, 3}) {
     const Threads chosen(threads);
     int begun = 0;
-    TaskLoop loop({.at_once = 0, .ranks = {}, .talk = [] { return false; }});
+    TaskLoop loop({.at_once = 0, .communicator = {}, .talk = [] { return false; }});
     loop.run(5, [&](Index) { ++begun; });
     CHECK(begun == 0);
   }
@@ -190,7 +190,7 @@ TEST_CASE("What talk throws ends the loop and is thrown by the call", "[task_poo
   for (const int threads : {1, 2, 7}) {
     const Threads chosen(threads);
     int calls = 0;
-    TaskLoop loop({.at_once = 0, .ranks = {}, .talk = [&]() -> bool {
+    TaskLoop loop({.at_once = 0, .communicator = {}, .talk = [&]() -> bool {
                      if (++calls == 3) throw InvalidInput("word", "one", "too many");
                      return true;
                    }});
@@ -206,10 +206,10 @@ TEST_CASE("A caller is heard while its own tasks are done and while it helps in 
   // was stopped: by the caller, which waits or is in one of them.
   std::atomic<bool> other_begun = false;
   std::atomic<int> calls = 0;
-  TaskLoop outer({.at_once = 0, .ranks = {}, .talk = [&] { return !other_begun || ++calls < 10; }});
+  TaskLoop outer({.at_once = 0, .communicator = {}, .talk = [&] { return !other_begun || ++calls < 10; }});
   outer.run(2, [&](Index s) {
     if (s == 0) return void(comes_true([&] { return other_begun.load(); }));
-    TaskLoop inner({.at_once = 0, .ranks = {}, .talk = [&] { return outer.going_on(); }});
+    TaskLoop inner({.at_once = 0, .communicator = {}, .talk = [&] { return outer.going_on(); }});
     inner.run(2, [&](Index) {
       other_begun = true;
       comes_true([&] { return !inner.going_on(); });
@@ -276,7 +276,7 @@ TEST_CASE("Processes of a loop stop together, before the same task", "[task_pool
   run_ranks(3, [&](const Communicator& ranks) {
     int done = 0;
     TaskLoop loop(
-        {.at_once = 0, .ranks = ranks, .talk = [&] { return ranks.rank() != 1 || done < 2; }});
+        {.at_once = 0, .communicator = ranks, .talk = [&] { return ranks.rank() != 1 || done < 2; }});
     loop.run(10, [&](Index) { ++done; });
     as_wanted += done == 2 && loop.stopped();
   });

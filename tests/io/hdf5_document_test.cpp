@@ -113,7 +113,7 @@ TEST_CASE("Numbers are those that were stored, read from their place or through 
   std::vector<double> read(stored.size());
   document.numbers("a", read);
   CHECK(read == stored);
-  const Share rows(Communicator(), 100);
+  const RowPartition rows(Communicator(), 100);
   std::ranges::fill(read, 0);
   document.rows("a", rows, read);
   CHECK(read == stored);

@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <salebra/io/result_file.hpp>
 
 #include "one_of_many.hpp"
@@ -43,7 +43,7 @@ class FirstAndLast : public detail::Transport {
  public:
   FirstAndLast(Communicator both, int ranks) : both_(std::move(both)), ranks_(ranks) {}
   int rank() const override { return both_.is_root() ? 0 : ranks_ - 1; }
-  int ranks() const override { return ranks_; }
+  int size() const override { return ranks_; }
   void broadcast(void* bytes, std::size_t count, int from) override {
     both_.broadcast(bytes, count, from == 0 ? 0 : 1);
   }
@@ -75,10 +75,10 @@ double value_at(Index row, Index column) {
   return static_cast<double>((row * 4099 + column * 7) % 8388593);
 }
 
-Field rows_of(const Share& share) {
-  Field rows(share.count(), columns);
-  for (Index i = 0; i < share.count(); ++i)
-    for (Index j = 0; j < columns; ++j) rows(i, j) = value_at(share.begin() + i, j);
+Field rows_of(const RowPartition& partition) {
+  Field rows(partition.count(), columns);
+  for (Index i = 0; i < partition.count(); ++i)
+    for (Index j = 0; j < columns; ++j) rows(i, j) = value_at(partition.begin() + i, j);
   return rows;
 }
 
@@ -105,9 +105,9 @@ TEST_CASE("Rows beyond 2^32 bytes and numbers of a file are written and read at 
   takes_no_room_in_advance = true;
   testing::run_ranks(2, [&](const Communicator& both) {
     const Communicator all(std::make_shared<FirstAndLast>(both, ranks));
-    const Share share(all, rows);
-    const Field mine = rows_of(share);
-    if (share.count() != 80 || (!all.is_root() && share.begin() * columns <= Index{1} << 32))
+    const RowPartition share(all, rows);
+    const Field mine = rows_of(partition);
+    if (partition.count() != 80 || (!all.is_root() && partition.begin() * columns <= Index{1} << 32))
       throw Error("other rows");
     std::optional<ResultFile> results;
     collectively(all, [&] {
@@ -132,10 +132,10 @@ TEST_CASE("Rows beyond 2^32 bytes and numbers of a file are written and read at 
   for (const int rank : {0, 416, ranks - 1})
     for (const char* name : {"contact/pressure", "contact/gap"}) {
       const auto process = std::make_shared<testing::OneOfMany>(rank, ranks);
-      const Share share(Communicator(process), rows);
-      const Field found = results.field(name, share);
+      const RowPartition share(Communicator(process), rows);
+      const Field found = results.field(name, partition);
       const bool written = rank == 0 || rank == ranks - 1;
       REQUIRE(found.rows() == 80);
-      CHECK((written ? (found == rows_of(share)).all() : (found == 0).all()));
+      CHECK((written ? (found == rows_of(partition)).all() : (found == 0).all()));
     }
 }

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/io/result_file.hpp>
 #include <salebra/io/write_surface.hpp>
@@ -29,12 +29,12 @@ const Provenance provenance{.command_line = "salebra", .created = "2026-01-01T00
 // A surface of any heights, or the rows of one process of it.
 Surface surface_of(Index nx, Index ny, const Communicator& ranks = {}) {
   Surface surface{{nx, ny, 1e-6, 2e-6}, {}, true, "a test", ranks};
-  const Share share = surface.share();
-  surface.heights.resize(share.count(), ny);
-  for (Index i = 0; i < share.count(); ++i)
+  const RowPartition partition = surface.partition();
+  surface.heights.resize(partition.count(), ny);
+  for (Index i = 0; i < partition.count(); ++i)
     for (Index j = 0; j < ny; ++j)
       surface.heights(i, j) =
-          1e-9 * std::sin(1e3 * static_cast<double>((share.begin() + i) * ny + j));
+          1e-9 * std::sin(1e3 * static_cast<double>((partition.begin() + i) * ny + j));
   return surface;
 }
 
@@ -63,8 +63,8 @@ bool same_bits(const Field& a, const double* b) {
 void write_results(const std::filesystem::path& file, const Surface& surface) {
   std::optional<ResultFile> results;
   const Field tripled = 3 * surface.heights;
-  collectively(surface.ranks, [&] {
-    results.emplace(file, provenance, WriteOptions{}, surface.ranks);
+  collectively(surface.communicator, [&] {
+    results.emplace(file, provenance, WriteOptions{}, surface.communicator);
     ResultGroup group = results->group("contact");
     group.coordinate("x", positions(surface.grid.nx, 1), "m", "position");
     group.coordinate("y", positions(surface.grid.ny, 1), "m", "position");
@@ -135,11 +135,11 @@ TEST_CASE("Processes read their rows of a surface in any format", "[spread]") {
   const int ranks = GENERATE(1, 2, 3, 4);
   run_ranks(ranks, [&](const Communicator& all) {
     const Surface rows = read_surface(scratch / name, {}, all);
-    const Share share = rows.share();
+    const RowPartition partition = rows.partition();
     if (rows.grid != read.grid || rows.periodic != read.periodic || rows.origin != read.origin)
       throw Error("another surface");
-    if (rows.heights.rows() != share.count() ||
-        !same_bits(rows.heights, read.heights.data() + share.begin() * read.grid.ny))
+    if (rows.heights.rows() != partition.count() ||
+        !same_bits(rows.heights, read.heights.data() + partition.begin() * read.grid.ny))
       throw Error("other heights");
   });
 }
@@ -168,10 +168,10 @@ TEST_CASE("Processes read their rows of packed fields and of small ones", "[spre
     H5Fclose(made);
   }
   run_ranks(GENERATE(1, 3), [&](const Communicator& all) {
-    const Share share(all, nx);
-    const Field rows = ResultReader(file).field("p", share);
+    const RowPartition share(all, nx);
+    const Field rows = ResultReader(file).field("p", partition);
     for (Index k = 0; k < rows.size(); ++k)
-      if (rows.data()[k] != static_cast<double>(share.begin() * ny + k)) throw Error("another row");
+      if (rows.data()[k] != static_cast<double>(partition.begin() * ny + k)) throw Error("another row");
   });
 }
 

@@ -179,7 +179,7 @@ TEST_CASE("A study over processes that is stopped continues with any number of t
       const std::vector<StudyResult> results = run_ensembles(
           study, {.on_progress =
                       [&](const ProgressReport& report) {
-                        return !stop || report.fraction < 0.6 || all.rank() + 1 < all.ranks();
+                        return !stop || report.fraction < 0.6 || all.rank() + 1 < all.size();
                       },
                   .on_realisation =
                       [&](const RealisationReport& report) {
@@ -214,7 +214,7 @@ class Failing : public detail::Transport {
   Failing(const Communicator& all, std::shared_ptr<std::atomic<int>> left, std::atomic<int>& late)
       : all_(all), left_(std::move(left)), late_(late) {}
   int rank() const override { return all_.rank(); }
-  int ranks() const override { return all_.ranks(); }
+  int size() const override { return all_.size(); }
   void broadcast(void* bytes, std::size_t count, int from) override {
     called();
     all_.broadcast(bytes, count, from);

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
 #include <salebra/contact/tangential/coupled_contact.hpp>
 #include <salebra/damping/cycle.hpp>
@@ -27,7 +27,7 @@ using namespace salebra;
 TEST_CASE("What needs a surface whole refuses one that is spread over processes") {
   salebra::testing::run_ranks(2, [](const Communicator& all) {
     Surface surface{{32, 32, 32, 32}, {}, true, "test", all};
-    surface.heights = Field::Random(surface.share().count(), 32);
+    surface.heights = Field::Random(surface.partition().count(), 32);
     const Material material = Material::of_contact_modulus(1, 0.3);
     const NormalContactState state = press(surface, 1, at_pressure(0.1));
     const std::vector<std::pair<const char*, std::function<void()>>> calls{

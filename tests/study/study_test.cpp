@@ -13,7 +13,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/generators/spectrum.hpp>
 #include <salebra/io/result_file.hpp>
@@ -254,8 +254,8 @@ TEST_CASE("The surface of a seed is made by several processes to the bits of one
   std::atomic<int> right = 0;
   salebra::testing::run_ranks(3, [&](const Communicator& together) {
     const Surface mine = study_surface(study, 2, {}, together);
-    const Share rows = mine.share();
-    right += together.ranks() == mine.ranks.ranks() && mine.origin == alone.origin &&
+    const RowPartition rows = mine.partition();
+    right += together.size() == mine.communicator.size() && mine.origin == alone.origin &&
              mine.heights.rows() == rows.count() &&
              std::memcmp(mine.heights.data(), alone.heights.data() + rows.begin() * alone.grid.ny,
                          static_cast<std::size_t>(mine.heights.size()) * sizeof(double)) == 0;

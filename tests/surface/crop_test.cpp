@@ -51,9 +51,9 @@ TEST_CASE("The largest part without undefined points is that of a search through
   std::mt19937 engine(5);
   for (int round = 0; round < 200; ++round) {
     Surface surface = white({Index(2 + engine() % 9), Index(2 + engine() % 9), 3.0, 2.0}, false);
-    const auto share = 1 + engine() % 8;
+    const auto partition = 1 + engine() % 8;
     for (double& height : surface.heights.reshaped())
-      if (engine() % 8 < share) height = undefined;
+      if (engine() % 8 < partition) height = undefined;
     const auto part = largest_defined_part(surface);
     const Index most = most_points_by_search(surface);
     REQUIRE(part.has_value() == (most > 0));

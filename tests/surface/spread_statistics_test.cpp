@@ -7,7 +7,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/surface/areal_parameters.hpp>
 #include <salebra/surface/detrend.hpp>
@@ -30,9 +30,9 @@ namespace {
 /// The rows of a surface that this process holds.
 Surface spread(const Surface& whole, const Communicator& ranks) {
   Surface surface = whole;
-  surface.ranks = ranks;
-  const Share share = surface.share();
-  surface.heights = whole.heights.middleRows(share.begin(), share.count()).eval();
+  surface.communicator = ranks;
+  const RowPartition partition = surface.partition();
+  surface.heights = whole.heights.middleRows(partition.begin(), partition.count()).eval();
   return surface;
 }
 

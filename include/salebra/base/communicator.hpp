@@ -20,7 +20,7 @@ class Transport {
  public:
   virtual ~Transport() = default;
   virtual int rank() const = 0;
-  virtual int ranks() const = 0;
+  virtual int size() const = 0;
   virtual void broadcast(void* bytes, std::size_t count, int from) = 0;
   /// bytes[r] of process r, one after the other in `all`.
   virtual void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) = 0;
@@ -70,9 +70,9 @@ class Communicator {
       : transport_(std::move(transport)) {}
 
   int rank() const { return transport_ ? transport_->rank() : 0; }
-  int ranks() const { return transport_ ? transport_->ranks() : 1; }
+  int size() const { return transport_ ? transport_->size() : 1; }
   bool is_root() const { return rank() == 0; }
-  bool alone() const { return ranks() == 1; }
+  bool alone() const { return communicator() == 1; }
 
   void broadcast(void* bytes, std::size_t count, int from = 0) const;
   /// bytes[r] of process r, one after the other in `all`.
@@ -112,6 +112,6 @@ class Groups {
 /// Runs body on every process and throws the failure of the first process that failed on all of
 /// them, as InvalidInput, IoError, NotConverged, Interrupted, std::bad_alloc or Error. body must
 /// not communicate. Collective.
-void collectively(const Communicator& ranks, const std::function<void()>& body);
+void collectively(const Communicator& communicator, const std::function<void()>& body);
 
 }  // namespace salebra

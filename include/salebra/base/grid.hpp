@@ -42,7 +42,7 @@ constexpr void describe(auto&& visit, std::type_identity<Grid2D>) {
   visit(&Grid2D::ly, Quantity{"size_y", length, "length of the surface along y"});
 }
 
-class Share;
+class RowPartition;
 
 /// Heights of the rough side, e.g. `Surface{grid, heights}`. A hill is positive; hills touch first.
 /// If a surface is distributed over processes, each has the whole grid, and `heights` has the rows
@@ -52,10 +52,10 @@ struct Surface {
   Field heights;  ///< (nx, ny) or (share().count(), ny), m; NaN if the instrument has no value
   bool periodic = false;    ///< generated surfaces are, measured ones are not
   std::string origin;       ///< file, or generator with its seed: for provenance only
-  Communicator ranks = {};  ///< processes that share its rows
+  Communicator communicator = {};  ///< processes that share its rows
 
   /// Returns the distribution of rows over processes.
-  Share share() const;
+  RowPartition partition() const;
   /// Returns the number of NaN heights in this process. Cost: one pass.
   Index undefined_points() const;
   /// Throws InvalidInput if the surface is distributed. `purpose` completes "is spread over 4
@@ -76,7 +76,7 @@ constexpr void describe(auto&& visit, std::type_identity<Surface>) {
   visit(&S::heights, Quantity{"heights", length, "height, positive out of the material"});
   visit(&S::periodic, Quantity{"periodic", dimensionless, "whether the surface repeats itself"});
   visit(&S::origin, Kept{"origin", "file, or generator with its seed"});
-  visit(&S::ranks, Kept{});
+  visit(&S::communicator, Kept{});
   visit(&S::undefined_points,
         Quantity{"undefined_points", dimensionless, "points without a height"});
 }

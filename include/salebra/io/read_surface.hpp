@@ -75,6 +75,6 @@ struct ReadOptions {
 /// cost     one pass over the file; memory: the file and the heights. With warnings, a search for
 ///          spikes in a surface that is not periodic, 0.1 µs per point
 Surface read_surface(const std::filesystem::path& file, const ReadOptions& options = {},
-                     const Communicator& ranks = {});
+                     const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -89,7 +89,7 @@ class ResultFile {
   ///        except the rows of the others. A failure before commit() affects one process only: use
   ///        collectively() to report it
   ResultFile(const std::filesystem::path& file, const Provenance& provenance,
-             const WriteOptions& options = {}, const Communicator& ranks = {});
+             const WriteOptions& options = {}, const Communicator& communicator = {});
   ResultFile(ResultFile&&) noexcept;
   ResultFile& operator=(ResultFile&&) noexcept;
   ~ResultFile();
@@ -125,7 +125,7 @@ class ResultReader {
   double number(const std::string& dataset) const;
   Field field(const std::string& dataset) const;
   /// Reads the rows of a field that belong to this process.
-  Field field(const std::string& dataset, const Share& share) const;
+  Field field(const std::string& dataset, const RowPartition& partition) const;
   std::vector<std::string> labels(const std::string& dataset) const;
   /// Returns true if a dataset is a list of names, which labels() reads and numbers() rejects.
   bool holds_labels(const std::string& dataset) const;

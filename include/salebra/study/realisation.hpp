@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <salebra/base/grid.hpp>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/base/spectral_moments.hpp>
 #include <salebra/contact/asperity/greenwood_williamson.hpp>
 #include <salebra/contact/law/fit.hpp>
@@ -249,9 +249,9 @@ struct SurfacePicture {
   /// load. Of a surface spread over processes, each has its rows of these maps.
   void add_contact(std::int16_t k, const NormalContactState& state, const Surface& surface);
   /// Collects the maps in the first process. Collective.
-  void gather(const Communicator& ranks);
+  void gather(const Communicator& communicator);
   /// Rows of the maps by process.
-  Share rows_of(const Surface& surface) const;
+  RowPartition rows_of(const Surface& surface) const;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SurfacePicture>) {
@@ -367,14 +367,14 @@ std::vector<StudyModel> models_of(const StudyConfiguration& configuration);
 
 /// Reads and detrends a scan for a study. Lines of warnings are added to `warnings`. Throws as
 /// read_surface(), and for undefined points.
-Surface measured_surface(const MeasuredSurface& surface, const Communicator& ranks = {},
+Surface measured_surface(const MeasuredSurface& surface, const Communicator& communicator = {},
                          std::vector<std::string>* warnings = nullptr);
 
 /// Returns the surface of a seed, or the measured one, detrended as configured. Throws as
 /// generators and readers do. progress: of the generator. ranks: the processes over which the
 /// surface is spread, as in filtered_noise and read_surface; collective.
 Surface study_surface(const StudyConfiguration& configuration, std::uint64_t seed,
-                      const Progress& progress = {}, const Communicator& ranks = {});
+                      const Progress& progress = {}, const Communicator& communicator = {});
 
 /// The loads of a study, known before the computation.
 struct StudyLoads {
@@ -389,7 +389,7 @@ struct StudyLoads {
 /// Computes the loads. Throws InvalidInput for a window of the fit with fewer than three pressures,
 /// and for a hardness below the largest; and as readers do. ranks: the processes that read a
 /// measured surface together; collective. Cost: that of reading it.
-StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& ranks = {});
+StudyLoads study_loads(const StudyConfiguration& configuration, const Communicator& communicator = {});
 
 /// Computes everything for one surface: statistics, contact models, exponential law, damping.
 ///

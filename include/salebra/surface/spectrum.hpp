@@ -5,7 +5,7 @@
 #include <salebra/base/describe.hpp>
 #include <salebra/base/enum_names.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/axis.hpp>
 #include <vector>
 
@@ -26,9 +26,9 @@ struct PowerSpectrum {
   /// For a surface that is not periodic: waves up to this length may come from a tip, because peaks
   /// and valleys differ (estimate_hurst), m; 0 if they do not differ, infinity if all waves may.
   double asymmetric_wavelength = 0;
-  Communicator ranks = {};  ///< the processes that hold its columns
+  Communicator communicator = {};  ///< the processes that hold its columns
 
-  Share columns() const { return {ranks, grid.ny / 2 + 1}; }
+  RowPartition columns() const { return {communicator, grid.ny / 2 + 1}; }
 
   double wavenumber_x(Index i) const;         ///< q_x, rad/m; −π/dx < q_x <= π/dx
   double wavenumber_y(Index j) const;         ///< q_y >= 0, rad/m
@@ -47,7 +47,7 @@ constexpr void describe(auto&& visit, std::type_identity<PowerSpectrum>) {
   visit(&S::correlated_modes, Kept{});
   visit(&S::asymmetric_wavelength,
         Kept{"asymmetric_wavelength", "wavelength up to which peaks and valleys differ", length});
-  visit(&S::ranks, Kept{});
+  visit(&S::communicator, Kept{});
   visit(&S::wavenumbers_x, Quantity{"wavenumber_x", Dimension::wavenumber, "wave number along x"});
   visit(&S::wavenumbers_y, Quantity{"wavenumber_y", Dimension::wavenumber, "wave number along y"});
   visit(&S::cell,

@@ -34,7 +34,7 @@ struct SummitList {
   std::vector<Summit> summits;
   double searched_area =
       0;  ///< m²: cells of all processes whose eight neighbours exist and are defined
-  Communicator ranks = {};
+  Communicator communicator = {};
   Index rows = 0;                    ///< rows of the surface; 0 if the summits belong to none
   std::vector<Index> in_block = {};  ///< summits in each block of rows of this process
 };
@@ -45,7 +45,7 @@ constexpr void describe(auto&& visit, std::type_identity<SummitList>) {
   visit(&S::searched_area,
         Kept{"searched_area", "cells whose eight neighbours exist and are defined",
              Dimension::length_squared});
-  visit(&S::ranks, Kept{});
+  visit(&S::communicator, Kept{});
   visit(&S::rows, Kept{});
   visit(&S::in_block, Kept{});
 }

@@ -30,9 +30,9 @@ constexpr void describe(auto&& visit, std::type_identity<BoundContact>) {
 
 /// Throws InvalidInput where several processes hold the state, as Surface::require_whole.
 inline void require_whole(const BoundContact& state, const std::string& purpose) {
-  if (!state.ranks.alone())
+  if (!state.communicator.alone())
     throw InvalidInput("state", "",
-                       "is spread over " + std::to_string(state.ranks.ranks()) +
+                       "is spread over " + std::to_string(state.communicator.size()) +
                            " processes, and " + purpose + " needs it whole; gather it first");
 }
 

@@ -4,7 +4,7 @@
 
 namespace salebra::python {
 
-Communicator ProcessesArgument::ranks() const {
+Communicator ProcessesArgument::communicator() const {
   if (comm.is_none()) return {};
   const nb::object held = nb::module_::import_("salebra._processes").attr("communicator")(comm);
   return *static_cast<const Communicator*>(

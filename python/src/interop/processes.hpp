@@ -13,7 +13,7 @@ namespace nb = nanobind;
 struct ProcessesArgument {
   nb::object comm = nb::none();
   /// Throws InvalidInput where this build or that communicator cannot be used. Collective.
-  Communicator ranks() const;
+  Communicator communicator() const;
 };
 
 }  // namespace salebra::python

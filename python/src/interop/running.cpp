@@ -11,11 +11,11 @@ constexpr auto interval = std::chrono::milliseconds(100);
 
 }  // namespace
 
-ProgressBridge::ProgressBridge(const ProgressArgument& argument, const Communicator& ranks) {
+ProgressBridge::ProgressBridge(const ProgressArgument& argument, const Communicator& communicator) {
   const nb::object& value = argument.value;
   if (value.is_none() || value.is(nb::bool_(false))) return;
   if (value.is(nb::bool_(true))) {
-    if (!ranks.is_root()) return;
+    if (!communicator.is_root()) return;
     nb::object bar = nb::module_::import_("salebra._progress").attr("Bar")();
     tell_ = bar.attr("tell");
     close_ = bar.attr("close");

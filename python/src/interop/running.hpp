@@ -51,7 +51,7 @@ struct ProgressArgument {
 class ProgressBridge {
  public:
   /// The first of several processes shows a bar.
-  explicit ProgressBridge(const ProgressArgument& argument, const Communicator& ranks = {});
+  explicit ProgressBridge(const ProgressArgument& argument, const Communicator& communicator = {});
   ProgressBridge(const ProgressBridge&) = delete;
   ProgressBridge& operator=(const ProgressBridge&) = delete;
   ~ProgressBridge();
@@ -75,15 +75,15 @@ class ProgressBridge {
 /// work(Progress) without the interpreter's lock. Collective over `ranks`: where a Python error
 /// stopped the work in one process, the others throw Interrupted.
 template <class Work>
-auto interruptible(const ProgressArgument& argument, Work&& work, const Communicator& ranks = {}) {
-  ProgressBridge bridge(argument, ranks);
+auto interruptible(const ProgressArgument& argument, Work&& work, const Communicator& communicator = {}) {
+  ProgressBridge bridge(argument, communicator);
   std::exception_ptr failure;
   std::optional<decltype(work(Progress{}))> result;
   {
     nb::gil_scoped_release unlocked;
     try {
       result.emplace(std::forward<Work>(work)(bridge.progress()));
-      if (!ranks.all_agree(!bridge.failed()))
+      if (!communicator.all_agree(!bridge.failed()))
         throw Interrupted("another process has stopped the work");
     } catch (...) {
       failure = std::current_exception();

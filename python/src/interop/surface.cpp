@@ -25,7 +25,7 @@ BoundSurface::~BoundSurface() {
   if (array.is_valid()) release_memory(surface.heights);
 }
 
-nb::object range_of(const Share& rows) {
+nb::object range_of(const RowPartition& rows) {
   return nb::borrow(reinterpret_cast<PyObject*>(&PyRange_Type))(rows.begin(), rows.end());
 }
 

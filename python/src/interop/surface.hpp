@@ -7,7 +7,7 @@
 #include <memory>
 #include <salebra/base/error.hpp>
 #include <salebra/base/grid.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/surface/spectrum.hpp>
 #include <salebra/surface/summits.hpp>
 #include <string>
@@ -41,9 +41,9 @@ inline void require_whole(const BoundSurface& surface, const std::string& purpos
 template <class Part>
   requires std::same_as<Part, PowerSpectrum> || std::same_as<Part, SummitList>
 void require_whole(const Part& part, const std::string& purpose) {
-  if (!part.ranks.alone())
+  if (!part.communicator.alone())
     throw InvalidInput(std::same_as<Part, SummitList> ? "summits" : "spectrum", "",
-                       "is spread over " + std::to_string(part.ranks.ranks()) + " processes, and " +
+                       "is spread over " + std::to_string(part.communicator.size()) + " processes, and " +
                            purpose + " needs it whole; gather its surface first");
 }
 
@@ -54,18 +54,18 @@ void require_whole_if_spread(const Bound& bound, const char* purpose) {
 }
 
 /// range(begin, end) of the rows that this process holds.
-nb::object range_of(const Share& rows);
+nb::object range_of(const RowPartition& rows);
 
 /// gather(root) of what has rows: itself where one process holds it, else what `whole` makes in
 /// that process, and None in the others.
 template <class Bound, class Whole>
-nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& ranks, Whole&& whole) {
-  if (ranks.alone()) {
+nb::object gather(nb::handle_t<Bound> self, int root, const Communicator& communicator, Whole&& whole) {
+  if (communicator.alone()) {
     require(root == 0, "root", root, "must be one of the processes, counted from 0");
     return nb::borrow(self);
   }
   std::unique_ptr<Bound> gathered = std::forward<Whole>(whole)();
-  if (ranks.rank() != root) return nb::none();
+  if (communicator.rank() != root) return nb::none();
   return nb::cast(gathered.release(), nb::rv_policy::take_ownership);
 }
 

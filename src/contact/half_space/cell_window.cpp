@@ -32,16 +32,16 @@ CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundar
 }
 
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary) {
-  require_spread_contact(contact, grid, Share(grid.nx), boundary);
+  require_spread_contact(contact, grid, RowPartition(grid.nx), boundary);
 }
 
-void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const Share& rows,
+void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const RowPartition& rows,
                             Boundary boundary) {
-  collectively(rows.ranks(), [&] {
+  collectively(rows.communicator(), [&] {
     require(contact.rows() == rows.count() && contact.cols() == grid.ny, "contact", contact.size(),
             "cells do not match the grid; give one value for each of nx × ny cells");
   });
-  require(boundary == Boundary::free || !rows.ranks().all_agree(contact.all()), "contact",
+  require(boundary == Boundary::free || !rows.communicator().all_agree(contact.all()), "contact",
           contact.size(),
           "cells are all in contact; a periodic surface in full contact has no finite stiffness");
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/half_space/contact_set.hpp>
 
 #include "half_space.hpp"
@@ -25,7 +25,7 @@ CellWindow loading_window(const ContactSet& contact, const Grid2D& grid, Boundar
 /// in contact.
 void require_contact(const ContactSet& contact, const Grid2D& grid, Boundary boundary);
 /// Does so for a set whose rows are spread over processes. Collective.
-void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const Share& rows,
+void require_spread_contact(const ContactSet& contact, const Grid2D& grid, const RowPartition& rows,
                             Boundary boundary);
 /// Throws InvalidInput unless a solve on a contact set can be held to these: 1e-14 … 0.1, and >= 1.
 void require_limits(double tolerance, int max_iterations);

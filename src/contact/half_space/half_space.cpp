@@ -10,7 +10,7 @@
 #include <memory>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <span>
 #include <vector>
 
@@ -33,11 +33,11 @@ double corner_term(double a, double b) { return a == 0 ? 0 : a * std::asinh(b / 
 // period_x/2 of the transform along y, which is real or imaginary; columns are made of them.
 class KernelTransform {
  public:
-  KernelTransform(Index period_x, Index period_y, Parity parity, const Communicator& ranks,
+  KernelTransform(Index period_x, Index period_y, Parity parity, const Communicator& communicator,
                   const std::function<double(Index, Index)>& kernel)
-      : period_x_(period_x), odd_(parity == Parity::odd), rows_(ranks, period_x / 2 + 1) {
+      : period_x_(period_x), odd_(parity == Parity::odd), rows_(communicator, period_x / 2 + 1) {
     RealFft2D<double> along_y(1, period_y);
-    collectively(ranks, [&] {
+    collectively(communicator, [&] {
       transformed_ = uninitialised_field(rows_.count(), along_y.modes_y());
       parallel::for_slabs(rows_.count(), [&](Index begin, Index end) {
         std::vector<double> line(static_cast<std::size_t>(period_y));
@@ -60,10 +60,10 @@ class KernelTransform {
   }
 
   // These are NormalSymbol::columns.
-  Field columns(const Share& places, const std::function<Index(Index place)>& column_at) const {
+  Field columns(const RowPartition& places, const std::function<Index(Index place)>& column_at) const {
     RealFft2D<double> along_x(1, period_x_);
     Field symbol;
-    collectively(places.ranks(),
+    collectively(places.communicator(),
                  [&] { symbol = uninitialised_field(places.count(), along_x.modes_y()); });
     visit_columns<double>(
         rows_, places,
@@ -98,14 +98,14 @@ class KernelTransform {
 
   Index period_x_;
   bool odd_;
-  Share rows_;
+  RowPartition rows_;
   Field transformed_;
 };
 
 // Symbol in the columns of this process alone.
-std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel, const Share& rows,
+std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel, const RowPartition& rows,
                                               Index period_y) {
-  const Share columns = detail::spectrum_columns(rows, period_y);
+  const RowPartition columns = detail::spectrum_columns(rows, period_y);
   const auto symbol =
       std::make_shared<Field>(kernel.columns(columns, [](Index place) { return place; }));
   return [symbol, first = columns.begin()](Index i, Index j) { return (*symbol)(j - first, i); };
@@ -167,7 +167,7 @@ CellIntegrals cell_integrals(double x, double y, double dx, double dy) {
 namespace detail {
 
 NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                           const Share& rows) {
+                           const RowPartition& rows) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
   const auto shape = shape_of<double>(grid, boundary);
@@ -180,14 +180,14 @@ NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary 
     };
   } else {
     const auto kernel = std::make_shared<KernelTransform>(
-        shape.period_x, shape.period_y, Parity::even, rows.ranks(), [&](Index a, Index b) {
+        shape.period_x, shape.period_y, Parity::even, rows.communicator(), [&](Index a, Index b) {
           const double x = static_cast<double>(a) * grid.dx(),
                        y = static_cast<double>(b) * grid.dy();
           return cell_integrals(x, y, grid.dx(), grid.dy()).inverse_distance /
                  (pi * contact_modulus);
         });
     symbol.value = symbol_of(*kernel, rows, shape.period_y);
-    symbol.columns = [kernel](const Share& places, const auto& column_at) {
+    symbol.columns = [kernel](const RowPartition& places, const auto& column_at) {
       return kernel->columns(places, column_at);
     };
   }
@@ -196,37 +196,37 @@ NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary 
 
 template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol,
-                                      const Share& rows) {
+                                      const RowPartition& rows) {
   Convolution2D<Real> compliance({grid.nx, grid.ny, symbol.period_x, symbol.period_y}, 1, rows);
   compliance.set_symbol(0, 0, symbol.value);
   return compliance;
 }
 
 template Convolution2D<float> normal_compliance<float>(const Grid2D&, const NormalSymbol&,
-                                                       const Share&);
+                                                       const RowPartition&);
 template Convolution2D<double> normal_compliance<double>(const Grid2D&, const NormalSymbol&,
-                                                         const Share&);
+                                                         const RowPartition&);
 
 }  // namespace detail
 
 template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                                      const Communicator& ranks) {
-  const Share rows(ranks, grid.nx);
+                                      const Communicator& communicator) {
+  const RowPartition rows(communicator, grid.nx);
   return detail::normal_compliance<Real>(
       grid, detail::normal_symbol(grid, contact_modulus, boundary, rows), rows);
 }
 
 template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
-                                          Boundary boundary, const Communicator& ranks) {
+                                          Boundary boundary, const Communicator& communicator) {
   grid.validate();
   const double isotropic = material.cerruti_isotropic, directed = material.cerruti_directed;
   require(std::isfinite(isotropic) && std::isfinite(directed), "tangential_modulus",
           material.tangential_modulus,
           "does not give Cerruti's constants; name the bodies or Poisson's ratio");
   const auto shape = shape_of<Real>(grid, boundary);
-  const Share rows(ranks, grid.nx);
+  const RowPartition rows(communicator, grid.nx);
   Convolution2D<Real> compliance(shape, 2, rows);
   if (boundary == Boundary::periodic) {
     const auto along = [=](double component, double length) {
@@ -256,7 +256,7 @@ Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& ma
     const auto set = [&](int a, int b, Parity parity, auto value) {
       compliance.set_symbol(
           a, b,
-          symbol_of(KernelTransform(shape.period_x, shape.period_y, parity, ranks,
+          symbol_of(KernelTransform(shape.period_x, shape.period_y, parity, communicator,
                                     [&](Index i, Index j) {
                                       const double x = static_cast<double>(i) * grid.dx();
                                       const double y = static_cast<double>(j) * grid.dy();
@@ -335,7 +335,7 @@ InverseStencil::InverseStencil(const Grid2D& grid) {
   if (least < wanted) weights_[index(0, 0)] += wanted - least;
 }
 
-void InverseStencil::apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,
+void InverseStencil::apply(const RowPartition& rows, const Field& mask, const Field& r, Boundary boundary,
                            Field& z) const {
   static_assert(radius <= detail::halo);
   const Index nx = r.rows(), ny = r.cols();

@@ -37,7 +37,7 @@ typename Convolution2D<Real>::Shape shape_of(const Grid2D& grid, Boundary bounda
 /// ranks             processes that share the rows of the fields
 template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                                      const Communicator& ranks = {});
+                                      const Communicator& communicator = {});
 
 /// Tangential displacement (u_x, u_y) of shear tractions (τ_x, τ_y), with Cerruti's constants c1,
 /// c2 of the material:
@@ -47,7 +47,7 @@ Convolution2D<Real> normal_compliance(const Grid2D& grid, double contact_modulus
 /// throws InvalidInput where the material does not know its Cerruti constants
 template <class Real>
 Convolution2D<Real> tangential_compliance(const Grid2D& grid, const Material& material,
-                                          Boundary boundary, const Communicator& ranks = {});
+                                          Boundary boundary, const Communicator& communicator = {});
 
 /// Displacement of a cell under a unit pressure on itself alone, m/Pa: a scale, not exact for the
 /// periodic kernel.
@@ -69,7 +69,7 @@ class InverseStencil {
   const double* weights() const { return weights_.data(); }
   /// z = M S M r with M the cells where mask > 0: z is zero elsewhere. All fields hold the rows of
   /// this process; neighbours wrap where periodic. Collective.
-  void apply(const Share& rows, const Field& mask, const Field& r, Boundary boundary,
+  void apply(const RowPartition& rows, const Field& mask, const Field& r, Boundary boundary,
              Field& z) const;
 
  private:

@@ -62,7 +62,7 @@ void HaloField<Real>::fill_halo(Boundary boundary, const RowExchange& halo_rows)
   halo_rows(row(0) - side_halo, bytes, row(-halo) - side_halo, bytes, bytes);
 }
 
-RowExchange halo_rows(const Share& rows, Boundary boundary) {
+RowExchange halo_rows(const RowPartition& rows, Boundary boundary) {
   const auto with_halo = [&](int rank) {
     return RowExchange::Window{rows.begin_of(rank) - halo,
                                rows.end_of(rank) - rows.begin_of(rank) + 2 * halo};

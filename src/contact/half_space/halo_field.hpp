@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "base/memory.hpp"
@@ -43,6 +43,6 @@ class HaloField {
 };
 
 // Returns the exchange that fills the halo of a field whose rows are shared so.
-RowExchange halo_rows(const Share& rows, Boundary boundary);
+RowExchange halo_rows(const RowPartition& rows, Boundary boundary);
 
 }  // namespace salebra::detail

@@ -84,7 +84,7 @@ Sample sample(const FoldedSymbol& symbol, Index i, Index j) {
 
 // The columns of this process; those of the others are zero.
 template <class Fine>
-QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil, const Share& columns) {
+QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil, const RowPartition& columns) {
   QuarterSymbol coarse{fine.period_x / 2, fine.period_y / 2, {}, {}};
   const AxisWaves x(fine.period_x, stencil.radius), y(fine.period_y, stencil.radius);
   const Index rows = coarse.period_x / 2 + 1;
@@ -123,7 +123,7 @@ QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil, cons
 
 template <class Fine>
 QuarterSymbol coarsened(const Fine& fine, const MultilevelStencil& stencil) {
-  return coarsened(fine, stencil, Share(fine.period_y / 4 + 1));
+  return coarsened(fine, stencil, RowPartition(fine.period_y / 4 + 1));
 }
 
 // The four frequencies that look the same on the coarser grid: what a stencil changes there, with C
@@ -230,7 +230,7 @@ Design begun(double dx_over_dy, Boundary boundary) {
   const auto length = static_cast<double>(cells);
   const double stretch = std::sqrt(dx_over_dy);
   const NormalSymbol exact =
-      normal_symbol({cells, cells, length * stretch, length / stretch}, 1, boundary, Share(cells));
+      normal_symbol({cells, cells, length * stretch, length / stretch}, 1, boundary, RowPartition(cells));
   QuarterSymbol symbol{exact.period_x, exact.period_y, {}, {}};
   for (Index i = 0; i <= symbol.period_x / 2; ++i)
     for (Index j = 0; j <= symbol.period_y / 2; ++j) {
@@ -263,27 +263,27 @@ std::vector<MultilevelRung> multilevel_design(double dx_over_dy, Boundary bounda
 }
 
 QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& stencil,
-                            const Communicator& ranks) {
-  const Share columns(ranks, fine.period_y / 4 + 1);
+                            const Communicator& communicator) {
+  const RowPartition columns(communicator, fine.period_y / 4 + 1);
   std::vector<Index> begins;
-  for (int rank = 0; rank <= ranks.ranks(); ++rank)
-    begins.push_back(2 * (rank < ranks.ranks() ? columns.begin_of(rank) : columns.rows()));
+  for (int rank = 0; rank <= communicator.size(); ++rank)
+    begins.push_back(2 * (rank < communicator.size() ? columns.begin_of(rank) : columns.rows()));
   QuarterSymbol coarse;
   if (fine.columns) {
     const Index half = fine.period_y / 2;
     const FoldedSymbol folded{fine.period_x, fine.period_y, columns.begin(),
-                              fine.columns(Share(ranks, begins), [half](Index place) {
+                              fine.columns(RowPartition(communicator, begins), [half](Index place) {
                                 return place % 2 == 0 ? place / 2 : half - place / 2;
                               })};
     coarse = coarsened(folded, stencil, columns);
   } else {
     coarse = coarsened(fine, stencil, columns);
   }
-  if (ranks.alone()) return coarse;
+  if (communicator.alone()) return coarse;
   // The columns of each process come together, one after the other.
   const Index rows = coarse.period_x / 2 + 1;
   std::vector<std::size_t> bytes;
-  for (int rank = 0; rank < ranks.ranks(); ++rank)
+  for (int rank = 0; rank < communicator.size(); ++rank)
     bytes.push_back(
         static_cast<std::size_t>((columns.end_of(rank) - columns.begin_of(rank)) * rows) *
         sizeof(double));
@@ -291,7 +291,7 @@ QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& s
   for (auto* numbers : {&coarse.value, &coarse.metric}) {
     Eigen::Map<Field> whole(numbers->data(), rows, coarse.columns());
     mine = whole.middleCols(columns.begin(), columns.count()).transpose();
-    ranks.gather_all(mine.data(), bytes, all.data());
+    communicator.gather_all(mine.data(), bytes, all.data());
     whole = all.transpose();
   }
   return coarse;

@@ -51,7 +51,7 @@ struct QuarterSymbol {
 // T(0))/4, which takes a constant to where G takes it.
 // Each process makes its columns and gets those of all. Collective.
 QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& stencil,
-                            const Communicator& ranks);
+                            const Communicator& communicator);
 QuarterSymbol coarse_symbol(const QuarterSymbol& fine, const MultilevelStencil& stencil);
 
 }  // namespace salebra::detail

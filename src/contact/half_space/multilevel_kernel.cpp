@@ -33,14 +33,14 @@ constexpr Index least_coarsest_rows = 64;
 // The rows of the next coarser level, nx in all. Row I goes with row 2I − shift of the finer one,
 // or with the row behind that where a process begins between the two: kernels then count rows of
 // both levels from 0 on.
-Share coarser(const Share& finer, Index nx, Index shift) {
-  const int ranks = finer.ranks().ranks();
+RowPartition coarser(const RowPartition& finer, Index nx, Index shift) {
+  const int ranks = finer.communicator().size();
   std::vector<Index> begins{0};
   for (int rank = 1; rank <= ranks; ++rank)
     begins.push_back(finer.begin_of(rank) == finer.rows()
                          ? nx
                          : std::min(nx, (finer.begin_of(rank) + shift) / 2));
-  return {finer.ranks(), std::move(begins)};
+  return {finer.communicator(), std::move(begins)};
 }
 
 // Visits the tiles of a list, each for itself.
@@ -63,7 +63,7 @@ std::array<float, size> whole_stencil(const MultilevelStencil& stencil) {
 }  // namespace
 
 std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D& grid,
-                                                                   const Share& rows,
+                                                                   const RowPartition& rows,
                                                                    const NormalSymbol& symbol,
                                                                    double contact_modulus,
                                                                    Boundary boundary) {
@@ -84,7 +84,7 @@ std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D&
     plan.stencils.push_back(std::move(stencil));
   }
   if (!(plan.error < acceptable_error)) return std::nullopt;
-  plan.left = coarse_symbol(symbol, plan.stencils.front(), rows.ranks());
+  plan.left = coarse_symbol(symbol, plan.stencils.front(), rows.communicator());
   for (std::size_t k = 1; k < plan.stencils.size(); ++k)
     plan.left = coarse_symbol(plan.left, plan.stencils[k]);
   if (boundary == Boundary::free) {
@@ -98,7 +98,7 @@ std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D&
   return plan;
 }
 
-MultilevelKernel::MultilevelKernel(const Plan& plan, const Share& rows)
+MultilevelKernel::MultilevelKernel(const Plan& plan, const RowPartition& rows)
     : boundary_(plan.boundary),
       rows_(rows),
       halo_rows_(halo_rows(rows, plan.boundary)),
@@ -127,8 +127,8 @@ void MultilevelKernel::add_level(Index& nx, Index& ny) {
     ny = (ny + 1) / 2 + 2 * reach;
     shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
   }
-  const Share& finer = levels_.empty() ? rows_ : levels_.back().rows;
-  const Share of_level = coarser(finer, nx, shift.x);
+  const RowPartition& finer = levels_.empty() ? rows_ : levels_.back().rows;
+  const RowPartition of_level = coarser(finer, nx, shift.x);
   Level level(of_level, boundary_);
   level.shift = level.local_shift = shift;
   level.local_shift.x += finer.begin() - 2 * of_level.begin();
@@ -139,10 +139,10 @@ void MultilevelKernel::add_level(Index& nx, Index& ny) {
 
 // The transform of what the stencils leave, in whole blocks of rows.
 void MultilevelKernel::add_coarsest(Index nx, Index ny, const QuarterSymbol& left) {
-  const Share last = levels_.back().rows, whole_blocks(rows_.ranks(), nx, least_coarsest_rows);
-  const auto all_of = [](const Share& share) {
-    return [share](int rank) {
-      return RowExchange::Window{share.begin_of(rank), share.end_of(rank) - share.begin_of(rank)};
+  const RowPartition last = levels_.back().rows, whole_blocks(rows_.communicator(), nx, least_coarsest_rows);
+  const auto all_of = [](const RowPartition& partition) {
+    return [partition](int rank) {
+      return RowExchange::Window{partition.begin_of(rank), partition.end_of(rank) - partition.begin_of(rank)};
     };
   };
   coarsest_rows_ = whole_blocks;
@@ -157,7 +157,7 @@ void MultilevelKernel::add_coarsest(Index nx, Index ny, const QuarterSymbol& lef
 void MultilevelKernel::list_tiles(const std::vector<unsigned char>& in_use) {
   const bool periodic = boundary_ == Boundary::periodic;
   const std::vector<unsigned char>* finer = &in_use;
-  const Share* finer_rows = &rows_;
+  const RowPartition* finer_rows = &rows_;
   Index finer_ny = ny_;
   for (Level& level : levels_) {
     const Index ny = level.source.ny(), across = tiles_across(ny);
@@ -180,7 +180,7 @@ void MultilevelKernel::list_tiles(const std::vector<unsigned char>& in_use) {
       return RowExchange::Window{2 * begin - level.shift.x - reach,
                                  2 * (end - 1 - begin) + 2 * reach + 1};
     };
-    const auto window = reaching(level.rows.ranks().rank());
+    const auto window = reaching(level.rows.communicator().rank());
     std::vector<unsigned char> used_rows(static_cast<std::size_t>(window.count * finer_across), 0);
     const auto row_bytes = static_cast<std::size_t>(finer_across);
     RowExchange(*finer_rows, reaching,

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "base/convolution.hpp"
@@ -42,12 +42,12 @@ class MultilevelKernel {
     // None where the grid is too small for it, or has no stencils that are good enough: cells
     // longer than about 1:2, or a period that does not halve.
     // rows: those of the grid that each process holds.
-    static std::optional<Plan> make(const Grid2D& grid, const Share& rows,
+    static std::optional<Plan> make(const Grid2D& grid, const RowPartition& rows,
                                     const NormalSymbol& symbol, double contact_modulus,
                                     Boundary boundary);
   };
-  MultilevelKernel(const Plan& plan, const Share& rows);
-  static std::optional<MultilevelKernel> make(const Grid2D& grid, const Share& rows,
+  MultilevelKernel(const Plan& plan, const RowPartition& rows);
+  static std::optional<MultilevelKernel> make(const Grid2D& grid, const RowPartition& rows,
                                               const NormalSymbol& symbol, double contact_modulus,
                                               Boundary boundary) {
     const auto plan = Plan::make(grid, rows, symbol, contact_modulus, boundary);
@@ -70,10 +70,10 @@ class MultilevelKernel {
 
  private:
   struct Level {
-    Level(const Share& of_level, Boundary boundary)
+    Level(const RowPartition& of_level, Boundary boundary)
         : rows(of_level), halo_rows(detail::halo_rows(of_level, boundary)) {}
 
-    Share rows;
+    RowPartition rows;
     RowExchange halo_rows;
     HaloField<float> source, image;
     Shift shift = {0, 0};                // of its cells on the finer grid, of all processes
@@ -87,7 +87,7 @@ class MultilevelKernel {
   void add_coarsest(Index nx, Index ny, const QuarterSymbol& left);
 
   Boundary boundary_ = Boundary::periodic;
-  Share rows_;  // of the grid
+  RowPartition rows_;  // of the grid
   std::optional<RowExchange> halo_rows_;
   double error_ = 0;
   Index ny_ = 0;
@@ -95,7 +95,7 @@ class MultilevelKernel {
   std::vector<Level> levels_;           // the coarsest last
   // The transform of the coarsest, whose rows are shared by whole blocks, and their way there and
   // back.
-  Share coarsest_rows_;
+  RowPartition coarsest_rows_;
   std::optional<Convolution2D<float>> coarsest_;
   std::optional<RowExchange> to_coarsest_, from_coarsest_;
   LargeArray<float> coarsest_field_;

@@ -9,7 +9,7 @@
 namespace salebra::detail {
 
 NormalOperators::NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                                 const Share& rows)
+                                 const RowPartition& rows)
     : grid_(grid),
       contact_modulus_(contact_modulus),
       boundary_(boundary),
@@ -23,14 +23,14 @@ bool NormalOperators::serves(const Grid2D& grid, double contact_modulus, Boundar
 }
 
 std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double contact_modulus,
-                                                     Boundary boundary, const Share& rows) {
+                                                     Boundary boundary, const RowPartition& rows) {
   constexpr Index most_points = 12'000'000;
   static std::mutex mutex;
   static std::vector<std::shared_ptr<NormalOperators>> last;  // those of use lately come last
   const auto make = [&] {
     return std::make_shared<NormalOperators>(grid, contact_modulus, boundary, rows);
   };
-  if (!rows.ranks().alone() || grid.points() > most_points) return make();
+  if (!rows.communicator().alone() || grid.points() > most_points) return make();
   const std::lock_guard lock(mutex);
   const auto found = std::ranges::find_if(
       last, [&](const auto& one) { return one->serves(grid, contact_modulus, boundary); });

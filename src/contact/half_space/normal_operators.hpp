@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 
 #include "base/convolution.hpp"
 #include "half_space.hpp"
@@ -17,12 +17,12 @@ namespace salebra::detail {
 // preconditioner and the multilevel kernel, each made when it is first needed. Any thread may ask.
 class NormalOperators {
  public:
-  NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary, const Share& rows);
+  NormalOperators(const Grid2D& grid, double contact_modulus, Boundary boundary, const RowPartition& rows);
   // The same one for equal grids, where these are among the last ones of 12 million points in all,
   // which takes 36 MB, and 90 MB of free contacts: the contacts of a sweep, and each with its
   // stiffness. Of a grid that is spread over processes always a new one.
   static std::shared_ptr<NormalOperators> of(const Grid2D& grid, double contact_modulus,
-                                             Boundary boundary, const Share& rows);
+                                             Boundary boundary, const RowPartition& rows);
 
   const NormalSymbol& symbol() const { return symbol_; }
   const InverseStencil& inverse() const { return inverse_; }
@@ -36,7 +36,7 @@ class NormalOperators {
   Grid2D grid_;
   double contact_modulus_;
   Boundary boundary_;
-  Share rows_;
+  RowPartition rows_;
   NormalSymbol symbol_;
   InverseStencil inverse_;
   std::mutex mutex_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 
 #include "half_space.hpp"
 
@@ -17,14 +17,14 @@ struct NormalSymbol {
   Convolution2D<double>::Symbol value;
   // Any columns of a free contact, collectively: (places.count(), period_x/2 + 1), column_at(place)
   // for each place of this process. Empty for a periodic one, which has its value in every column.
-  std::function<Field(const Share& places, const std::function<Index(Index place)>& column_at)>
+  std::function<Field(const RowPartition& places, const std::function<Index(Index place)>& column_at)>
       columns;
 };
 NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,
-                           const Share& rows);
+                           const RowPartition& rows);
 
 template <class Real>
 Convolution2D<Real> normal_compliance(const Grid2D& grid, const NormalSymbol& symbol,
-                                      const Share& rows);
+                                      const RowPartition& rows);
 
 }  // namespace salebra::detail

@@ -36,7 +36,7 @@ constexpr int most_inexact_refreshes = 3;
 }  // namespace
 
 template <class Real>
-ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const Share& rows, double contact_modulus,
+ActiveSetCg<Real>::ActiveSetCg(const Grid2D& grid, const RowPartition& rows, double contact_modulus,
                                Boundary boundary, const Heights& heights, double rms_height)
     : grid_(grid),
       rows_(rows),
@@ -359,9 +359,9 @@ void ActiveSetCg<Real>::go_on(Run& run) {
   for (;;) {
     const bool progressed = iterate(run);
     if (limits.keep_going &&
-        !rows_.ranks().all_agree(limits.keep_going(run.outcome.iterations, run.estimate)))
+        !rows_.communicator().all_agree(limits.keep_going(run.outcome.iterations, run.estimate)))
       run.outcome.termination = Termination::interrupted;
-    if (limits.take_checkpoint && rows_.ranks().all_agree(limits.checkpoint_due())) {
+    if (limits.take_checkpoint && rows_.communicator().all_agree(limits.checkpoint_due())) {
       unpack_pressure(run, 1);
       limits.take_checkpoint();
     }

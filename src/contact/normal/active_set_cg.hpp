@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "base/convolution.hpp"
@@ -49,11 +49,11 @@ class ActiveSetCg {
  public:
   ActiveSetCg(const Grid2D& grid, double contact_modulus, Boundary boundary, const Heights& heights,
               double rms_height)
-      : ActiveSetCg(grid, Share(grid.nx), contact_modulus, boundary, heights, rms_height) {}
+      : ActiveSetCg(grid, RowPartition(grid.nx), contact_modulus, boundary, heights, rms_height) {}
   // Works over the processes of a share of the rows: fields, and tiles, are those of the rows of
   // this process, and each call is collective. All decisions follow from sums that have the same
   // bits everywhere, so that no process leaves the others waiting.
-  ActiveSetCg(const Grid2D& grid, const Share& rows, double contact_modulus, Boundary boundary,
+  ActiveSetCg(const Grid2D& grid, const RowPartition& rows, double contact_modulus, Boundary boundary,
               const Heights& heights, double rms_height);
 
   // p: the start on entry, the solution on return; g = Gp − h on return.
@@ -230,7 +230,7 @@ class ActiveSetCg {
   void refresh(Run& run, bool last);
 
   Grid2D grid_;
-  Share rows_;
+  RowPartition rows_;
   Boundary boundary_;
   RowExchange halo_rows_;
   Heights heights_;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/normal/adhesion.hpp>
 #include <utility>
@@ -42,7 +42,7 @@ struct HeightSums {
   double first = 0, second = 0;  // Σ(h − zero), Σ(h − zero)²
 };
 
-HeightSums height_sums(const Share& rows, const Field& heights, double zero) {
+HeightSums height_sums(const RowPartition& rows, const Field& heights, double zero) {
   HeightSums total;
   for (const HeightSums& part : parallel::map_blocks<HeightSums>(
            rows,
@@ -66,7 +66,7 @@ HeightSums height_sums(const Share& rows, const Field& heights, double zero) {
 }
 
 /// rms slope by differences between neighbours. Collective.
-double rms_slope_of(const Surface& surface, const Share& rows) {
+double rms_slope_of(const Surface& surface, const RowPartition& rows) {
   const Field& h = surface.heights;
   const Grid2D& grid = surface.grid;
   std::vector<double> next_row(static_cast<std::size_t>(grid.ny));
@@ -130,7 +130,7 @@ class AdhesiveSolve {
   AdhesiveSolve(const Surface& surface, double contact_modulus, const Adhesion& adhesion,
                 const AdhesiveContactOptions& options, const OperatingPoint& point)
       : surface_(surface),
-        rows_(surface.share()),
+        rows_(surface.partition()),
         cells_(static_cast<double>(surface.grid.points())),
         modulus_(contact_modulus),
         adhesion_(adhesion),
@@ -279,13 +279,13 @@ class AdhesiveSolve {
     require_memory(grid,
                    (8 * sizeof(double) + 2 * memory_of_steps * sizeof(float)) *
                        static_cast<double>(surface_.heights.size()),
-                   "an adhesive contact", surface_.ranks);
-    state_.ranks = surface_.ranks;
+                   "an adhesive contact", surface_.communicator);
+    state_.communicator = surface_.communicator;
     state_.cells_in_process_zone = salebra::cells_in_process_zone(adhesion_, grid, modulus_);
     raised_ = {grid, Field(surface_.heights.rows(), grid.ny), surface_.periodic, surface_.origin,
-               surface_.ranks};
+               surface_.communicator};
     compliance_.emplace(
-        normal_compliance<double>(grid, modulus_, options_.contact.boundary, surface_.ranks));
+        normal_compliance<double>(grid, modulus_, options_.contact.boundary, surface_.communicator));
     if (options_.start_tension) {
       tension_ = *options_.start_tension;
     } else if (point_.load_given() && !(point_.value > 0)) {
@@ -504,7 +504,7 @@ class AdhesiveSolve {
   }
 
   const Surface& surface_;
-  const Share rows_;
+  const RowPartition rows_;
   const double cells_;
   const double modulus_;
   const Adhesion adhesion_;
@@ -524,7 +524,7 @@ class AdhesiveSolve {
 
 double detail::adhesion_reference(const Surface& surface, double contact_modulus,
                                   const Adhesion& adhesion) {
-  return std::max(contact_modulus * rms_slope_of(surface, surface.share()),
+  return std::max(contact_modulus * rms_slope_of(surface, surface.partition()),
                   adhesion.largest_tension());
 }
 
@@ -577,7 +577,7 @@ std::optional<std::string> warning_of_process_zone(const Adhesion& adhesion, con
 AdhesiveContactState press_adhesive(const Surface& surface, double contact_modulus,
                                     const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options) {
-  collectively(surface.ranks, [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
+  collectively(surface.communicator, [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
   return AdhesiveSolve(surface, contact_modulus, adhesion, options, point).go();
 }
 

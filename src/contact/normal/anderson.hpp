@@ -2,7 +2,7 @@
 #pragma once
 
 #include <deque>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 
 namespace salebra::detail {
 
@@ -12,7 +12,7 @@ namespace salebra::detail {
 class Anderson {
  public:
   // depth: differences that are kept, each in single precision.
-  Anderson(const Share& rows, std::size_t depth) : rows_(rows), depth_(depth) {}
+  Anderson(const RowPartition& rows, std::size_t depth) : rows_(rows), depth_(depth) {}
 
   // The next x, or x + f where there is no step before. Keeps the pair.
   Field extrapolate(const Field& x, const Field& f);
@@ -23,7 +23,7 @@ class Anderson {
   struct Step {
     Rows x, f;  // differences of the pairs at its ends
   };
-  Share rows_;
+  RowPartition rows_;
   std::size_t depth_;
   Field last_x_, last_f_;
   std::deque<Step> steps_;

@@ -14,7 +14,7 @@ namespace salebra::detail {
 inline double contact_memory(const Surface& surface, const NormalContactOptions& options) {
   const auto cells = static_cast<double>(surface.grid.points());
   const double mine = static_cast<double>(surface.heights.size());
-  const double whole = surface.ranks.alone() ? 0 : options.boundary == Boundary::free ? 70 : 1;
+  const double whole = surface.communicator.alone() ? 0 : options.boundary == Boundary::free ? 70 : 1;
   return (options.precision == Precision::mixed ? 43 : 58) * mine + whole * cells;
 }
 

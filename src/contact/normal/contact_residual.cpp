@@ -17,7 +17,7 @@ struct DenseSums {
 
 }  // namespace
 
-ContactResidual contact_residual(const Grid2D& grid, const Share& rows,
+ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
                                  const ScaledOperatingPoint& target, double rms_height,
                                  const double* p, const double* g) {
   const double bound = target.bound;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 #include <salebra/base/progress.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/operating_point.hpp>
 
 namespace salebra::detail {
@@ -102,7 +102,7 @@ struct ContactResidual {
 // a gap below the latter adds its depth. Saturated cells may lie below the plane, so they count
 // only where they stand above it. p and g are those of the rows of this process, the result that of
 // all. Collective.
-ContactResidual contact_residual(const Grid2D& grid, const Share& rows,
+ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
                                  const ScaledOperatingPoint& target, double rms_height,
                                  const double* p, const double* g);
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <string>
 #include <type_traits>
@@ -122,10 +122,10 @@ Found find_parts(const Field& pressure, bool periodic, Index block_rows) {
 
 /// Lists of all processes, one after the other.
 template <class Item>
-std::vector<std::vector<Item>> gathered(const Communicator& ranks, const std::vector<Item>& mine) {
+std::vector<std::vector<Item>> gathered(const Communicator& communicator, const std::vector<Item>& mine) {
   static_assert(std::is_trivially_copyable_v<Item>);
   std::vector<std::vector<Item>> all;
-  for (const std::string& bytes : ranks.gather_all(
+  for (const std::string& bytes : communicator.gather_all(
            std::string(reinterpret_cast<const char*>(mine.data()), mine.size() * sizeof(Item)))) {
     all.emplace_back(bytes.size() / sizeof(Item));
     if (!bytes.empty()) std::memcpy(all.back().data(), bytes.data(), bytes.size());
@@ -157,19 +157,19 @@ struct Joined {
 };
 
 /// Every process joins the parts of all of them by the runs of cells at the edges of their rows.
-Joined join_parts(const Found& mine, const Share& rows, bool periodic) {
-  const Communicator& ranks = rows.ranks();
+Joined join_parts(const Found& mine, const RowPartition& rows, bool periodic) {
+  const Communicator& communicator = rows.communicator();
   struct Counts {
     Index parts = 0, edges_across_x = 0, edges_across_y = 0;
   };
   const auto counts =
-      gathered<Counts>(ranks, {{mine.parts, mine.edges_across_x, mine.edges_across_y}});
-  const auto first = gathered(ranks, mine.first), last = gathered(ranks, mine.last);
+      gathered<Counts>(communicator, {{mine.parts, mine.edges_across_x, mine.edges_across_y}});
+  const auto first = gathered(communicator, mine.first), last = gathered(communicator, mine.last);
   Joined joined;
   Sets sets;
   std::vector<Index> before{0};  // parts of the processes before each
   Index in_use = 0;
-  for (int rank = 0; rank < ranks.ranks(); ++rank) {
+  for (int rank = 0; rank < communicator.size(); ++rank) {
     const Counts& of_rank = counts[static_cast<std::size_t>(rank)].front();
     for (Index part = 0; part < of_rank.parts; ++part) sets.add();
     before.push_back(before.back() + of_rank.parts);
@@ -201,7 +201,7 @@ Joined join_parts(const Found& mine, const Share& rows, bool periodic) {
     spot_of[static_cast<std::size_t>(part)] =
         root == part ? joined.spots++ : spot_of[static_cast<std::size_t>(root)];
   }
-  const Index begin = before[static_cast<std::size_t>(ranks.rank())];
+  const Index begin = before[static_cast<std::size_t>(communicator.rank())];
   joined.spot_of.assign(spot_of.begin() + begin, spot_of.begin() + begin + mine.parts);
   return joined;
 }
@@ -234,12 +234,12 @@ std::vector<Piece> pieces_of(const Found& mine, const Joined& joined) {
 }  // namespace
 
 ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary boundary,
-                           const Communicator& ranks) {
-  const Share rows(ranks, grid.nx);
+                           const Communicator& communicator) {
+  const RowPartition rows(communicator, grid.nx);
   const bool periodic = boundary == Boundary::periodic;
   const Index block_rows = parallel::block_rows(grid.nx);
   Found mine;
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     grid.validate();
     require(pressure.rows() == rows.count() && pressure.cols() == grid.ny, "pressure",
             pressure.rows(), "rows or the number of columns differ from those of the grid");
@@ -252,7 +252,7 @@ ContactSpots contact_spots(const Field& pressure, const Grid2D& grid, Boundary b
   result.spots.resize(static_cast<std::size_t>(joined.spots));
   std::vector<Index> cells_of(result.spots.size(), 0);
   Index cells = 0;
-  for (const auto& of_rank : gathered(ranks, pieces_of(mine, joined))) {
+  for (const auto& of_rank : gathered(communicator, pieces_of(mine, joined))) {
     for (const Piece& piece : of_rank) {
       cells += piece.cells;
       cells_of[static_cast<std::size_t>(piece.spot)] += piece.cells;

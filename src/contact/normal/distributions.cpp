@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/distributions.hpp>
 #include <span>
 
@@ -17,7 +17,7 @@ struct Bins {
 };
 
 template <class Value>
-Bins bins_of(const Share& rows, Index columns, std::size_t count, const Value& value) {
+Bins bins_of(const RowPartition& rows, Index columns, std::size_t count, const Value& value) {
   double largest = -1;
   for (const double part : parallel::map_blocks<double>(
            rows,
@@ -54,8 +54,8 @@ ContactDistributions contact_distributions(const NormalContactState& state, cons
                                            int bins) {
   grid.validate();
   require(bins >= 1 && bins <= 100000, "bins", bins, "must lie in 1 … 100000");
-  const Share rows(state.ranks, grid.nx);
-  collectively(state.ranks, [&] {
+  const RowPartition rows(state.communicator, grid.nx);
+  collectively(state.communicator, [&] {
     for (const Field* field : {&state.contact_pressure, &state.gap})
       require(field->rows() == rows.count() && field->cols() == grid.ny, "state", field->size(),
               "points do not fill the grid");

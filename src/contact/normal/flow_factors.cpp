@@ -422,7 +422,7 @@ FlowFactors flow_factors(const Field& gap, const Grid2D& grid, const FlowOptions
 
 FlowFactors flow_factors(const NormalContactState& state, const Grid2D& grid,
                          const FlowOptions& options) {
-  require_that(state.ranks.alone(), "state",
+  require_that(state.communicator.alone(), "state",
                "is spread over several processes, and a flow needs it whole");
   require_gap(state.gap, grid);
   const double* pressure = state.contact_pressure.data();

@@ -169,7 +169,7 @@ class Descent {
       if (t > 0) room = std::min(room, p / t);
       if (t < 0) room = std::min(room, (p - target_.bound) / t);
     }
-    return rows_.ranks().least_of(room);
+    return rows_.communicator().least_of(room);
   }
 
   // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with
@@ -204,13 +204,13 @@ class Descent {
   }
   template <class Values>
   double least(const Values& values) const {
-    return rows_.ranks().least_of(values.size() > 0 ? values.minCoeff()
+    return rows_.communicator().least_of(values.size() > 0 ? values.minCoeff()
                                                     : std::numeric_limits<double>::infinity());
   }
 
   using Dense = Eigen::Map<Field>;
   Convolution2D<double>& compliance_;
-  Share rows_;
+  RowPartition rows_;
   double cells_;  // of all processes
   Boundary boundary_;
   ScaledOperatingPoint target_;
@@ -228,7 +228,7 @@ class Descent {
 void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits& limits, double* p,
                          double* g, ActiveSetOutcome& outcome) {
   const Grid2D& grid = problem.grid;
-  const Share& rows = problem.rows;
+  const RowPartition& rows = problem.rows;
   Descent descent(problem, p, g, outcome);
   descent.refresh();
   int fruitless = 0;  // rounds without descent by gradient projection: rounding, or the solution
@@ -242,9 +242,9 @@ void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits
     const bool ends = stalled || outcome.iterations >= limits.max_iterations;
     bool interrupted = false;
     if (limits.keep_going &&
-        !rows.ranks().all_agree(limits.keep_going(outcome.iterations, now.residual)))
+        !rows.communicator().all_agree(limits.keep_going(outcome.iterations, now.residual)))
       interrupted = true;
-    if (limits.take_checkpoint && rows.ranks().all_agree(limits.checkpoint_due())) {
+    if (limits.take_checkpoint && rows.communicator().all_agree(limits.checkpoint_due())) {
       const std::vector<double> kept(p, p + rows.count() * grid.ny);
       limits.take_checkpoint();
       std::ranges::copy(kept, p);

@@ -14,7 +14,7 @@ namespace salebra::detail {
 struct ProjectionProblem {
   Convolution2D<double>& compliance;
   const Grid2D& grid;
-  const Share& rows;
+  const RowPartition& rows;
   Boundary boundary;
   Heights heights;
   double rms_height;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 
 #include "base/memory.hpp"
 
@@ -66,7 +66,7 @@ std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) 
 }
 
 // The heights of the rows of this process on a coarser grid.
-Field sampled(const MultigridLevel& fine, const Share& rows, Index ny, Boundary boundary) {
+Field sampled(const MultigridLevel& fine, const RowPartition& rows, Index ny, Boundary boundary) {
   const Index fine_ny = fine.grid.ny;
   const auto wanted = [&](int rank) {
     const Index begin = rows.begin_of(rank), end = rows.end_of(rank);
@@ -74,7 +74,7 @@ Field sampled(const MultigridLevel& fine, const Share& rows, Index ny, Boundary 
     const Index first = place(begin, rows.rows(), fine.grid.nx).base;
     return RowExchange::Window{first, place(end - 1, rows.rows(), fine.grid.nx).base + 2 - first};
   };
-  const Index first = wanted(rows.ranks().rank()).first;
+  const Index first = wanted(rows.communicator().rank()).first;
   const std::size_t row_bytes = static_cast<std::size_t>(fine_ny) * sizeof(double);
   std::vector<std::byte> room;
   const auto fetched = RowExchange(fine.rows, wanted, edge_of(boundary))
@@ -191,7 +191,7 @@ void predict_row(const FourRows& rows, const MultigridLevel& fine, Index row_of_
 
 }  // namespace
 
-std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& rows,
+std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const RowPartition& rows,
                                              const Heights& heights, Boundary boundary, int most) {
   std::vector<MultigridLevel> levels;
   levels.push_back({grid, rows, {}, heights});
@@ -199,7 +199,7 @@ std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& ro
     const MultigridLevel& fine = levels.back();
     const Index nx = halved(fine.grid.nx), ny = halved(fine.grid.ny);
     if (nx == fine.grid.nx && ny == fine.grid.ny) break;
-    const Share coarse_rows(rows.ranks(), nx, least_coarse_rows);
+    const RowPartition coarse_rows(rows.communicator(), nx, least_coarse_rows);
     MultigridLevel coarse{
         {nx, ny, grid.lx, grid.ly}, coarse_rows, sampled(fine, coarse_rows, ny, boundary), {}};
     levels.push_back(std::move(coarse));
@@ -211,7 +211,7 @@ std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& ro
 
 void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary boundary,
              double step, double* pressure) {
-  const Share& coarse_rows = coarse.grid.rows;
+  const RowPartition& coarse_rows = coarse.grid.rows;
   const Index coarse_ny = coarse.grid.grid.ny, ny = fine.grid.ny;
   const auto along_y = interpolation(coarse_ny, ny, boundary);
   const auto along_x = interpolation(coarse.grid.grid.nx, fine.grid.nx, boundary);
@@ -235,7 +235,7 @@ void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary 
     return RowExchange::Window{first, along_x[static_cast<std::size_t>(end - 1)].base + 3 - first};
   };
   const RowExchange neighbours(coarse_rows, wanted, edge_of(boundary));
-  const Index first = wanted(fine.rows.ranks().rank()).first;
+  const Index first = wanted(fine.rows.communicator().rank()).first;
   const std::size_t row_bytes = static_cast<std::size_t>(ny) * sizeof(float);
   std::vector<std::byte> p_room, u_room;
   const auto p_places = neighbours.fetch(p_rows.get(), row_bytes, row_bytes, p_room);

@@ -10,7 +10,7 @@ namespace salebra::detail {
 // One grid of the hierarchy, in units of the finest cell's size.
 struct MultigridLevel {
   Grid2D grid;
-  Share rows;            // that each process holds: fewer processes on coarse grids
+  RowPartition rows;            // that each process holds: fewer processes on coarse grids
   Field coarse_heights;  // empty on the finest level, which reads the caller's
   Heights heights;
 };
@@ -18,7 +18,7 @@ struct MultigridLevel {
 // Halves the grid while it has more than 64² cells, by point sampling where it divides and by
 // interpolation where it does not. levels.front() is the finest; there are at most `most`.
 // Collective.
-std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const Share& rows,
+std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const RowPartition& rows,
                                              const Heights& heights, Boundary boundary, int most);
 
 // A start for the finer level: bilinear pressure, then one pointwise step towards the gap that the

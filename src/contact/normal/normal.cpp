@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/base/units.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
@@ -43,8 +43,8 @@ struct Depths {
 
   explicit Depths(const Surface& surface) {
     const double points = static_cast<double>(surface.grid.points());
-    double origin = surface.ranks.is_root() ? surface.heights(0, 0) : 0;
-    surface.ranks.broadcast(&origin, sizeof origin);
+    double origin = surface.communicator.is_root() ? surface.heights(0, 0) : 0;
+    surface.communicator.broadcast(&origin, sizeof origin);
     // Offset by one height, so that a large mean does not cost precision.
     Sums total;
     total.highest = origin;
@@ -73,7 +73,7 @@ struct Depths {
   static std::vector<Sums> sums(const Surface& surface, double origin) {
     const Field& heights = surface.heights;
     return parallel::map_blocks<Sums>(
-        surface.share(),
+        surface.partition(),
         [&](Index begin, Index end) {
           // Several partial sums, because one alone waits for each of its additions.
           constexpr Index lanes = 8;
@@ -122,9 +122,9 @@ void check_here(const Surface& surface, double contact_modulus,
 }
 
 void check(const Surface& surface, double contact_modulus, const NormalContactOptions& options) {
-  collectively(surface.ranks, [&] { check_here(surface, contact_modulus, options); });
+  collectively(surface.communicator, [&] { check_here(surface, contact_modulus, options); });
   require_memory(surface.grid, detail::contact_memory(surface, options), "a contact",
-                 surface.ranks);
+                 surface.communicator);
 }
 
 // Heights stay in metres; pressures are counted in E*/(cell size), which makes Gp a number of order
@@ -164,7 +164,7 @@ class NestedSolve {
  public:
   struct Problem {
     const Scaled& scaled;
-    const Share& rows;
+    const RowPartition& rows;
     const Heights& heights;
     double rms_height, mean_depth;
     const ScaledOperatingPoint& target;
@@ -244,7 +244,7 @@ class NestedSolve {
     if (options.on_checkpoint && k == 0) {
       limits.checkpoint_due = [this, &options] {
         const std::chrono::duration<double> elapsed = Clock::now() - last_checkpoint_;
-        return !problem_.rows.ranks().is_root() || elapsed.count() >= options.checkpoint_every;
+        return !problem_.rows.communicator().is_root() || elapsed.count() >= options.checkpoint_every;
       };
       limits.take_checkpoint = [this, &options] {
         solution_.pressure *= problem_.scaled.pressure_unit;
@@ -281,7 +281,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
   };
   Sums total;
   for (const Sums& part : parallel::map_blocks<Sums>(
-           surface.share(),
+           surface.partition(),
            [&](Index begin, Index end) {
              Sums sums;
              for (Index k = begin * heights.cols(); k < end * heights.cols(); ++k) {
@@ -305,7 +305,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
     total.gap += part.gap;
   }
   const double points = static_cast<double>(surface.grid.points());
-  state.ranks = surface.ranks;
+  state.communicator = surface.communicator;
   state.contact_pressure = std::move(solution.pressure);
   state.gap = std::move(solution.gap);
   state.mean_pressure = total.pressure / points * scaled.pressure_unit;
@@ -334,7 +334,7 @@ NormalContactState full_contact_of_plane(const Surface& surface, double nominal_
   state.contact_pressure =
       Field::Constant(surface.heights.rows(), surface.grid.ny, nominal_pressure);
   state.gap = Field::Zero(surface.heights.rows(), surface.grid.ny);
-  state.ranks = surface.ranks;
+  state.communicator = surface.communicator;
   state.mean_pressure = nominal_pressure;
   state.force = nominal_pressure * surface.grid.area();
   state.contact_area_fraction = 1;
@@ -356,7 +356,7 @@ NormalContactState contact_of(const Surface& surface, double contact_modulus, co
                                   ? point.value / contact_modulus * std::sqrt(surface.grid.area())
                                   : point.value;
   const double length = depths.rms > 0 ? depths.rms : displacement;
-  const Share rows = surface.share();
+  const RowPartition rows = surface.partition();
   const auto solve = [&]<class Real>(Real) {  // the coarse grids go when it returns
     return NestedSolve({scaled, rows, heights, length, depths.mean, scaled_point, options})
         .go<Real>();

@@ -142,7 +142,7 @@ Termination ActiveSetCg<Real>::punch_rounds(const PunchLimits& limits, PunchOutc
   double last_round = 0;
   int small_gains = 0;
   while (small_gains < gains_in_a_row && outcome.iterations < limits.max_iterations) {
-    if (limits.keep_going && !rows_.ranks().all_agree(limits.keep_going(outcome.iterations)))
+    if (limits.keep_going && !rows_.communicator().all_agree(limits.keep_going(outcome.iterations)))
       return Termination::interrupted;
     const double gain = punch_step(curvature, outcome);
     if (!(gain > 0)) {
@@ -267,7 +267,7 @@ struct PunchProblem {
   const Field& p;
   double bound;
   const Grid2D& grid;
-  const Communicator& ranks;
+  const Communicator& communicator;
   double contact_modulus;
   Boundary boundary;
   Precision precision;
@@ -278,10 +278,10 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
   const Field& p = problem.p;
   const double bound = problem.bound, contact_modulus = problem.contact_modulus;
   const Grid2D& grid = problem.grid;
-  const Communicator& ranks = problem.ranks;
+  const Communicator& communicator = problem.communicator;
   const Boundary boundary = problem.boundary;
   const double cell = std::sqrt(grid.cell_area());
-  const bool alone = boundary == Boundary::free && ranks.alone();
+  const bool alone = boundary == Boundary::free && communicator.alone();
   const auto window = alone ? detail::bounding_window(ContactSet(p > 0 && p < bound))
                             : detail::CellWindow{0, 0, grid.nx, grid.ny};
   Field spanned;
@@ -290,7 +290,7 @@ PunchStiffness press_punch(const PunchProblem& problem, const detail::PunchLimit
                       static_cast<double>(window.ny) * grid.dy() / cell};
   Field q;
   const auto press = [&]<class Real>(Real) {
-    return detail::ActiveSetCg<Real>(scaled, Share(ranks, window.nx), 1, boundary, {}, 0)
+    return detail::ActiveSetCg<Real>(scaled, RowPartition(communicator, window.nx), 1, boundary, {}, 0)
         .punch_load((alone ? spanned : p).data(), bound, limits, punch_pressure ? &q : nullptr);
   };
   const detail::PunchOutcome outcome =
@@ -320,19 +320,19 @@ double normal_stiffness(const NormalContactState& state, const Grid2D& grid, dou
                         const NormalContactOptions& options, Field* punch_pressure) {
   grid.validate();
   require_positive(contact_modulus, "contact_modulus");
-  const Share rows(state.ranks, grid.nx);
-  collectively(state.ranks, [&] {
+  const RowPartition rows(state.communicator, grid.nx);
+  collectively(state.communicator, [&] {
     require(
         state.contact_pressure.rows() == rows.count() && state.contact_pressure.cols() == grid.ny,
         "pressure", state.contact_pressure.size(), "points do not fill the grid");
   });
   // In full contact the periodic cell approaches no further: its compliance has no mean.
   const auto elastic = state.contact_pressure > 0 && state.contact_pressure < options.hardness;
-  if (options.boundary == Boundary::periodic && state.ranks.all_agree(elastic.all()))
+  if (options.boundary == Boundary::periodic && state.communicator.all_agree(elastic.all()))
     return std::numeric_limits<double>::infinity();
-  if (state.ranks.all_agree(!elastic.any())) return 0;
+  if (state.communicator.all_agree(!elastic.any())) return 0;
   const PunchStiffness punch = press_punch(
-      {state.contact_pressure, options.hardness, grid, state.ranks, contact_modulus,
+      {state.contact_pressure, options.hardness, grid, state.communicator, contact_modulus,
        options.boundary, options.precision},
       {.max_iterations = options.max_iterations, .keep_going = keep_going(options.on_progress)},
       punch_pressure);

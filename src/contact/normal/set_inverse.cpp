@@ -24,7 +24,7 @@ Grid2D in_cells(const Grid2D& grid) {
 }  // namespace
 
 struct SetInverse::Parts {
-  Share rows;
+  RowPartition rows;
   double per_cell;  // 1/m, of G⁻¹ with lengths in cells
   ActiveSetCg<float> solver;
   std::vector<double> scaled;
@@ -32,7 +32,7 @@ struct SetInverse::Parts {
   PunchOutcome outcome = {};
 };
 
-SetInverse::SetInverse(const Grid2D& grid, const Share& rows, Boundary boundary)
+SetInverse::SetInverse(const Grid2D& grid, const RowPartition& rows, Boundary boundary)
     : parts_(std::make_unique<Parts>(Parts{
           rows, 1 / std::sqrt(grid.cell_area()), {in_cells(grid), rows, 1, boundary, {}, 0}, {}})) {
 }
@@ -52,7 +52,7 @@ void SetInverse::apply(const double* u, double* q) {
   const std::size_t count = parts_->count;
   double largest = 0;
   for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(u[k]));
-  largest = -parts_->rows.ranks().least_of(-largest);
+  largest = -parts_->rows.communicator().least_of(-largest);
   if (!(largest > 0)) {
     std::fill_n(q, count, 0.0);
     return;

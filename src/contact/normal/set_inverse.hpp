@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <vector>
 
 #include "contact/half_space/half_space.hpp"
@@ -15,7 +15,7 @@ namespace salebra::detail {
 // preconditioned with it needs β = −<z, Ad>/<d, Ad>.
 class SetInverse {
  public:
-  SetInverse(const Grid2D& grid, const Share& rows, Boundary boundary);
+  SetInverse(const Grid2D& grid, const RowPartition& rows, Boundary boundary);
   SetInverse(SetInverse&&) noexcept;
   SetInverse& operator=(SetInverse&&) noexcept;
   ~SetInverse();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 #include <vector>
 
 #include "tile_kernels.hpp"
@@ -70,15 +70,15 @@ Sums total_of(const std::vector<Sums>& parts) {
 // The sums of the rows of this process, added within each block of parallel.hpp, and those of all
 // processes. Collective.
 template <class Sums>
-std::vector<Sums> by_blocks(const Share& share, const std::vector<Sums>& rows) {
-  const auto size = static_cast<std::size_t>(parallel::block_rows(share.rows()));
+std::vector<Sums> by_blocks(const RowPartition& partition, const std::vector<Sums>& rows) {
+  const auto size = static_cast<std::size_t>(parallel::block_rows(partition.rows()));
   std::vector<Sums> blocks;
   for (std::size_t row = 0; row < rows.size(); ++row)
     if (row % size == 0)
       blocks.push_back(rows[row]);
     else
       add(blocks.back(), rows[row]);
-  return parallel::gather_blocks(share, blocks);
+  return parallel::gather_blocks(partition, blocks);
 }
 
 }  // namespace salebra::detail

@@ -96,22 +96,22 @@ void StickSolver::reserve(const ContactSet& largest) {
 
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options,
-                               bool along_x_only, const Field& guess, const Communicator& ranks) {
+                               bool along_x_only, const Field& guess, const Communicator& communicator) {
   grid.validate();
   detail::require_limits(options.tolerance, options.max_iterations);
   detail::require_tangential(material);
-  const Share rows(ranks, grid.nx);
-  collectively(ranks, [&] {
+  const RowPartition rows(communicator, grid.nx);
+  collectively(communicator, [&] {
     require(guess.size() == 0 || (guess.rows() == rows.count() && guess.cols() == grid.ny), "guess",
             guess.size(), "values do not match the grid; give one value for each cell");
   });
   detail::require_spread_contact(contact, grid, rows, options.boundary);
-  const detail::CellWindow window = ranks.alone()
+  const detail::CellWindow window = communicator.alone()
                                         ? detail::loading_window(contact, grid, options.boundary)
                                         : detail::CellWindow{0, 0, grid.nx, grid.ny};
   const auto system_of = [&](detail::Traction traction) {
     return detail::ContactSystem(grid, material, options.boundary, traction, window,
-                                 ranks.alone() ? Share(window.nx) : rows);
+                                 communicator.alone() ? RowPartition(window.nx) : rows);
   };
   detail::ContactSystem system =
       system_of(options.hold_lateral ? detail::Traction::tangential : detail::Traction::along_x);

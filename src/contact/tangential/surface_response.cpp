@@ -22,10 +22,10 @@ Grid2D grid_of(const CellWindow& window, const Grid2D& grid) {
 }
 
 /// The window, once the memory of the rows of each process is known to be there.
-CellWindow affordable(const CellWindow& window, const Grid2D& grid, const Share& rows) {
+CellWindow affordable(const CellWindow& window, const Grid2D& grid, const RowPartition& rows) {
   const Grid2D part = grid_of(window, grid);
   const double of_all = static_cast<double>(rows.count()) / static_cast<double>(rows.rows());
-  require_memory(part, stick_memory(part) * of_all, "a stick solve", rows.ranks());
+  require_memory(part, stick_memory(part) * of_all, "a stick solve", rows.communicator());
   return window;
 }
 
@@ -57,18 +57,18 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 SurfaceResponse::SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
-                                 Traction traction, const CellWindow& window, const Share& rows)
+                                 Traction traction, const CellWindow& window, const RowPartition& rows)
     : window_(affordable(window, grid, rows)),
       traction_(traction),
       compliance_(
-          tangential_compliance<double>(grid_of(window, grid), material, boundary, rows.ranks())),
+          tangential_compliance<double>(grid_of(window, grid), material, boundary, rows.communicator())),
       // About 1 cell for a traction of 1, whatever the units.
       single_unit_(std::sqrt(grid.cell_area()) * material.cerruti_isotropic) {
   Material scaled = material;
   scaled.cerruti_isotropic /= single_unit_;
   scaled.cerruti_directed /= single_unit_;
-  make_single_ = [part = grid_of(window, grid), scaled, boundary, ranks = rows.ranks()] {
-    return tangential_compliance<float>(part, scaled, boundary, ranks);
+  make_single_ = [part = grid_of(window, grid), scaled, boundary, communicator = rows.communicator()] {
+    return tangential_compliance<float>(part, scaled, boundary, communicator);
   };
 }
 
@@ -123,7 +123,7 @@ void SurfaceResponse::through(Convolution2D<Real>& compliance, const Units& unit
 }
 
 StencilPreconditioner::StencilPreconditioner(const Grid2D& grid, Boundary boundary,
-                                             const CellWindow& window, const Share& rows)
+                                             const CellWindow& window, const RowPartition& rows)
     : window_(window),
       boundary_(boundary),
       stencil_(grid),
@@ -152,7 +152,7 @@ void StencilPreconditioner::apply(const double* in, double* out) {
 }
 
 ContactSystem::ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary,
-                             Traction traction, const CellWindow& window, const Share& rows)
+                             Traction traction, const CellWindow& window, const RowPartition& rows)
     : window_(window),
       rows_(rows),
       window_grid_(grid_of(window, grid)),
@@ -194,7 +194,7 @@ double ContactSystem::dot(const PointList& points, const double* a, const double
 void ContactSystem::subtract_response(const PointList& points, const std::vector<double>& tractions,
                                       std::vector<double>& displacements) {
   const bool none = std::ranges::all_of(tractions, [](double t) { return t == 0; });
-  if (rows_.ranks().all_agree(none)) return;
+  if (rows_.communicator().all_agree(none)) return;
   std::vector<double> response(tractions.size());
   response_.apply(points, tractions.data(), points, response.data());
   for (std::size_t i = 0; i < response.size(); ++i) displacements[i] -= response[i];
@@ -205,10 +205,10 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
                                  std::vector<double>& misfit) {
   StickReport report;
   const int first_fft = response_.fft_count();
-  const Communicator& ranks = rows_.ranks();
+  const Communicator& communicator = rows_.communicator();
   const std::size_t unknowns = displacements.size();
   misfit = displacements;
-  if (ranks.all_agree(unknowns == 0)) {
+  if (communicator.all_agree(unknowns == 0)) {
     report.termination = Termination::converged;
     return report;
   }
@@ -226,7 +226,7 @@ StickReport ContactSystem::solve(const PointList& points, const std::vector<doub
                          : iterations == limits.max_iterations ? Termination::iteration_limit
                                                                : Termination::stalled;
     if (report.termination != Termination::stalled) return true;
-    if (limits.progress && !ranks.all_agree(limits.progress(
+    if (limits.progress && !communicator.all_agree(limits.progress(
                                {"stick", iterations / static_cast<double>(limits.max_iterations),
                                 iterations, report.residual})))
       report.termination = Termination::interrupted;

@@ -55,7 +55,7 @@ enum class Traction { along_x, along_y, tangential };
 class SurfaceResponse {
  public:
   SurfaceResponse(const Grid2D& grid, const Material& material, Boundary boundary,
-                  Traction traction, const CellWindow& window, const Share& rows);
+                  Traction traction, const CellWindow& window, const RowPartition& rows);
 
   int components() const { return traction_ == Traction::tangential ? 2 : 1; }
   /// displacements (components × read.size()) of tractions (components × loaded.size()).
@@ -91,7 +91,7 @@ class SurfaceResponse {
 class StencilPreconditioner {
  public:
   StencilPreconditioner(const Grid2D& grid, Boundary boundary, const CellWindow& window,
-                        const Share& rows);
+                        const RowPartition& rows);
 
   Index framed_index(Index ix, Index iy) const {
     return (ix - window_.x0) * field_.stride() + iy - window_.y0;
@@ -116,12 +116,12 @@ class ContactSystem {
  public:
   ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
                 const CellWindow& window)
-      : ContactSystem(grid, material, boundary, traction, window, Share(window.nx)) {}
+      : ContactSystem(grid, material, boundary, traction, window, RowPartition(window.nx)) {}
   ContactSystem(const Grid2D& grid, const Material& material, Boundary boundary, Traction traction,
-                const CellWindow& window, const Share& rows);
+                const CellWindow& window, const RowPartition& rows);
 
   const CellWindow& window() const { return window_; }
-  const Share& rows() const { return rows_; }
+  const RowPartition& rows() const { return rows_; }
   SurfaceResponse& response() { return response_; }
   StencilPreconditioner& preconditioner() { return preconditioner_; }
   /// cells: the whole grid, or of a window that is the whole grid the rows of this process.
@@ -149,7 +149,7 @@ class ContactSystem {
                          std::vector<double>& displacements);
 
   CellWindow window_;
-  Share rows_;
+  RowPartition rows_;
   Grid2D window_grid_;
   Boundary boundary_;
   SurfaceResponse response_;

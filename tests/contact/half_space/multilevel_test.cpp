@@ -176,8 +176,8 @@ Field exact_image(const Field& field, const Grid2D& grid, Boundary boundary) {
 }
 
 std::optional<MultilevelKernel> multilevel_for(const Grid2D& grid, Boundary boundary) {
-  return MultilevelKernel::make(grid, Share(grid.nx),
-                                normal_symbol(grid, 1, boundary, Share(grid.nx)), 1, boundary);
+  return MultilevelKernel::make(grid, RowPartition(grid.nx),
+                                normal_symbol(grid, 1, boundary, RowPartition(grid.nx)), 1, boundary);
 }
 
 Grid2D cells(Index nx, Index ny, double dx = 1, double dy = 1) {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/mdr/adhesive_indenter.hpp>
 #include <salebra/contact/normal/adhesive_cycle.hpp>
 #include <salebra/contact/normal/first_loading.hpp>
@@ -547,9 +547,9 @@ TEST_CASE("An adhesive contact has the same bits for every number of threads and
   for (const int ranks : {2, 3}) {
     std::atomic<int> right = 0;
     salebra::testing::run_ranks(ranks, [&](const Communicator& together) {
-      const Share rows(together, surface.grid.nx);
+      const RowPartition rows(together, surface.grid.nx);
       Surface mine = surface;
-      mine.ranks = together;
+      mine.communicator = together;
       mine.heights = surface.heights.middleRows(rows.begin(), rows.count());
       const AdhesiveContactState spread = solve(mine);
       right += spread.total_energy == one.total_energy && spread.indentation == one.indentation &&

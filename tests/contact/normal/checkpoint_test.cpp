@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <limits>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <vector>
 
@@ -79,7 +79,7 @@ TEST_CASE("A checkpoint of processes has the bits of one, when the root's clock 
   const bool by_root = GENERATE(true, false);
   run_ranks(ranks, [&](const Communicator& all) {
     Surface mine{surface.grid, {}, surface.periodic, surface.origin, all};
-    const Share rows = mine.share();
+    const RowPartition rows = mine.partition();
     mine.heights = surface.heights.middleRows(rows.begin(), rows.count());
     std::size_t count = 0;
     NormalContactOptions options;
@@ -103,7 +103,7 @@ TEST_CASE("Gradient projection keeps its bits beside checkpoints too", "[normal]
     detail::ActiveSetOutcome outcome;
     detail::gradient_projection({compliance,
                                  surface.grid,
-                                 Share(64),
+                                 RowPartition(64),
                                  Boundary::periodic,
                                  {surface.heights.data()},
                                  1,

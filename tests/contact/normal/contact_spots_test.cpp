@@ -5,7 +5,7 @@
 #include <cstring>
 #include <random>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/contact_spots.hpp>
 #include <salebra/generators/filtered_noise.hpp>
 
@@ -116,7 +116,7 @@ TEST_CASE("Spots of a pressure that is spread have the bits of one process", "[s
     CAPTURE(grid.nx, grid.ny, part, ranks);
     std::atomic<int> right = 0;
     salebra::testing::run_ranks(ranks, [&](const Communicator& together) {
-      const Share rows(together, grid.nx);
+      const RowPartition rows(together, grid.nx);
       const ContactSpots spots =
           contact_spots(pressure.middleRows(rows.begin(), rows.count()), grid, boundary, together);
       right += spots.spots.size() == alone.spots.size() &&

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/distributions.hpp>
 
 #include "ranks_in_threads.hpp"
@@ -78,11 +78,11 @@ TEST_CASE("Distributions of a contact that is spread have the bits of one proces
   const ContactDistributions alone = contact_distributions(whole, grid);
   std::atomic<int> right = 0;
   salebra::testing::run_ranks(3, [&](const Communicator& ranks) {
-    const Share rows(ranks, grid.nx);
+    const RowPartition rows(ranks, grid.nx);
     NormalContactState mine = whole;
     mine.contact_pressure = whole.contact_pressure.middleRows(rows.begin(), rows.count());
     mine.gap = whole.gap.middleRows(rows.begin(), rows.count());
-    mine.ranks = ranks;
+    mine.communicator = ranks;
     const ContactDistributions found = contact_distributions(mine, grid);
     right += found.pressure_density == alone.pressure_density &&
              found.gap_density == alone.gap_density && found.gap == alone.gap;

@@ -27,7 +27,7 @@ Solved solve(const Surface& surface, Boundary boundary, const ScaledOperatingPoi
              double tolerance, MultilevelShare share) {
   const Heights heights{surface.heights.data(), surface.heights.maxCoeff()};
   const double rms = std::sqrt((surface.heights - surface.heights.mean()).square().mean());
-  const auto levels = multigrid_levels(surface.grid, surface.share(), heights, boundary, 2);
+  const auto levels = multigrid_levels(surface.grid, surface.partition(), heights, boundary, 2);
   Solved coarse, fine;
   for (std::size_t k = levels.size(); k-- > 0;) {
     const Grid2D& grid = levels[k].grid;
@@ -192,8 +192,8 @@ TEST_CASE(
     REQUIRE(plain.outcome.converged());
     Field exact(512, 512);
     normal_compliance<double>(surface.grid,
-                              normal_symbol(surface.grid, 1, Boundary::periodic, surface.share()),
-                              Share(512))
+                              normal_symbol(surface.grid, 1, Boundary::periodic, surface.partition()),
+                              RowPartition(512))
         .apply(plain.pressure.data(), exact.data());
     exact -= surface.heights - heights.zero;
     // Both are the same numbers by the same transform, but for what it reads of rows without load.
@@ -267,8 +267,8 @@ TEST_CASE(
     ActiveSetCg<float> sharp(surface.grid, 1, Boundary::periodic, {}, 0);
     const double load_exact = sharp.punch_load(contact.pressure.data(), infinite, limits).load;
     const auto multilevel = MultilevelKernel::make(
-        surface.grid, surface.share(),
-        normal_symbol(surface.grid, 1, Boundary::periodic, surface.share()), 1, Boundary::periodic);
+        surface.grid, surface.partition(),
+        normal_symbol(surface.grid, 1, Boundary::periodic, surface.partition()), 1, Boundary::periodic);
     REQUIRE(multilevel);
     const double contraction = std::pow(multilevel->error() / (1 - multilevel->error()), 2);
     // A gain asked for that one round must reach, because what is left by the bound is below it;

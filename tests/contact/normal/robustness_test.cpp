@@ -180,7 +180,7 @@ TEST_CASE("Gradient projection solves a contact on its own, from any start", "[n
   detail::ActiveSetOutcome outcome;
   detail::gradient_projection({compliance,
                                projected.surface.grid,
-                               projected.surface.share(),
+                               projected.surface.partition(),
                                Boundary::periodic,
                                {projected.surface.heights.data()},
                                projected.rms,
@@ -268,7 +268,7 @@ TEST_CASE("What contacts of equal grids share changes none of them", "[normal]")
     for (auto& state : states) threads.emplace_back([&] { state = once(); });
     for (auto& thread : threads) thread.join();
     press(rough_surface({128, 256, 1e-3, 2e-3}), 1e9, at_pressure(3e5), options);
-    detail::NormalOperators::of({3400, 3400, 1, 1}, 1, Boundary::periodic, Share(3400));
+    detail::NormalOperators::of({3400, 3400, 1, 1}, 1, Boundary::periodic, RowPartition(3400));
     auto last = once();
     for (const NormalContactState* state :
          {&states[0], &states[1], &states[2], &states[3], &last}) {
@@ -279,7 +279,7 @@ TEST_CASE("What contacts of equal grids share changes none of them", "[normal]")
   }
   const auto of = [](Index side, double modulus) {
     return detail::NormalOperators::of({side, side, 1, 1}, modulus, Boundary::periodic,
-                                       Share(side));
+                                       RowPartition(side));
   };
   const auto first = of(64, 1);
   CHECK(of(64, 1) == first);

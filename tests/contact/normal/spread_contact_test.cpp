@@ -7,7 +7,7 @@
 #include <limits>
 #include <salebra/base/error.hpp>
 #include <salebra/base/parallel.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/row_partition.hpp>
 #include <salebra/contact/normal/normal.hpp>
 #include <salebra/contact/sweep.hpp>
 #include <salebra/contact/tangential/stick.hpp>
@@ -30,20 +30,20 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 Surface spread(const Surface& surface, const Communicator& ranks) {
   Surface mine{surface.grid, {}, surface.periodic, surface.origin, ranks};
-  const Share rows = mine.share();
+  const RowPartition rows = mine.partition();
   mine.heights = surface.heights.middleRows(rows.begin(), rows.count());
   return mine;
 }
 
 bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
-bool same_rows(const Field& whole, const Field& mine, const Share& rows) {
+bool same_rows(const Field& whole, const Field& mine, const RowPartition& rows) {
   return mine.rows() == rows.count() &&
          std::memcmp(whole.data() + rows.begin() * whole.cols(), mine.data(),
                      static_cast<std::size_t>(mine.size()) * sizeof(double)) == 0;
 }
 
 void require_same(const NormalContactState& alone, const NormalContactState& together,
-                  const Share& rows) {
+                  const RowPartition& rows) {
   if (!together.converged()) throw Error("not converged");
   if (alone.iterations != together.iterations || alone.fft_count != together.fft_count ||
       alone.multilevel_count != together.multilevel_count)
@@ -72,12 +72,12 @@ void compare(const Surface& surface, const Press& press, const NormalContactOpti
   run_ranks(ranks, [&](const Communicator& all) {
     const Surface mine = spread(surface, all);
     const NormalContactState together = press(mine);
-    require_same(alone, together, mine.share());
+    require_same(alone, together, mine.partition());
     if (options.boundary == Boundary::free) return;
     Field punch;
     const double stiffness = normal_stiffness(together, surface.grid, 1, options, &punch);
     if (!same_bits(alone_stiffness, stiffness)) throw Error("another stiffness");
-    if (!same_rows(alone_punch, punch, mine.share())) throw Error("other bits of the punch");
+    if (!same_rows(alone_punch, punch, mine.partition())) throw Error("other bits of the punch");
   });
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("A contact over processes has the bits of one process", "[spread]") {
     const NormalContactState alone = press(surface, 1, at_pressure(3e-3), options);
     run_ranks(ranks, [&](const Communicator& all) {
       const Surface mine = spread(surface, all);
-      const Share rows = mine.share();
+      const RowPartition rows = mine.partition();
       const Field my_start = start.middleRows(rows.begin(), rows.count());
       NormalContactOptions of_mine = options;
       of_mine.initial_pressure = &my_start;
@@ -163,7 +163,7 @@ TEST_CASE("A contact over processes has the bits of one process for two threads 
   parallel::set_threads(2);
   run_ranks(GENERATE(1, 2, 3, 4, 5, 8), [&](const Communicator& all) {
     const Surface mine = spread(surface, all);
-    require_same(alone, press(mine, 1, at_pressure(5e-3)), mine.share());
+    require_same(alone, press(mine, 1, at_pressure(5e-3)), mine.partition());
   });
   parallel::set_threads(0);
 }
@@ -179,7 +179,7 @@ TEST_CASE("The multilevel kernel over processes has the bits of one process", "[
   const auto solve = [&](const Surface& mine, Field& p, Field& g) {
     p = Field::Constant(mine.heights.rows(), ny, 1e-3);
     g = p;
-    ActiveSetCg<float> solver(surface.grid, mine.share(), 1, boundary,
+    ActiveSetCg<float> solver(surface.grid, mine.partition(), 1, boundary,
                               {mine.heights.data(), highest}, 1);
     ActiveSetLimits limits;
     limits.multilevel_share = infinite;
@@ -196,7 +196,7 @@ TEST_CASE("The multilevel kernel over processes has the bits of one process", "[
     if (alone.multilevel_count != together.multilevel_count ||
         alone.fft_count != together.fft_count)
       throw Error("another number of iterations");
-    if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
+    if (!same_rows(p, my_p, mine.partition()) || !same_rows(g, my_g, mine.partition()))
       throw Error("other bits of a field");
   });
 }
@@ -208,7 +208,7 @@ TEST_CASE("The slower method that finishes stalled contacts has the bits of one 
   const double bound = GENERATE(infinite, 0.03);
   const ScaledOperatingPoint target{ControlQuantity::pressure, 5e-3, bound};
   const auto solve = [&](const Surface& mine, Field& p, Field& g) {
-    const Share rows = mine.share();
+    const RowPartition rows = mine.partition();
     p = Field::Constant(rows.count(), 64, target.value);
     g = p;
     auto compliance = normal_compliance<double>(
@@ -226,7 +226,7 @@ TEST_CASE("The slower method that finishes stalled contacts has the bits of one 
     const Surface mine = spread(surface, all);
     Field my_p, my_g;
     if (!solve(mine, my_p, my_g).converged()) throw Error("not converged");
-    if (!same_rows(p, my_p, mine.share()) || !same_rows(g, my_g, mine.share()))
+    if (!same_rows(p, my_p, mine.partition()) || !same_rows(g, my_g, mine.partition()))
       throw Error("other bits of a field");
   });
 }
@@ -337,7 +337,7 @@ TEST_CASE("The stiffness of both directions over processes has the bits of one p
   const StickStiffness alone = stick_stiffness(contact, surface.grid, material, options);
   REQUIRE(alone.converged());
   run_ranks(5, [&](const Communicator& all) {
-    const Share rows(all, 128);
+    const RowPartition rows(all, 128);
     const ContactSet mine = contact.middleRows(rows.begin(), rows.count());
     const StickStiffness together =
         stick_stiffness(mine, surface.grid, material, options, false, {}, all);
@@ -410,7 +410,7 @@ TEST_CASE("Two hundred faults, each in one process, end all of them alike", "[sp
     run_ranks(ranks, [&](const Communicator& all) {
       const bool fails = all.rank() == failing;
       Surface mine = spread(surface, all);
-      const Share rows = mine.share();
+      const RowPartition rows = mine.partition();
       Field start = Field::Constant(rows.count(), 64, 1e-3);
       NormalContactOptions options;
       options.tolerance = 1e-12;

@@ -34,6 +34,6 @@ Surface scale_to_rms(Surface surface, Rms which, double target);
 /// modes.
 Surface exact_rms(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
                   Rms which = Rms::height, const Progress& progress = {},
-                  const Communicator& ranks = {});
+                  const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -23,6 +23,6 @@ namespace salebra {
 /// throws    InvalidInput if the grid does not carry the spectrum (Spectrum::require_carried_by)
 /// cost      less than one real FFT of the grid; memory as generation_memory(grid, ranks)
 Surface filtered_noise(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                       const Progress& progress = {}, const Communicator& ranks = {});
+                       const Progress& progress = {}, const Communicator& communicator = {});
 
 }  // namespace salebra

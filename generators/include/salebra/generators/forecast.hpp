@@ -41,6 +41,6 @@ Forecast forecast(const Grid2D& grid, const Spectrum& spectrum, const Progress& 
 
 /// Returns the peak memory of filtered_noise and random_phase on this grid in this process, bytes,
 /// including the heights. They throw InvalidInput if it exceeds the available memory of the system.
-std::size_t generation_memory(const Grid2D& grid, const Communicator& ranks = {});
+std::size_t generation_memory(const Grid2D& grid, const Communicator& communicator = {});
 
 }  // namespace salebra

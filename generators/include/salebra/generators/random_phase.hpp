@@ -16,6 +16,6 @@ namespace salebra {
 /// phases are those of filtered_noise with the same seed, and so are arguments, errors, cost and
 /// independence of threads, processes and grid.
 Surface random_phase(const Grid2D& grid, const Spectrum& spectrum, std::uint64_t seed,
-                     const Progress& progress = {}, const Communicator& ranks = {});
+                     const Progress& progress = {}, const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -40,7 +40,7 @@ class Spectrum {
   /// collectively; the bits are the same for any number of processes. Throws as require_carried_by
   /// does. Cost: one evaluation of C for each pair of modes within highest_wavenumber.
   SpectralMoments lattice_moments(const Grid2D& grid, const Progress& progress = {},
-                                  const Communicator& ranks = {}) const;
+                                  const Communicator& communicator = {}) const;
 
   /// Throws InvalidInput if the cells are larger than half the shortest wavelength, so that the
   /// grid would alias short waves, or if the shortest wavelength does not fit into the cell at all.

@@ -51,6 +51,6 @@ constexpr void describe(auto&& visit, std::type_identity<ContactSpots>) {
 ///        for any number of processes; collective
 /// Cost: two passes, and 32 bytes per contact cell.
 ContactSpots contact_spots(const Field& pressure, const Grid2D& grid,
-                           Boundary boundary = Boundary::periodic, const Communicator& ranks = {});
+                           Boundary boundary = Boundary::periodic, const Communicator& communicator = {});
 
 }  // namespace salebra

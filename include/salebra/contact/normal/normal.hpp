@@ -61,7 +61,7 @@ struct NormalContactState {
   int fft_count = 0;         ///< forward-and-backward pairs of the finest level, both precisions
   int multilevel_count = 0;  ///< applications of the multilevel kernel there, each replacing a pair
   Termination termination = Termination::iteration_limit;
-  Communicator ranks = {};  ///< processes that share the fields, as for the surface
+  Communicator communicator = {};  ///< processes that share the fields, as for the surface
 
   bool converged() const { return termination == Termination::converged; }
 };
@@ -87,7 +87,7 @@ constexpr void describe(auto&& visit, std::type_identity<NormalContactState>) {
         Quantity{"multilevel_count", dimensionless, "applications of the multilevel kernel"});
   visit(&S::termination, Kept{"termination", "how the iteration ended"});
   visit(&S::converged, Quantity{"converged", dimensionless, "whether the contact converged"});
-  visit(&S::ranks, Kept{});
+  visit(&S::communicator, Kept{});
 }
 
 /// Returns the cells with p > 0, e.g. to pass them to stick or punch solvers.

@@ -114,6 +114,6 @@ constexpr void describe(auto&& visit, std::type_identity<StickStiffness>) {
 StickStiffness stick_stiffness(const ContactSet& contact, const Grid2D& grid,
                                const Material& material, const StickOptions& options = {},
                                bool along_x_only = false, const Field& guess = {},
-                               const Communicator& ranks = {});
+                               const Communicator& communicator = {});
 
 }  // namespace salebra

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 
 #include "base/convolution.hpp"
 #include "conformance.hpp"
@@ -37,33 +37,33 @@ TEST_CASE("A share gives whole blocks of rows to each process, in order", "[shar
   const Index rows = GENERATE(1, 15, 16, 96, 101, 1024, 1025, 40000);
   const int ranks = GENERATE(1, 2, 3, 5, 8);
   run_ranks(ranks, [&](const Communicator& all) {
-    const Share share(all, rows);
-    if (share.rows() != rows || share.begin_of(0) != 0 || share.end_of(ranks - 1) != rows)
+    const RowPartition share(all, rows);
+    if (partition.rows() != rows || partition.begin_of(0) != 0 || partition.end_of(ranks - 1) != rows)
       throw Error("rows are lost");
     const Index unit = std::max<Index>(16, parallel::block_rows(rows));
     for (int rank = 0; rank < ranks; ++rank) {
-      const Index begin = share.begin_of(rank), end = share.end_of(rank);
+      const Index begin = partition.begin_of(rank), end = partition.end_of(rank);
       if (begin > end || (begin < rows && begin % unit != 0)) throw Error("a block is divided");
       for (Index row = begin; row < end; ++row)
-        if (share.owner(row) != rank) throw Error("another owner");
+        if (partition.owner(row) != rank) throw Error("another owner");
     }
   });
 }
 
 TEST_CASE("Sums over processes have the bits of one process", "[share]") {
   const Index rows = GENERATE(1, 17, 96, 1500), ny = 7;
-  const auto sum = [&](const Share& share) {
-    return parallel::sum_blocks(share, [&](Index begin, Index end) {
+  const auto sum = [&](const RowPartition& partition) {
+    return parallel::sum_blocks(partition, [&](Index begin, Index end) {
       double part = 0;
-      for (Index k = (share.begin() + begin) * ny; k < (share.begin() + end) * ny; ++k)
+      for (Index k = (partition.begin() + begin) * ny; k < (partition.begin() + end) * ny; ++k)
         part += scattered(k);
       return part;
     });
   };
-  const double alone = sum(Share(rows));
+  const double alone = sum(RowPartition(rows));
   const int ranks = GENERATE(2, 3, 8);
   run_ranks(ranks, [&](const Communicator& all) {
-    const double together = sum(Share(all, rows));
+    const double together = sum(RowPartition(all, rows));
     if (std::memcmp(&alone, &together, sizeof alone) != 0) throw Error("other bits");
   });
 }
@@ -75,7 +75,7 @@ TEST_CASE("Rows travel to their windows, repeated, clamped or left alone beyond 
       GENERATE(RowExchange::Edge::repeat, RowExchange::Edge::clamp, RowExchange::Edge::none);
   const int ranks = GENERATE(1, 2, 4, 8);
   run_ranks(ranks, [&](const Communicator& all) {
-    const Share from(all, rows), to(all, rows, 32);
+    const RowPartition from(all, rows), to(all, rows, 32);
     const auto wanted = [&](int rank) {
       return RowExchange::Window{to.begin_of(rank) - 3, to.end_of(rank) - to.begin_of(rank) + 6};
     };
@@ -111,7 +111,7 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
       return scale / (1 + static_cast<double>(i * i) + 0.5 * static_cast<double>(j * j));
     };
   };
-  const auto convolve = [&](const Share& rows, std::array<std::vector<TestType>, 2>& results) {
+  const auto convolve = [&](const RowPartition& rows, std::array<std::vector<TestType>, 2>& results) {
     Convolution2D<TestType> convolution({shape.nx, shape.ny, shape.period_x, shape.period_y},
                                         components, rows);
     convolution.set_symbol(0, 0, symbol(1));
@@ -136,10 +136,10 @@ TEMPLATE_TEST_CASE("A convolution over processes has the bits of one process", "
         });
   };
   std::array<std::vector<TestType>, 2> alone;
-  convolve(Share(shape.nx), alone);
+  convolve(RowPartition(shape.nx), alone);
   const int ranks = GENERATE(1, 2, 3, 4, 5, 8);
   run_ranks(ranks, [&](const Communicator& all) {
-    const Share rows(all, shape.nx);
+    const RowPartition rows(all, shape.nx);
     std::array<std::vector<TestType>, 2> together;
     convolve(rows, together);
     for (std::size_t component = 0; component < static_cast<std::size_t>(components); ++component)
@@ -176,7 +176,7 @@ TEST_CASE("A field is gathered in the process that wants it", "[share]") {
   if (root >= ranks) return;
   const Field field = Field::Random(40, 7);  // fewer blocks of 16 rows than processes
   run_ranks(ranks, [&](const Communicator& all) {
-    const Share rows(all, field.rows());
+    const RowPartition rows(all, field.rows());
     const Field whole = gathered(rows, Field(field.middleRows(rows.begin(), rows.count())), root);
     if (whole.rows() != (all.rank() == root ? 40 : 0)) throw Error("other rows");
     if (all.rank() == root && !(whole == field).all()) throw Error("other values");
@@ -187,7 +187,7 @@ TEST_CASE("A field is gathered in the process that wants it", "[share]") {
       if (error.field() != "rows") throw Error("another failure");
     }
   });
-  const Share alone(40);
+  const RowPartition alone(40);
   REQUIRE_THROWS_WITH(gathered(alone, field, 1), Catch::Contains("root"));
 }
 
@@ -216,7 +216,7 @@ TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the c
   const Index n = 65536;
   for (const int rank : {0, 511, 1023}) {
     const auto transport = std::make_shared<salebra::testing::OneOfMany>(rank, ranks);
-    const Share rows(Communicator(transport), n);
+    const RowPartition rows(Communicator(transport), n);
     REQUIRE(rows.count() == 64);
     Convolution2D<float> convolution({n, n, n, n}, 1, rows);
     // Two buffers of 4 bytes for each of the cells of this process. The 32 769 columns of the
@@ -235,7 +235,7 @@ TEST_CASE("The transform of 65 536 squared points over 1024 processes fits the c
   }
   // In double precision with the period of an isolated surface, the most that is ever sent at this
   // size.
-  const Share rows(Communicator(std::make_shared<salebra::testing::OneOfMany>(0, ranks)), n);
+  const RowPartition rows(Communicator(std::make_shared<salebra::testing::OneOfMany>(0, ranks)), n);
   CHECK_NOTHROW(Convolution2D<double>({n, n, 2 * n, 2 * n}, 2, rows));
 }
 

@@ -5,7 +5,7 @@
 #include <complex>
 #include <cstring>
 #include <salebra/base/error.hpp>
-#include <salebra/base/share.hpp>
+#include <salebra/base/partition.hpp>
 
 #include "memory.hpp"
 
@@ -14,10 +14,10 @@ namespace {
 
 constexpr Index least_unit = 16;  // the rows that a transform pairs
 
-std::vector<Index> block_begins(int ranks, Index rows, Index least) {
+std::vector<Index> block_begins(int communicator, Index rows, Index least) {
   const Index unit = std::max(least_unit, parallel::block_rows(rows)),
               blocks = (rows + unit - 1) / unit,
-              in_use = std::clamp<Index>(rows / std::max(least, unit), 1, ranks);
+              in_use = std::clamp<Index>(rows / std::max(least, unit), 1, communicator);
   std::vector<Index> begins;
   for (Index rank = 0; rank <= ranks; ++rank)
     begins.push_back(rank < in_use ? std::min(rows, unit * (blocks * rank / in_use)) : rows);
@@ -26,23 +26,23 @@ std::vector<Index> block_begins(int ranks, Index rows, Index least) {
 
 }  // namespace
 
-Share::Share(const Communicator& ranks, Index rows, Index least)
-    : ranks_(ranks), begins_(block_begins(ranks.ranks(), rows, least)) {}
+RowPartition::RowPartition(const Communicator& communicator, Index rows, Index least)
+    : communicator_(communicator), begins_(block_begins(communicator.size(), rows, least)) {}
 
-Share::Share(const Communicator& ranks, std::vector<Index> begins)
-    : ranks_(ranks), begins_(std::move(begins)) {}
+RowPartition::RowPartition(const Communicator& communicator, std::vector<Index> begins)
+    : communicator_(communicator), begins_(std::move(begins)) {}
 
-int Share::owner(Index row) const {
+int RowPartition::owner(Index row) const {
   return static_cast<int>(std::upper_bound(begins_.begin(), begins_.end() - 1, row) -
                           begins_.begin()) -
          1;
 }
 
-RowExchange::RowExchange(const Share& from, const std::function<Window(int rank)>& wanted,
+RowExchange::RowExchange(const RowPartition& from, const std::function<Window(int rank)>& wanted,
                          Edge edge)
-    : ranks_(from.ranks()) {
+    : communicator_(from.communicator()) {
   const Index rows = from.rows();
-  const int me = ranks_.rank(), count = ranks_.ranks();
+  const int me = communicator_.rank(), count = communicator_.communicator();
   sent_counts_.assign(static_cast<std::size_t>(count), 0);
   received_counts_ = sent_counts_;
   // The row of the field that stands for one of a window; −1: none.
@@ -86,12 +86,12 @@ Byte* row_at(Byte* field, Index row, std::size_t stride) {
 
 std::vector<std::byte> RowExchange::receive(const void* rows, std::size_t row_stride,
                                             std::size_t row_bytes) const {
-  if (ranks_.alone()) return {};
+  if (communicator_.alone()) return {};
   const auto* from = static_cast<const std::byte*>(rows);
   std::vector<std::byte> sent(sent_.size() * row_bytes), received(received_.size() * row_bytes);
   for (std::size_t k = 0; k < sent_.size(); ++k)
     std::memcpy(sent.data() + k * row_bytes, row_at(from, sent_[k], row_stride), row_bytes);
-  ranks_.exchange({row_bytes, sent_counts_, received_counts_}, sent.data(), received.data());
+  communicator_.exchange({row_bytes, sent_counts_, received_counts_}, sent.data(), received.data());
   return received;
 }
 
@@ -122,39 +122,39 @@ std::vector<const void*> RowExchange::fetch(const void* rows, std::size_t row_st
   return places;
 }
 
-Field gathered(const Share& rows, const Field& mine, int root) {
-  const Communicator& ranks = rows.ranks();
-  require(root >= 0 && root < ranks.ranks(), "root", root,
+Field gathered(const RowPartition& rows, const Field& mine, int root) {
+  const Communicator& communicator = rows.communicator();
+  require(root >= 0 && root < communicator.size(), "root", root,
           "must be one of the processes, counted from 0");
-  const bool here = ranks.rank() == root;
+  const bool here = communicator.rank() == root;
   Field whole;
-  collectively(ranks, [&] {
+  collectively(communicator, [&] {
     require(mine.rows() == rows.count(), "rows", mine.rows(), "do not match the grid");
     whole.resize(here ? rows.rows() : 0, mine.cols());
   });
-  std::vector<std::int64_t> sent(static_cast<std::size_t>(ranks.ranks()), 0), received = sent;
+  std::vector<std::int64_t> sent(static_cast<std::size_t>(communicator.size()), 0), received = sent;
   sent[static_cast<std::size_t>(root)] = rows.count();
   if (here)
-    for (int rank = 0; rank < ranks.ranks(); ++rank)
+    for (int rank = 0; rank < communicator.size(); ++rank)
       received[static_cast<std::size_t>(rank)] = rows.end_of(rank) - rows.begin_of(rank);
   const std::size_t row_bytes = static_cast<std::size_t>(mine.cols()) * sizeof(double);
-  ranks.exchange({row_bytes, std::move(sent), std::move(received)}, mine.data(), whole.data());
+  communicator.exchange({row_bytes, std::move(sent), std::move(received)}, mine.data(), whole.data());
   return whole;
 }
 
-Field scattered(const Share& rows, Index columns, const Field& whole) {
-  const Communicator& ranks = rows.ranks();
-  std::vector<Index> begins(static_cast<std::size_t>(ranks.ranks()) + 1, rows.rows());
+Field scattered(const RowPartition& rows, Index columns, const Field& whole) {
+  const Communicator& communicator = rows.communicator();
+  std::vector<Index> begins(static_cast<std::size_t>(communicator.size()) + 1, rows.rows());
   begins.front() = 0;
   Field mine;
-  collectively(ranks, [&] {
-    if (ranks.is_root())
+  collectively(communicator, [&] {
+    if (communicator.is_root())
       require(whole.rows() == rows.rows(), "rows", whole.rows(), "do not match the grid");
     mine = uninitialised_field(rows.count(), columns);
   });
   const auto row_bytes = static_cast<std::size_t>(columns) * sizeof(double);
   RowExchange(
-      Share(ranks, begins),
+      RowPartition(communicator, begins),
       [&](int rank) {
         return RowExchange::Window{rows.begin_of(rank), rows.end_of(rank) - rows.begin_of(rank)};
       },
@@ -166,18 +166,18 @@ namespace {
 
 // The columns that each process gets together.
 struct Batches {
-  const Share& rows;
-  const Share& columns;
+  const RowPartition& rows;
+  const RowPartition& columns;
   Index group, at_once, count = 0;
 
-  Batches(const Share& of_rows, const Share& of_columns)
+  Batches(const RowPartition& of_rows, const RowPartition& of_columns)
       : rows(of_rows),
         columns(of_columns),
         group(std::max<Index>(16, parallel::block_rows(columns.rows()))) {
-    const Index ranks = rows.ranks().ranks();
+    const Index ranks = rows.communicator().size();
     // Two buffers of so many columns, and 64 groups for the threads.
     at_once = group * std::clamp<Index>(columns.rows() / (2 * ranks * group), 1,
-                                        rows.ranks().alone() ? 1 : 64);
+                                        rows.communicator().alone() ? 1 : 64);
     for (int rank = 0; rank < ranks; ++rank)
       count =
           std::max(count, (columns.end_of(rank) - columns.begin_of(rank) + at_once - 1) / at_once);
@@ -190,9 +190,9 @@ struct Batches {
   template <class Value>
   Exchange exchange(Index batch) const {
     std::vector<std::int64_t> sent, received;
-    for (int rank = 0; rank < rows.ranks().ranks(); ++rank) {
+    for (int rank = 0; rank < rows.communicator().size(); ++rank) {
       sent.push_back(rows.count() * width(rank, batch));
-      received.push_back(rows_of(rank) * width(rows.ranks().rank(), batch));
+      received.push_back(rows_of(rank) * width(rows.communicator().rank(), batch));
     }
     return {sizeof(Value), std::move(sent), std::move(received)};
   }
@@ -225,11 +225,11 @@ void visit_groups(const Batches& batches, Index first, Index width, const Part& 
 }  // namespace
 
 template <class Value>
-void visit_columns(const Share& rows, const Share& columns,
+void visit_columns(const RowPartition& rows, const RowPartition& columns,
                    const std::function<void(Index row, Index first, Index count, Value* to)>& read,
                    const std::function<void(Index column, std::span<Value> values)>& visit) {
-  const Communicator& ranks = rows.ranks();
-  if (ranks.alone())
+  const Communicator& communicator = rows.communicator();
+  if (communicator.alone())
     return visit_groups<Value>(
         Batches(rows, columns), 0, columns.rows(),
         [&](Index row, Index first, Index count, Value* room) {
@@ -238,25 +238,25 @@ void visit_columns(const Share& rows, const Share& columns,
         },
         visit);
   const Batches batches(rows, columns);
-  const int me = ranks.rank();
+  const int me = communicator.rank();
   LargeArray<Value> sent, received;
   for (Index batch = 0; batch < batches.count; ++batch) {
     const Exchange plan = batches.exchange<Value>(batch);
-    collectively(ranks, [&] {
+    collectively(communicator, [&] {
       if (batch == 0) {  // no later batch is larger
         sent = large_array<Value>(static_cast<std::size_t>(plan.sent_units()));
         received = large_array<Value>(static_cast<std::size_t>(plan.received_units()));
       }
       parallel::for_slabs(rows.count(), [&](Index begin, Index end) {
-        for (int rank = 0; rank < ranks.ranks(); ++rank)
+        for (int rank = 0; rank < communicator.size(); ++rank)
           if (const Index width = batches.width(rank, batch); width > 0)
             for (Index row = begin; row < end; ++row)
               read(row, batches.first(rank, batch), width,
                    sent.get() + plan.sent_place(rank) + row * width);
       });
     });
-    ranks.exchange(plan, sent.get(), received.get());
-    collectively(ranks, [&] {
+    communicator.exchange(plan, sent.get(), received.get());
+    collectively(communicator, [&] {
       // The processes' parts follow one another, hence the rows do.
       const Index width = batches.width(me, batch);
       visit_groups<Value>(
@@ -269,36 +269,36 @@ void visit_columns(const Share& rows, const Share& columns,
   }
 }
 
-template void visit_columns<double>(const Share&, const Share&,
+template void visit_columns<double>(const RowPartition&, const RowPartition&,
                                     const std::function<void(Index, Index, Index, double*)>&,
                                     const std::function<void(Index, std::span<double>)>&);
 template void visit_columns<std::complex<double>>(
-    const Share&, const Share&,
+    const RowPartition&, const RowPartition&,
     const std::function<void(Index, Index, Index, std::complex<double>*)>&,
     const std::function<void(Index, std::span<std::complex<double>>)>&);
 
 namespace parallel {
 
-double sum_blocks(const Share& share, const std::function<double(Index, Index)>& body, Index work) {
+double sum_blocks(const RowPartition& partition, const std::function<double(Index, Index)>& body, Index work) {
   double sum = 0;
-  for (const double value : map_blocks<double>(share, body, work)) sum += value;
+  for (const double value : map_blocks<double>(partition, body, work)) sum += value;
   return sum;
 }
 
 namespace {
 
-Index own_blocks(const Share& share, Index rows) {
-  const Index size = block_rows(share.rows());
+Index own_blocks(const RowPartition& partition, Index rows) {
+  const Index size = block_rows(partition.rows());
   return (rows + size - 1) / size;
 }
 
 }  // namespace
 
-std::vector<double> add_blocks(const Share& share, std::size_t count,
+std::vector<double> add_blocks(const RowPartition& partition, std::size_t count,
                                const std::vector<double>& mine) {
-  const Communicator& ranks = share.ranks();
-  const auto blocks = static_cast<std::size_t>(own_blocks(share, share.count())),
-             blocks_of_all = static_cast<std::size_t>(block_count(share.rows()));
+  const Communicator& communicator = partition.communicator();
+  const auto blocks = static_cast<std::size_t>(own_blocks(partition, partition.count())),
+             blocks_of_all = static_cast<std::size_t>(block_count(partition.rows()));
   // A part of the numbers of all blocks is gathered at a time, 32 MB.
   const std::size_t most =
       std::max<std::size_t>(1, (std::size_t{1} << 22) / std::max<std::size_t>(blocks_of_all, 1));
@@ -311,28 +311,28 @@ std::vector<double> add_blocks(const Share& share, std::size_t count,
       sent.insert(sent.end(), from, from + static_cast<std::ptrdiff_t>(part));
     }
     std::vector<std::size_t> bytes;
-    for (int rank = 0; rank < ranks.ranks(); ++rank)
+    for (int rank = 0; rank < communicator.size(); ++rank)
       bytes.push_back(
-          static_cast<std::size_t>(own_blocks(share, share.end_of(rank) - share.begin_of(rank))) *
+          static_cast<std::size_t>(own_blocks(partition, partition.end_of(rank) - partition.begin_of(rank))) *
           part * sizeof(double));
     gathered.resize(blocks_of_all * part);
-    ranks.gather_all(sent.data(), bytes, gathered.data());
+    communicator.gather_all(sent.data(), bytes, gathered.data());
     for (std::size_t k = 0; k < gathered.size(); ++k) sums[first + k % part] += gathered[k];
   }
   return sums;
 }
 
-std::vector<double> sum_blocks(const Share& share, std::size_t count,
+std::vector<double> sum_blocks(const RowPartition& partition, std::size_t count,
                                const std::function<void(Index, Index, std::span<double>)>& body) {
-  share.ranks().broadcast(&count, sizeof count);
-  const Index size = block_rows(share.rows()), blocks = own_blocks(share, share.count());
+  partition.communicator().broadcast(&count, sizeof count);
+  const Index size = block_rows(partition.rows()), blocks = own_blocks(partition, partition.count());
   std::vector<double> mine(static_cast<std::size_t>(blocks) * count, 0.0);
   for_slabs(blocks, [&](Index begin, Index end) {
     for (Index block = begin; block < end; ++block)
-      body(block * size, std::min(share.count(), (block + 1) * size),
+      body(block * size, std::min(partition.count(), (block + 1) * size),
            std::span(mine).subspan(static_cast<std::size_t>(block) * count, count));
   });
-  return add_blocks(share, count, mine);
+  return add_blocks(partition, count, mine);
 }
 
 }  // namespace parallel

@@ -15,28 +15,28 @@ namespace salebra {
 /// grid.nx)`. Each process has consecutive rows, in the order of the processes, in whole blocks of
 /// 16 rows or of the block size of parallel::map_blocks. Transforms pair rows, and sums add them,
 /// within a block, so results have the same bits for any number of processes.
-class Share {
+class RowPartition {
  public:
-  Share() : Share(0) {}
+  RowPartition() : RowPartition(0) {}
   /// Keeps all rows in this process.
-  explicit Share(Index rows) : Share(Communicator(), rows) {}
+  explicit RowPartition(Index rows) : RowPartition(Communicator(), rows) {}
   /// least: minimum number of rows per process; if there are too few rows, the last processes have
   /// none.
-  Share(const Communicator& ranks, Index rows, Index least = 16);
+  RowPartition(const Communicator& communicator, Index rows, Index least = 16);
   /// begins[r]: the first row of process r; begins[ranks]: the number of rows.
-  Share(const Communicator& ranks, std::vector<Index> begins);
+  RowPartition(const Communicator& communicator, std::vector<Index> begins);
 
-  const Communicator& ranks() const { return ranks_; }
+  const Communicator& communicator() const { return communicator_; }
   Index rows() const { return begins_.back(); }  ///< total over all processes
-  Index begin() const { return begin_of(ranks_.rank()); }
-  Index end() const { return end_of(ranks_.rank()); }
+  Index begin() const { return begin_of(communicator_.rank()); }
+  Index end() const { return end_of(communicator_.rank()); }
   Index count() const { return end() - begin(); }
   Index begin_of(int rank) const { return begins_[static_cast<std::size_t>(rank)]; }
   Index end_of(int rank) const { return begins_[static_cast<std::size_t>(rank) + 1]; }
   int owner(Index row) const;
 
  private:
-  Communicator ranks_;
+  Communicator communicator_;
   std::vector<Index> begins_;
 };
 
@@ -52,7 +52,7 @@ class RowExchange {
   enum class Edge { repeat, clamp, none };
 
   /// wanted(rank): the window of each process. It must return the same on every process.
-  RowExchange(const Share& from, const std::function<Window(int rank)>& wanted, Edge edge);
+  RowExchange(const RowPartition& from, const std::function<Window(int rank)>& wanted, Edge edge);
 
   /// Fills a window. rows: the first row of this process; window: the first row of its window.
   /// Strides and row length are in bytes. Rows of the window that this process has itself may
@@ -73,7 +73,7 @@ class RowExchange {
   std::vector<std::byte> receive(const void* rows, std::size_t row_stride,
                                  std::size_t row_bytes) const;
 
-  Communicator ranks_;
+  Communicator communicator_;
   Index count_ = 0;  // rows of the window of this process
   std::vector<std::int64_t> sent_counts_, received_counts_;
   std::vector<Index> sent_;      // rows of this process, in the order of the receivers
@@ -84,10 +84,10 @@ class RowExchange {
 /// Gathers the whole field in the process `root`; the others get no rows. mine: the rows of this
 /// process. Collective; a failure in one process is thrown on all. The root needs memory for the
 /// whole field.
-Field gathered(const Share& rows, const Field& mine, int root = 0);
+Field gathered(const RowPartition& rows, const Field& mine, int root = 0);
 /// Does the inverse: distributes the rows of a field with this number of columns that the first
 /// process has. Collective.
-Field scattered(const Share& rows, Index columns, const Field& whole);
+Field scattered(const RowPartition& rows, Index columns, const Field& whole);
 
 /// Assembles the columns of a field whose rows are distributed over processes, and passes each to
 /// the process that owns it. The columns of a block of parallel::map_blocks are passed in order by
@@ -101,7 +101,7 @@ Field scattered(const Share& rows, Index columns, const Field& whole);
 /// cost     collective; each number is sent once, some columns at a time, with buffers of at most
 ///          as much memory as the numbers of a process, or 32 columns per process if that is more
 template <class Value>
-void visit_columns(const Share& rows, const Share& columns,
+void visit_columns(const RowPartition& rows, const RowPartition& columns,
                    const std::function<void(Index row, Index first, Index count, Value* to)>& read,
                    const std::function<void(Index column, std::span<Value> values)>& visit);
 
@@ -110,40 +110,40 @@ namespace parallel {
 /// Combines the values of the blocks of this process, from map_blocks, to those of all processes,
 /// in row order. Collective.
 template <class Value>
-std::vector<Value> gather_blocks(const Share& share, const std::vector<Value>& mine) {
+std::vector<Value> gather_blocks(const RowPartition& partition, const std::vector<Value>& mine) {
   static_assert(std::is_trivially_copyable_v<Value>);
-  if (share.ranks().alone()) return mine;
-  const Index size = block_rows(share.rows());
+  if (partition.communicator().alone()) return mine;
+  const Index size = block_rows(partition.rows());
   std::vector<std::size_t> bytes;
-  for (int rank = 0; rank < share.ranks().ranks(); ++rank)
+  for (int rank = 0; rank < partition.communicator().size(); ++rank)
     bytes.push_back(
-        static_cast<std::size_t>((share.end_of(rank) - share.begin_of(rank) + size - 1) / size) *
+        static_cast<std::size_t>((partition.end_of(rank) - partition.begin_of(rank) + size - 1) / size) *
         sizeof(Value));
-  std::vector<Value> all(static_cast<std::size_t>(block_count(share.rows())));
-  share.ranks().gather_all(mine.data(), bytes, all.data());
+  std::vector<Value> all(static_cast<std::size_t>(block_count(partition.rows())));
+  partition.communicator().gather_all(mine.data(), bytes, all.data());
   return all;
 }
 
 /// Returns the values of body(begin, end) over the blocks of all processes, in row order. begin and
 /// end count the rows of this process. Collective.
 template <class Value, class Body>
-std::vector<Value> map_blocks(const Share& share, const Body& body,
+std::vector<Value> map_blocks(const RowPartition& partition, const Body& body,
                               Index work = std::numeric_limits<Index>::max()) {
-  return gather_blocks(share,
-                       map_blocks_of<Value>(block_rows(share.rows()), share.count(), body, work));
+  return gather_blocks(partition,
+                       map_blocks_of<Value>(block_rows(partition.rows()), partition.count(), body, work));
 }
 
 /// Returns the sum of body(begin, end) over the blocks of all processes, added in their order.
-double sum_blocks(const Share& share, const std::function<double(Index, Index)>& body,
+double sum_blocks(const RowPartition& partition, const std::function<double(Index, Index)>& body,
                   Index work = std::numeric_limits<Index>::max());
 
 /// Returns sums of `count` numbers over the blocks of all processes, added in their order. mine:
 /// those of each block of this process, one block after the other.
-std::vector<double> add_blocks(const Share& share, std::size_t count,
+std::vector<double> add_blocks(const RowPartition& partition, std::size_t count,
                                const std::vector<double>& mine);
 /// Does the same; body(begin, end, sums) adds to the sums of a block, which start at zero. The
 /// first process determines count.
-std::vector<double> sum_blocks(const Share& share, std::size_t count,
+std::vector<double> sum_blocks(const RowPartition& partition, std::size_t count,
                                const std::function<void(Index, Index, std::span<double>)>& body);
 
 }  // namespace parallel
