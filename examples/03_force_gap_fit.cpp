@@ -55,8 +55,8 @@ int main(int argc, char** argv) try {
     const WindowSensitivity parts = window_sensitivity(curve);
     std::printf("%-26s %8.3f    %.3f … %.3f        %.3f … %.3f\n", name,
                 fit.decay_length_over_rms_height, parts.decay_length_min / h,
-                parts.decay_length_max / h, test.decay_length_closest / h,
-                test.decay_length_farthest / h);
+                parts.decay_length_max / h, test.decay_length_at_min_gap / h,
+                test.decay_length_at_max_gap / h);
   };
   report("boundary elements", by_elements);
   report("summits from the moments", by_moments);

@@ -45,5 +45,5 @@ for name, curve in curves.items():
     print(
         f"{name:26} {fit.decay_length_over_rms_height:8.3f}    "
         f"{parts.decay_length_min / h:.3f} … {parts.decay_length_max / h:.3f}        "
-        f"{test.decay_length_closest / h:.3f} … {test.decay_length_farthest / h:.3f}"
+        f"{test.decay_length_at_min_gap / h:.3f} … {test.decay_length_at_max_gap / h:.3f}"
     )

@@ -53,9 +53,9 @@ int main(int argc, char** argv) try {
               format_quantity(fit.decay_length, Dimension::length).c_str(),
               format_quantity(parts.decay_length_min, Dimension::length).c_str(),
               format_quantity(parts.decay_length_max, Dimension::length).c_str());
-  std::printf("over the window l runs from %s (closest) to %s (farthest)\n",
-              format_quantity(test.decay_length_closest, Dimension::length).c_str(),
-              format_quantity(test.decay_length_farthest, Dimension::length).c_str());
+  std::printf("over the window l runs from %s (smallest gap) to %s (largest gap)\n",
+              format_quantity(test.decay_length_at_min_gap, Dimension::length).c_str(),
+              format_quantity(test.decay_length_at_max_gap, Dimension::length).c_str());
 } catch (const Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -38,6 +38,6 @@ parts = salebra.window_sensitivity(curve)
 low, high = (format_quantity(value, "decay_length") for value in (parts.decay_length_min, parts.decay_length_max))
 print(f"decay length {format_quantity(fit.decay_length, 'decay_length')}; parts of the window give {low} … {high}")
 closest, farthest = (
-    format_quantity(value, "decay_length") for value in (test.decay_length_closest, test.decay_length_farthest)
+    format_quantity(value, "decay_length") for value in (test.decay_length_at_min_gap, test.decay_length_at_max_gap)
 )
-print(f"over the window l runs from {closest} (closest) to {farthest} (farthest)")
+print(f"over the window l runs from {closest} (smallest gap) to {farthest} (largest gap)")

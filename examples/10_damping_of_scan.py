@@ -28,8 +28,8 @@ curve = salebra.sweep_pressures(surface, material, pressures)
 fit = salebra.fit_exponential(curve)
 test = salebra.test_exponential(curve)
 print(
-    f"decay length {fit.decay_length * 1e9:.1f} nm; local {test.decay_length_closest * 1e9:.0f} nm (closest) "
-    f"to {test.decay_length_farthest * 1e9:.0f} nm (farthest)"
+    f"decay length {fit.decay_length * 1e9:.1f} nm; local {test.decay_length_at_min_gap * 1e9:.0f} nm (smallest gap) "
+    f"to {test.decay_length_at_max_gap * 1e9:.0f} nm (largest gap)"
 )
 
 # %% [markdown]

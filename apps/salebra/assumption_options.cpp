@@ -25,7 +25,7 @@ Json option_of(const std::string& parameter) {
 }
 
 /// The largest motions of the first case that could be judged.
-const std::vector<LargestMotion>& any_largest(const std::vector<Assumptions>& cases) {
+const std::vector<LargestMotion>& any_max(const std::vector<Assumptions>& cases) {
   const auto judged =
       std::ranges::find_if(cases, [](const Assumptions& p) { return !p.largest.empty(); });
   return judged == cases.end() ? cases.front().largest : judged->largest;
@@ -113,14 +113,14 @@ void AssumptionReport::add_to(Json& answer) const {
     one["needs"] = lacking == assumptions.end() ? Json() : option_of(lacking->needs);
   }
   if (!body.empty()) answer["assumptions_of"] = body;
-  const std::vector<LargestMotion>& judged = any_largest(cases);
+  const std::vector<LargestMotion>& judged = any_max(cases);
   const bool known =
       std::ranges::any_of(cases, [](const Assumptions& p) { return p.regime != Regime::unknown; });
   if (known || !judged.empty())
     answer["regime"] = column([](const Assumptions& p) -> Json {
       return p.regime == Regime::unknown ? Json(nullptr) : Json(name_of(p.regime));
     });
-  Json& largest = answer["largest_motion"] = Json::array();
+  Json& largest = answer["max_motion"] = Json::array();
   for (std::size_t i = 0; i < judged.size(); ++i) {
     std::vector<LargestMotion> motions;
     for (const Assumptions& p : cases)

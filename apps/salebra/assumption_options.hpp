@@ -29,7 +29,7 @@ struct AssumptionReport {
   std::string body = {};               ///< that was judged, where it is not the one of the answer
   bool slip_followed = false;          ///< the loss is that with slip
 
-  /// Adds the keys `validity`, `verdicts`, `assumptions`, `largest_motion` and, where it is known or
+  /// Adds the keys `validity`, `verdicts`, `assumptions`, `max_motion` and, where it is known or
   /// was looked for, `regime`; of another body `assumptions_of`.
   void add_to(Json& answer) const;
   /// Stands above the numbers of a contact that slides as a whole, and says so; else empty.

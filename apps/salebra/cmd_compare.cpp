@@ -132,7 +132,7 @@ std::string loads_table(const StudyResult& result) {
     const ForceSample& sample = r.of(ContactModel::bem).curve.samples[k];
     return sample.normal_stiffness * r.heights.rms_height / sample.force;
   });
-  const auto largest = result.spots(&SpotStatistics::largest_spot_share);
+  const auto largest = result.spots(&SpotStatistics::max_spot_share);
   for (const std::size_t k : shown_pressures(result, 8)) {
     rows.push_back({number(theories.relative_pressure[k], 2), with_error(gap[k]),
                     with_error(area[k], 100), number(100 * corrected[k].mean),

@@ -319,7 +319,7 @@ DamperProblem damper_problem(const DampingArguments& arguments) {
                "given, but there is no --mass to oscillate");
   if (arguments.body.mass)
     problem.oscillator = {*arguments.body.mass, arguments.body.spring_stiffness.value_or(0)};
-  problem.largest_amplitude = arguments.body.largest_amplitude.value_or(
+  problem.max_amplitude = arguments.body.max_amplitude.value_or(
       motion.normal_amplitude.empty() ? 1e-6 : std::ranges::max(motion.normal_amplitude));
   return problem;
 }

@@ -28,7 +28,7 @@ struct ExportArguments {
   std::string result, format, units = "m,kg,s", of = "mean", name = "contact";
   LawOptions law;
   MaterialOptions material;
-  std::optional<double> friction_coefficient, nominal_area, smallest_force;
+  std::optional<double> friction_coefficient, nominal_area, min_force;
   std::vector<double> window;
   int rows = 200, sliders = 200;
 };
@@ -117,7 +117,7 @@ void run(const ExportArguments& arguments, Session& session) {
   if (arguments.friction_coefficient)
     problem.friction_coefficient = *arguments.friction_coefficient;
   if (arguments.nominal_area) problem.nominal_area = *arguments.nominal_area;
-  if (arguments.smallest_force) problem.smallest_force = *arguments.smallest_force;
+  if (arguments.min_force) problem.min_force = *arguments.min_force;
   if (!arguments.window.empty()) {
     require(arguments.window.size() == 2, "--pressure-window", arguments.window.size(),
             "values must be two, LOWER,UPPER");
@@ -137,12 +137,12 @@ void run(const ExportArguments& arguments, Session& session) {
         law.surface.given() ? law.surface.file : fmt::format("law {}", law.indenter.law);
   }
   const DeckSolution answer = solve(problem);
-  constexpr double most_error = 0.01;
-  if (std::abs(answer.loss_error) > most_error)
+  constexpr double max_error = 0.01;
+  if (std::abs(answer.loss_error) > max_error)
     session.warn(fmt::format(
         "the loss at {:g} of the force at which all slips is off by {:.3g} %; give more --sliders "
-        "or a larger --smallest-force",
-        problem.smallest_force, 100 * answer.loss_error));
+        "or a larger --min-force",
+        problem.min_force, 100 * answer.loss_error));
   const Json object = answer_json(answer);
   if (!session.has_output()) {
     Json whole = object;
@@ -189,7 +189,7 @@ void add_export_command(Program& program) {
       ->range(2, 100000);
   command.add_option("--name", arguments->name,
                      "with which names of a C header begin; default contact");
-  add_quantity(command, "--smallest-force", arguments->smallest_force, Dimension::dimensionless,
+  add_quantity(command, "--min-force", arguments->min_force, Dimension::dimensionless,
                "T/(mu F) from which their loss is right to 1 %; default 0.01");
   add_choice<DeckCase>(command, "--of", arguments->of,
                        "which of several surfaces; default mean. Tables hold all three");

@@ -33,14 +33,14 @@ std::string length_text(double value) { return format_quantity(value, Dimension:
 std::string in_words(const ExponentialTest& test, const WindowSensitivity& parts,
                      const LawDescription& law, bool noisy) {
   return fmt::format(
-      "{}{}\nOver the window l changes from {} (closest) to {} (farthest), by {:+.0f} %.\n"
+      "{}{}\nOver the window l changes from {} (smallest gap) to {} (largest gap), by {:+.0f} %.\n"
       "Fits to parts of the window, of at least half its samples, give l from {} to {}.\n",
       cli::in_words(law, "this curve"),
       noisy ? fmt::format(" Scatter alone would bend ln F so far with a probability of {:.2g}.",
                           test.significance)
             : "",
-      length_text(test.decay_length_closest), length_text(test.decay_length_farthest),
-      100 * (test.decay_length_farthest / test.decay_length_closest - 1),
+      length_text(test.decay_length_at_min_gap), length_text(test.decay_length_at_max_gap),
+      100 * (test.decay_length_at_max_gap / test.decay_length_at_min_gap - 1),
       length_text(parts.decay_length_min), length_text(parts.decay_length_max));
 }
 
@@ -73,10 +73,10 @@ void run(const FitArguments& arguments, Session& session) {
   if (fit.window.points >= 4) {
     const ExponentialTest test = test_exponential(curve, window, weights);
     const LawDescription law =
-        describe_law(fit.decay_length, test.decay_length_closest, test.decay_length_farthest);
+        describe_law(fit.decay_length, test.decay_length_at_min_gap, test.decay_length_at_max_gap);
     answer["test"] = {{"fair", law.fair},
-                      {"decay_length_closest", test.decay_length_closest},
-                      {"decay_length_farthest", test.decay_length_farthest}};
+                      {"decay_length_at_min_gap", test.decay_length_at_min_gap},
+                      {"decay_length_at_max_gap", test.decay_length_at_max_gap}};
     if (noisy) answer["test"]["significance"] = test.significance;
     verdict = in_words(test, parts, law, noisy);
   }

@@ -50,9 +50,9 @@ OscillatingBody shape_of(const OscillateArguments& arguments, const std::string&
   const double size = arguments.surface.size_x.value_or(default_size);
   const double width = arguments.surface.size_y.value_or(size);
   const double lines = points * width / size;
-  constexpr double most_lines = std::numeric_limits<int>::max();
+  constexpr double max_lines = std::numeric_limits<int>::max();
   require(
-      lines < most_lines, "--size-y", format_quantity(width, Dimension::length),
+      lines < max_lines, "--size-y", format_quantity(width, Dimension::length),
       fmt::format("would need {:.3g} lines of the cells of --size-x; choose a smaller one", lines));
   const Grid2D grid{points, std::max<Index>(1, std::lround(lines)), size, width};
   grid.validate();

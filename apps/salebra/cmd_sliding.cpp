@@ -29,11 +29,11 @@ struct SlidingArguments {
   std::string hold = "indentation", start = "rest";
   BodyOptions body;
   std::optional<double> support_damping, tolerance;
-  std::optional<int> steps, most_cycles;
+  std::optional<int> steps, max_cycles;
   AssumptionOptions assumptions;
 
   bool of_slider() const {
-    return body.given() || support_damping || tolerance || steps || most_cycles || start != "rest";
+    return body.given() || support_damping || tolerance || steps || max_cycles || start != "rest";
   }
 };
 
@@ -182,13 +182,13 @@ SliderProblem slider_of(const SlidingArguments& arguments, Session& session) {
       .normal = {sliding.normal_amplitude.empty() ? 0 : sliding.normal_amplitude.front(),
                  arguments.frequency.given() ? arguments.frequency.angular().front() : 0},
       .friction_coefficient = *arguments.assumptions.friction_coefficient,
-      .largest_amplitude = arguments.body.largest_amplitude};
+      .max_amplitude = arguments.body.max_amplitude};
   SliderOptions& options = problem.options;
   options.hold = *parse_enum<Hold>(arguments.hold);
   options.start = *parse_enum<SliderStart>(arguments.start);
   options.steps = arguments.steps.value_or(options.steps);
   options.tolerance = arguments.tolerance.value_or(options.tolerance);
-  options.most_cycles = arguments.most_cycles.value_or(options.most_cycles);
+  options.max_cycles = arguments.max_cycles.value_or(options.max_cycles);
   options.on_progress = session.progress();
   return problem;
 }
@@ -241,7 +241,7 @@ void add_slider(Command& command, SlidingArguments& arguments) {
             "in a period of the oscillation, doubled until the tolerance is met; default 32")
       ->range(16, 100000);
   command
-      .add_option("--most-cycles", arguments.most_cycles,
+      .add_option("--max-cycles", arguments.max_cycles,
                   "slow cycles after which the motion is given up; default 200")
       ->range(1, 1000000);
   add_quantity(command, "--tolerance", arguments.tolerance, Dimension::dimensionless,

@@ -74,7 +74,7 @@ void write_contact(const ContactArguments& arguments, const Session& session, co
 
 /// The largest pressure of all processes.
 double max_pressure(const Communicator& communicator, const NormalContactState& state) {
-  return -communicator.least_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
+  return -communicator.min_of(state.contact_pressure.size() > 0 ? -state.contact_pressure.maxCoeff()
                                                            : 0.0);
 }
 

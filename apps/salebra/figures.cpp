@@ -126,7 +126,7 @@ PlotCurve force_of(const IndenterLaw& law, double most) {
 Figure contact_figure(const IndenterLaw& law, double indentation) {
   constexpr int points = 400;
   const double edge = law.contact_radius(indentation);
-  const double reach = std::min(1.8 * edge, law.profile().largest_radius());
+  const double reach = std::min(1.8 * edge, law.profile().max_radius());
   PlotCurve body{.name = "indenter", .color = 6}, surface{.name = "surface", .color = 0};
   PlotCurve image{.name = "image g(|x|) − δ", .color = 6},
       springs{.name = "ends of the springs", .color = 0};

@@ -367,7 +367,7 @@ void BodyOptions::add_to(Command& app, const std::string& largest) {
                "k of the spring, without the contact");
   add_quantity(app, "--falling-slope", falling_slope, Dimension::damping,
                "b of a friction force that falls by b per velocity");
-  add_quantity(app, "--largest-amplitude", largest_amplitude, Dimension::length,
+  add_quantity(app, "--max-amplitude", max_amplitude, Dimension::length,
                "u_z up to which stable sliding is looked for; default " + largest);
 }
 

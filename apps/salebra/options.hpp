@@ -186,11 +186,11 @@ struct OperatingPointOptions {
 
 /// A body on the contact, and what makes its steady sliding unstable.
 struct BodyOptions {
-  std::optional<double> mass, spring_stiffness, falling_slope, largest_amplitude;
+  std::optional<double> mass, spring_stiffness, falling_slope, max_amplitude;
 
   /// largest: the default of the last one.
   void add_to(Command& app, const std::string& largest);
-  bool given() const { return mass || spring_stiffness || falling_slope || largest_amplitude; }
+  bool given() const { return mass || spring_stiffness || falling_slope || max_amplitude; }
 };
 
 /// --frequency or --angular-frequency of the normal motion.

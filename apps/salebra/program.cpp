@@ -170,7 +170,7 @@ Command& Program::add_command(const std::string& name, const std::string& what,
         // One of several processes that stopped alone would leave the others waiting.
         std::optional<detail::StopCheck> stops;
         if (launch.communicator.alone() && !is_one_of(name, keeping_commands)) stops.emplace(interrupted);
-        const int threads = std::min(common->threads, parallel::most_threads());
+        const int threads = std::min(common->threads, parallel::max_threads());
         parallel::set_threads(threads);
         Session session(*common, line, check, launch);
         if (threads < common->threads)

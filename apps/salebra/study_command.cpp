@@ -515,7 +515,7 @@ void require_relative_error(const std::vector<StudyResult>& results) {
     throw NotConverged(fmt::format(
         "relative_error: {:.3g} % is not met at {} with cells of 1/{} of their size; no "
         "result is given: ask for less, leave out these loads, or measure finer",
-        100 * wanted, missed, SurfaceDampingOptions().most_refined));
+        100 * wanted, missed, SurfaceDampingOptions().max_refined));
 }
 
 /// Runs the ensembles with progress, keeps finished surfaces beside the session's output as it
@@ -707,9 +707,9 @@ std::string heading(const StudyResult& result) {
 
 std::string in_words(const LawDescription& law, const std::string& what) {
   return fmt::format(
-      "F ~ exp(-gap/l) is a {} description of {}: F/l^2 is off F'' by {:+.0f} % (closest) and "
-      "{:+.0f} % (farthest) at the ends of the window.{}",
-      law.fair ? "fair" : "poor", what, 100 * law.law_off_closest, 100 * law.law_off_farthest,
+      "F ~ exp(-gap/l) is a {} description of {}: F/l^2 is off F'' by {:+.0f} % (smallest gap) and "
+      "{:+.0f} % (largest gap) at the ends of the window.{}",
+      law.fair ? "fair" : "poor", what, 100 * law.law_off_at_min_gap, 100 * law.law_off_at_max_gap,
       law.fair ? "" : " Do not use Eq. (16) here.");
 }
 
@@ -722,9 +722,9 @@ std::string law_verdict(const StudyResult& result) {
   const EnsembleMean bend = result.fitted("law_bend");
   const bool sample = !std::isnan(bend.low);
   std::string text = fmt::format(
-      "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (closest) "
-      "to {:.2f} h_rms (farthest), a change of {:+.0f} %{}.\n  {}\n",
-      over_rms_height("decay_length_closest"), over_rms_height("decay_length_farthest"),
+      "  Over the fitted window the local l of boundary elements runs from {:.2f} h_rms (smallest gap) "
+      "to {:.2f} h_rms (largest gap), a change of {:+.0f} %{}.\n  {}\n",
+      over_rms_height("decay_length_at_min_gap"), over_rms_height("decay_length_at_max_gap"),
       100 * bend.mean,
       sample ? fmt::format(" ({:+.0f} to {:+.0f} % at 95 %)", 100 * bend.low, 100 * bend.high) : "",
       in_words(*law, sample ? "these surfaces" : "this surface"));

@@ -161,15 +161,15 @@ std::function<double(double)> johnson_transform(double skewness, double kurtosis
     const double delta = delta_of(w), gamma = gamma_of(unbounded_shape, skewness, delta, -1);
     return [=](double z) { return std::sinh((z - gamma) / delta); };
   }
-  constexpr double least_delta = 0.05;
-  const double largest_delta =
+  constexpr double min_delta = 0.05;
+  const double max_delta =
       w_lognormal > 1 ? std::min(1e3, 1 / std::sqrt(std::log(w_lognormal))) : 1e3;
   const double delta = root_of(
       [&](double trial) {
         const double gamma = gamma_of(bounded_shape, skewness, trial, 1);
         return bounded_shape(gamma, trial).kurtosis - kurtosis;
       },
-      least_delta, largest_delta);
+      min_delta, max_delta);
   const double gamma = gamma_of(bounded_shape, skewness, delta, 1);
   return [=](double z) { return bounded_transform(z, gamma, delta); };
 }

@@ -68,7 +68,7 @@ potential : {"exponential", "maugis", "van_der_waals"}
           nb::arg("work"), nb::arg("range"), nb::arg("potential") = "exponential")
       .def("energy", &Adhesion::energy, nb::arg("gap"), "φ(g), J/m².")
       .def("tension", &Adhesion::tension, nb::arg("gap"), "φ'(g), Pa.")
-      .def("largest_tension", &Adhesion::largest_tension, "φ'(0), Pa.");
+      .def("max_tension", &Adhesion::max_tension, "φ'(0), Pa.");
 
   nb::class_<BoundAdhesiveContact, BoundContact> state(
       m, "AdhesiveContactState", R"(Result of an adhesive contact; its fields are views, not copies.

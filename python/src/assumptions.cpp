@@ -12,7 +12,7 @@
 #include <salebra/damping/steady_sliding.hpp>
 
 #include "bindings.hpp"
-#include "damping/largest_motion.hpp"
+#include "damping/max_motion.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/damping.hpp"

@@ -15,7 +15,7 @@
 #include <salebra/damping/assumptions.hpp>
 
 #include "bindings.hpp"
-#include "damping/largest_motion.hpp"
+#include "damping/max_motion.hpp"
 #include "interop/choice.hpp"
 #include "interop/citations.hpp"
 #include "interop/cycle_motion.hpp"
@@ -392,18 +392,18 @@ void bind_damper(nb::module_& m) {
   m.def(
       "stabilising_amplitude",
       [](const ContactLaw& law, double angular_frequency, double falling_slope,
-         double largest_amplitude, std::optional<double> indentation, std::optional<double> force,
+         double max_amplitude, std::optional<double> indentation, std::optional<double> force,
          const Choice<Hold>& hold, double tolerance) {
         const DampingOptions options{.hold = hold.value("hold"), .tolerance = tolerance};
         return stabilising_amplitude(law, operating_point_of(indentation, force), angular_frequency,
-                                     falling_slope, largest_amplitude, options);
+                                     falling_slope, max_amplitude, options);
       },
       nb::arg("law"), nb::kw_only(), nb::arg("angular_frequency"), nb::arg("falling_slope"),
-      nb::arg("largest_amplitude"), nb::arg("indentation") = nb::none(),
+      nb::arg("max_amplitude"), nb::arg("indentation") = nb::none(),
       nb::arg("force") = nb::none(), nb::arg("hold") = "indentation", nb::arg("tolerance") = 1e-10,
       "The least u_z, m, at which γ >= falling_slope (N s/m): an estimate, without slip, of what "
       "keeps a slider whose friction falls with velocity from stick–slip. "
-      "NaN where no amplitude up to largest_amplitude is enough.");
+      "NaN where no amplitude up to max_amplitude is enough.");
 }
 
 }  // namespace

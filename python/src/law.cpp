@@ -63,7 +63,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
           [](const ContactLaw& self, const Choice<DeckFormat>& format,
              std::optional<double> indentation, double nominal_area, double friction_coefficient,
              const std::string& units, std::optional<std::pair<double, double>> pressure_window,
-             int rows, int sliders, double smallest_force, const std::string& name,
+             int rows, int sliders, double min_force, const std::string& name,
              const std::string& source) {
             // The law outlives the call.
             const std::shared_ptr<const ContactLaw> alias(std::shared_ptr<void>(), &self);
@@ -75,7 +75,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
                                       .pressure_window = pressure_window,
                                       .rows = rows,
                                       .sliders = sliders,
-                                      .smallest_force = smallest_force,
+                                      .min_force = min_force,
                                       .name = name,
                                       .source = source};
             return unlocked([&] { return solve(problem).text; });
@@ -84,7 +84,7 @@ Indentation δ grows with approach. Functions take a number or an array and retu
           nb::arg("nominal_area") = DeckContact::unknown,
           nb::arg("friction_coefficient") = DeckContact::unknown, nb::arg("units") = "m,kg,s",
           nb::arg("pressure_window") = nb::none(), nb::arg("rows") = 200, nb::arg("sliders") = 200,
-          nb::arg("smallest_force") = 0.01, nb::arg("name") = "contact", nb::arg("source") = "",
+          nb::arg("min_force") = 0.01, nb::arg("name") = "contact", nb::arg("source") = "",
           R"(The law as input of another program: the text of a deck.
 
 Parameters
@@ -104,7 +104,7 @@ pressure_window : (float, float), optional
     Nominal pressures of a table, Pa.
 rows, sliders : int
     How many; of a C header `sliders` are its levels.
-smallest_force : float
+min_force : float
     T/(μF) from which the loss of sliders is right to 1 %.
 name : str
     With which every name of a C header begins.

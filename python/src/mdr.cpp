@@ -21,7 +21,7 @@ void bind_profile(nb::module_& m) {
 
 .. math:: g(x) = |x|\int_0^{|x|}\frac{f'(r)\,dr}{\sqrt{x^2-r^2}} \quad\text{Eq. (3) of doi:10.1038/srep16189}
 
-Functions take a number or an array of radii, m, up to `largest_radius`.
+Functions take a number or an array of radii, m, up to `max_radius`.
 )");
   number_method(profile, "height", "r", &Profile::height, "f(r), m.");
   number_method(profile, "image", "x", &Profile::image, "g(x), m.");
@@ -31,9 +31,9 @@ Functions take a number or an array of radii, m, up to `largest_radius`.
   number_method(profile, "contact_radius", "indentation", &Profile::contact_radius,
                 "a with g(a) = indentation, m.");
   profile.def_prop_ro("flat_radius", &Profile::flat_radius, "Radius of the flat end, m.")
-      .def_prop_ro("largest_radius", &Profile::largest_radius, "Where the profile ends, m.")
+      .def_prop_ro("max_radius", &Profile::max_radius, "Where the profile ends, m.")
       .def_prop_ro("has_side", &Profile::has_side,
-                   "Whether the contact stops growing at largest_radius.");
+                   "Whether the contact stops growing at max_radius.");
 
   const auto made_by = [&m](const char* name, auto make, const char* description,
                             auto... arguments) {

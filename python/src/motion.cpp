@@ -55,13 +55,13 @@ angular_frequency : float
   keyword_constructor(two, 5);
   m.def(
       "common_period",
-      [](const TwoFrequencies& motion, int most_cycles) {
-        const CommonPeriod period = common_period(motion, most_cycles);
+      [](const TwoFrequencies& motion, int max_cycles) {
+        const CommonPeriod period = common_period(motion, max_cycles);
         return std::pair(period.normal_cycles, period.tangential_cycles);
       },
-      nb::arg("motion"), nb::arg("most_cycles") = 1000,
+      nb::arg("motion"), nb::arg("max_cycles") = 1000,
       "(p, q) with ω_x/ω_z = q/p in lowest terms; (0, 0) where the motion never repeats within "
-      "most_cycles normal cycles.");
+      "max_cycles normal cycles.");
 
   described_class<SampledMotion>(
       m, "SampledMotion",

@@ -57,7 +57,7 @@ void bind_functions(nb::module_& m) {
       [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
          double normal_amplitude, double angular_frequency, std::optional<double> indentation,
          std::optional<double> force, bool averaged, const Choice<Hold>& hold,
-         const Choice<SliderStart>& start, int steps, double tolerance, int most_cycles,
+         const Choice<SliderStart>& start, int steps, double tolerance, int max_cycles,
          const ProgressArgument& progress) {
         cite({"popov2015"});
         const OperatingPoint point = operating_point_of(indentation, force);
@@ -65,7 +65,7 @@ void bind_functions(nb::module_& m) {
                               .start = start.value("start"),
                               .steps = steps,
                               .tolerance = tolerance,
-                              .most_cycles = most_cycles};
+                              .max_cycles = max_cycles};
         return interruptible(progress, [&](Progress told) {
           options.on_progress = told;
           const NormalOscillation normal{normal_amplitude, angular_frequency};
@@ -79,7 +79,7 @@ void bind_functions(nb::module_& m) {
       nb::arg("normal_amplitude") = 0.0, nb::arg("angular_frequency") = 0.0,
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
       nb::arg("averaged") = false, nb::arg("hold") = "indentation", nb::arg("start") = "rest",
-      nb::arg("steps") = 32, nb::arg("tolerance") = 1e-2, nb::arg("most_cycles") = 200,
+      nb::arg("steps") = 32, nb::arg("tolerance") = 1e-2, nb::arg("max_cycles") = 200,
       nb::arg("progress") = false,
       R"(Stick–slip or steady sliding of a slider on a contact whose indentation is δ0 − u_z cos ωt.
 
@@ -104,7 +104,7 @@ steps : int
     In a period, doubled until the tolerance is met.
 tolerance : float
     Relative, of the amplitude of a slow cycle.
-most_cycles : int
+max_cycles : int
     Slow cycles after which the motion is given up.
 progress : bool or callable
 )");
@@ -129,17 +129,17 @@ progress : bool or callable
   m.def(
       "threshold_amplitude",
       [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
-         double angular_frequency, double largest_amplitude, std::optional<double> indentation,
+         double angular_frequency, double max_amplitude, std::optional<double> indentation,
          std::optional<double> force, const Choice<Hold>& hold, int steps) {
         const OperatingPoint point = operating_point_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
-          return threshold_amplitude(law, point, {largest_amplitude, angular_frequency}, slider,
+          return threshold_amplitude(law, point, {max_amplitude, angular_frequency}, slider,
                                      friction_coefficient, options);
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
-      nb::arg("angular_frequency"), nb::arg("largest_amplitude"),
+      nb::arg("angular_frequency"), nb::arg("max_amplitude"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
       nb::arg("hold") = "indentation", nb::arg("steps") = 32,
       "The least normal amplitude (m) at which small disturbances of sliding die out; indentation "
@@ -147,19 +147,19 @@ progress : bool or callable
   m.def(
       "threshold_angular_frequency",
       [](const ContactLaw& law, const Slider& slider, double friction_coefficient,
-         double normal_amplitude, double largest_angular_frequency,
+         double normal_amplitude, double max_angular_frequency,
          std::optional<double> indentation, std::optional<double> force, const Choice<Hold>& hold,
          int steps) {
         const OperatingPoint point = operating_point_of(indentation, force);
         const SliderOptions options{.hold = hold.value("hold"), .steps = steps};
         return unlocked([&] {
           return threshold_angular_frequency(law, point,
-                                             {normal_amplitude, largest_angular_frequency}, slider,
+                                             {normal_amplitude, max_angular_frequency}, slider,
                                              friction_coefficient, options);
         });
       },
       nb::arg("law"), nb::arg("slider"), nb::kw_only(), nb::arg("friction_coefficient"),
-      nb::arg("normal_amplitude"), nb::arg("largest_angular_frequency"),
+      nb::arg("normal_amplitude"), nb::arg("max_angular_frequency"),
       nb::arg("indentation") = nb::none(), nb::arg("force") = nb::none(),
       nb::arg("hold") = "indentation", nb::arg("steps") = 32,
       "The least angular frequency (rad/s) at which small disturbances of sliding die out; "

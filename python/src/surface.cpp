@@ -174,9 +174,9 @@ threshold : float
           "The part between two corners, m, moved to the nearest borders of cells. It is not "
           "periodic.")
       .def_prop_ro(
-          "largest_defined_part",
+          "max_defined_part",
           [](const BoundSurface& self) -> std::optional<std::array<double, 4>> {
-            const auto part = unlocked([&] { return largest_defined_part(self.surface); });
+            const auto part = unlocked([&] { return max_defined_part(self.surface); });
             if (!part) return {};
             return std::array{part->x0, part->y0, part->x1, part->y1};
           },

@@ -46,15 +46,15 @@ function cards(point) {
 /** Whether F ∝ exp(−ū/l) holds, in a sentence. */
 function lawVerdict(point) {
   const fit = point.fit?.models?.bem, bend = fit?.law_bend;
-  const closest = fit?.decay_length_closest_over_rms_height?.mean, farthest = fit?.decay_length_farthest_over_rms_height?.mean;
+  const closest = fit?.decay_length_at_min_gap_over_rms_height?.mean, farthest = fit?.decay_length_at_max_gap_over_rms_height?.mean;
   if (!known(fit?.fair)) return null;
   // Where the parabola of the fit turns, the law is infinitely far off, which the file has as null.
   const [offClosest, offFarthest] =
-      [fit.law_off_closest, fit.law_off_farthest].map((off) => off ?? Infinity);
+      [fit.law_off_at_min_gap, fit.law_off_at_max_gap].map((off) => off ?? Infinity);
   const run = `Across its window the local ‹l› runs from ${number(closest, 2)} to ${number(farthest, 2)} ‹h›_{rms}`;
   const size = bend ? `, a change of ${percent(bend.mean)}` + (known(bend.low) ? ` (95 %: ${percent(bend.low)} … ${percent(bend.high)})` : "") : "";
-  const ends = `‹F›/‹l›² is off ‹F›″ by ${percent(offClosest)} (closest) and ${
-      percent(offFarthest)} (farthest) at the ends of the window.`;
+  const ends = `‹F›/‹l›² is off ‹F›″ by ${percent(offClosest)} (smallest gap) and ${
+      percent(offFarthest)} (largest gap) at the ends of the window.`;
   return {
     poor: !fit.fair,
     text: `${run}${size}. ${ends}` + (fit.fair ? '' : ' Do not use Eq. (16) here.')

@@ -214,7 +214,7 @@ function gapMap(parent, point) {
 function spotsFigure(parent, point) {
   const spots = point.spots ?? {}, count = spots.spot_count;
   if (!count?.mean.some(known)) return;
-  const sizes = [["mean_spot_area", "mean", {color: "green", symbol: "diamond", dash: "solid"}], ["largest_spot_area", "largest", {color: "vermilion", symbol: "square", dash: "solid"}]].filter(([key]) => spots[key]?.mean.some(known));
+  const sizes = [["mean_spot_area", "mean", {color: "green", symbol: "diamond", dash: "solid"}], ["max_spot_area", "largest", {color: "vermilion", symbol: "square", dash: "solid"}]].filter(([key]) => spots[key]?.mean.some(known));
   const last = point.pressure.length - 1;
   addFigure(parent, {
     id: "spots", title: "Contact spots", height: mapHeight(),

@@ -286,15 +286,15 @@ std::optional<FirstLoading> load_first(Surface& surface, const std::optional<dou
 }
 
 std::vector<std::string> warnings_of_profile(const IndenterProfile& profile, double contact_radius) {
-  constexpr double most_change = 0.05, most_radius = 1;
+  constexpr double max_change = 0.05, max_radius = 1;
   const auto* table = dynamic_cast<const TabulatedProfile*>(&profile);
   if (table == nullptr) return {};
   std::vector<std::string> warnings;
-  if (table->largest_radius() > most_radius)
+  if (table->max_radius() > max_radius)
     warnings.push_back(fmt::format("the table has radii up to {}; check the unit, a table is in m",
-                                 format_quantity(table->largest_radius(), Dimension::length)));
+                                 format_quantity(table->max_radius(), Dimension::length)));
   const double change = table->image_error(contact_radius);
-  if (change > most_change)
+  if (change > max_change)
     warnings.push_back(fmt::format(
         "the table is coarse: without every other point the indentation at the contact radius {} "
         "changes by {:.2g} %; sample it more finely",

@@ -11,7 +11,7 @@
 #include <salebra/damping/surface_damping.hpp>
 #include <utility>
 
-#include "damping/largest_motion.hpp"
+#include "damping/max_motion.hpp"
 
 namespace salebra {
 namespace {
@@ -262,7 +262,7 @@ class SurfaceDamper {
     amplitude *= std::pow(*problem_.falling_slope * angular_frequency / constant, 1 / exponent);
     const double off =
         std::hypot(amplitude * error / (constant * exponent), (amplitude - by_law) / 2);
-    if (!(exponent > 0) || !(off < amplitude) || amplitude > problem_.largest_amplitude)
+    if (!(exponent > 0) || !(off < amplitude) || amplitude > problem_.max_amplitude)
       return lost();
     solution_.stabilising_amplitude_error.push_back(off);
   }
@@ -396,7 +396,7 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
     require(high <= detail::possible_amplitude(body->decay_length), "trajectory", high,
             fmt::format("m is an indentation at which the force is more than {:g} times that at "
                         "rest, up to which an exponential law holds; at most {}",
-                        detail::most_force_ratio,
+                        detail::max_force_ratio,
                         format_quantity(detail::possible_amplitude(body->decay_length),
                                         Dimension::length, 3)));
   TrajectoryDampingOptions options{.on_progress = context.on_progress};
@@ -503,7 +503,7 @@ DamperSolution solve(DamperProblem problem, const Context& context) {
   require_positive(*problem.falling_slope, "falling_slope");
   for (const double frequency : omega) {
     solution.stabilising_amplitude.push_back(stabilising_amplitude(
-        law, point, frequency, *problem.falling_slope, problem.largest_amplitude, options));
+        law, point, frequency, *problem.falling_slope, problem.max_amplitude, options));
     if (of_surface) of_surface->stabilise(frequency);
   }
   return solution;

@@ -8,7 +8,7 @@
 #include <salebra/base/error.hpp>
 #include <utility>
 
-#include "damping/largest_motion.hpp"
+#include "damping/max_motion.hpp"
 #include "part.hpp"
 
 namespace salebra {

@@ -192,7 +192,7 @@ OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationR
   if (routes.relative_error) {
     AdaptiveQuadratureOptions options;
     options.relative_error = *routes.relative_error;
-    options.most_points = routes.most_points;
+    options.max_points = routes.max_points;
     options.quadrature = routes.levels;
     const auto choose = [&](const auto& levels) {
       return adaptive_level_quadrature(levels, grid, contact.material, contact.motion,

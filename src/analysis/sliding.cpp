@@ -10,7 +10,7 @@
 #include <span>
 #include <tuple>
 
-#include "damping/largest_motion.hpp"
+#include "damping/max_motion.hpp"
 
 namespace salebra {
 namespace {
@@ -60,7 +60,7 @@ SliderThresholds thresholds_of(const SliderProblem& problem, const ContactLaw& l
   const double friction = problem.friction_coefficient;
   const double start = slider.velocity / omega * law.tangential_stiffness(indentation) /
                        (friction * law.normal_stiffness(indentation));
-  const double largest = problem.largest_amplitude.value_or(
+  const double largest = problem.max_amplitude.value_or(
       std::min(10 * std::max(amplitude, start), covered_amplitude(law, indentation)));
   SliderThresholds found{.amplitude = threshold_amplitude(law, point, {largest, omega}, slider,
                                                           friction, problem.options)};
@@ -130,7 +130,7 @@ SlidingSolution solve(const SlidingProblem& problem, const ContactSolution& cont
 
 SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
                      const OperatingPoint& point) {
-  const auto& [slider, normal, friction, largest_amplitude, options] = problem;
+  const auto& [slider, normal, friction, max_amplitude, options] = problem;
   SliderSolution solution;
   solution.stability = slider_stability(law, point, normal, slider, friction, options);
   const bool oscillates = normal.normal_amplitude > 0;
@@ -149,7 +149,7 @@ SliderSolution solve(const SliderProblem& problem, const ContactLaw& law,
   solution.averaged = averaged_slider_motion(law, point, normal, slider, friction, options);
   if (!solution.motion.converged || !solution.averaged.converged)
     throw NotConverged(
-        fmt::format("slider: the {} does not repeat to the `tolerance` within `most_cycles`; near "
+        fmt::format("slider: the {} does not repeat to the `tolerance` within `max_cycles`; near "
                     "the threshold "
                     "disturbances grow or decay slowly, and then both must be raised",
                     solution.motion.converged ? "averaged motion" : "motion"));

@@ -57,7 +57,7 @@ class StoppableProfile final : public IndenterProfile {
   double image_slope(double x) const override { return seen().image_slope(x); }
   double image_integral(double x) const override { return seen().image_integral(x); }
   double flat_radius() const override { return profile_->flat_radius(); }
-  double largest_radius() const override { return profile_->largest_radius(); }
+  double max_radius() const override { return profile_->max_radius(); }
   bool has_side() const override { return profile_->has_side(); }
   std::vector<double> breaks() const override { return profile_->breaks(); }
   double contact_radius(double indentation) const override {

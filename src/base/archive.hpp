@@ -79,17 +79,17 @@ constexpr bool is_left_out =
 
 /// Bytes that a value takes at least, of which a damaged count may not promise more than there are.
 template <class T>
-constexpr std::size_t least_bytes() {
+constexpr std::size_t min_bytes() {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
     return sizeof(T);
   } else if constexpr (requires(T pair) { pair.first, pair.second; }) {
-    return least_bytes<typename T::first_type>() + least_bytes<typename T::second_type>();
+    return min_bytes<typename T::first_type>() + min_bytes<typename T::second_type>();
   } else if constexpr (std::is_same_v<T, std::string> || is_vector<T> || is_variant<T>) {
     return sizeof(std::size_t);
   } else if constexpr (Described<T>) {
     std::size_t sum = 0;
     for_each_member<T>([&](auto member) {
-      sum += least_bytes<std::remove_cvref_t<decltype(std::declval<T&>().*member)>>();
+      sum += min_bytes<std::remove_cvref_t<decltype(std::declval<T&>().*member)>>();
     });
     return sum;
   } else {
@@ -105,7 +105,7 @@ void archive_list(Archive& through, List& list) {
   std::size_t count = list.size();
   through.raw(&count, sizeof count);
   if constexpr (Archive::reads) {
-    through.require(count <= through.left() / std::max<std::size_t>(least_bytes<Item>(), 1));
+    through.require(count <= through.left() / std::max<std::size_t>(min_bytes<Item>(), 1));
     list.resize(count);
   }
   if constexpr (std::is_arithmetic_v<Item> && !std::is_same_v<Item, bool>)

@@ -10,7 +10,7 @@
 namespace salebra {
 namespace {
 
-constexpr std::int64_t most_units = 2147483647;
+constexpr std::int64_t max_units = 2147483647;
 
 std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& counts) {
   std::vector<std::int64_t> places(counts.size() + 1, 0);
@@ -86,7 +86,7 @@ Exchange::Exchange(std::size_t unit, std::vector<std::int64_t> sent,
       sent_places_(places_of(sent_)),
       received_places_(places_of(received_)) {
   for (const std::int64_t units : {sent_units(), received_units()})
-    require(units <= most_units, "exchange", units,
+    require(units <= max_units, "exchange", units,
             "must not have more than 2147483647 units in a process; use more processes");
 }
 
@@ -120,9 +120,9 @@ std::vector<std::string> Communicator::gather_all(const std::string& mine) const
   return texts;
 }
 
-bool Communicator::all_agree(bool yes) const { return least_of(yes ? 1 : 0) > 0; }
+bool Communicator::all_agree(bool yes) const { return min_of(yes ? 1 : 0) > 0; }
 
-double Communicator::least_of(double mine) const {
+double Communicator::min_of(double mine) const {
   if (alone()) return mine;
   const std::vector<std::size_t> one(static_cast<std::size_t>(communicator()), sizeof mine);
   std::vector<double> all(one.size());

@@ -23,20 +23,20 @@ namespace {
 constexpr Index slabs_per_thread = 8;
 
 // Fewer points than this are done before a second thread is awake.
-constexpr Index least_parallel_work = 20000;
+constexpr Index min_parallel_work = 20000;
 
 // The same for a thread of a pool of tasks, which was asleep.
-constexpr Index least_shared_work = 200000;
+constexpr Index min_shared_work = 200000;
 
 int chosen_threads = 0;
 
 }  // namespace
 
-int most_threads() { return std::max(64, 4 * omp_get_num_procs()); }
+int max_threads() { return std::max(64, 4 * omp_get_num_procs()); }
 
 void set_threads(int count) {
-  require(count >= 0 && count <= most_threads(), "threads", count,
-          "must be from 0 (all) to " + std::to_string(most_threads()));
+  require(count >= 0 && count <= max_threads(), "threads", count,
+          "must be from 0 (all) to " + std::to_string(max_threads()));
   chosen_threads = count;
 }
 
@@ -54,7 +54,7 @@ Index block_count(Index rows) { return (rows + block_rows(rows) - 1) / block_row
 void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index work) {
   if (rows == 0) return;
   detail::StopCheck* const check = detail::StopCheck::current();
-  if (work < least_parallel_work || (threads() == 1 && !check)) return body(0, rows);
+  if (work < min_parallel_work || (threads() == 1 && !check)) return body(0, rows);
   if (threads() == 1) {
     // Slabs, so that the thread looks now and then whether to stop.
     const Index slabs = std::min(rows, Index{64});
@@ -65,7 +65,7 @@ void for_slabs(Index rows, const std::function<void(Index, Index)>& body, Index 
     return;
   }
   if (omp_in_parallel()) {
-    if (work < least_shared_work || !detail::share_slabs(rows, slabs_per_thread, body))
+    if (work < min_shared_work || !detail::share_slabs(rows, slabs_per_thread, body))
       body(0, rows);
     return;
   }

@@ -12,10 +12,10 @@
 namespace salebra {
 namespace {
 
-constexpr Index least_unit = 16;  // the rows that a transform pairs
+constexpr Index min_unit = 16;  // the rows that a transform pairs
 
 std::vector<Index> block_begins(int communicator, Index rows, Index least) {
-  const Index unit = std::max(least_unit, parallel::block_rows(rows)),
+  const Index unit = std::max(min_unit, parallel::block_rows(rows)),
               blocks = (rows + unit - 1) / unit,
               in_use = std::clamp<Index>(rows / std::max(least, unit), 1, communicator);
   std::vector<Index> begins;

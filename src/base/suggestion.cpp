@@ -88,13 +88,13 @@ std::vector<std::string> names_for(std::string_view word, const std::vector<std:
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
   if (const auto meant = names_for(word, names); !meant.empty()) return meant.front();
   // Shorter beginnings say too little, and words of two letters are all alike.
-  constexpr std::size_t least_beginning = 3;
+  constexpr std::size_t min_beginning = 3;
   const std::size_t limit = word.size() / 3;
   std::size_t least = limit + 1;
   std::string nearest;
   for (const std::string& name : names) {
     const bool begun =
-        word.size() >= least_beginning && name.size() > word.size() && name.starts_with(word);
+        word.size() >= min_beginning && name.size() > word.size() && name.starts_with(word);
     const std::size_t distance = begun ? 1 : edits(word, name);
     if (distance == 0 || distance >= least) continue;
     least = distance;

@@ -51,7 +51,7 @@ class TaskPool {
  public:
   TaskPool() {
     // A thread calls at most one loop in each of three depths; nothing may throw below.
-    const auto most = 4 * static_cast<std::size_t>(parallel::most_threads());
+    const auto most = 4 * static_cast<std::size_t>(parallel::max_threads());
     open_.reserve(most);
     free_.reserve(most);
   }
@@ -59,7 +59,7 @@ class TaskPool {
   /// A thread without a task, until end().
   void serve() {
     std::unique_lock lock(guard_);
-    Waiter waiter{.least_depth = 0};
+    Waiter waiter{.min_depth = 0};
     while (!over_)
       if (TaskLoop* loop = pick(0))
         take_part(*loop, lock);
@@ -79,7 +79,7 @@ class TaskPool {
     loop.tell();
     std::unique_lock lock(guard_);
     open_.push_back(&loop);
-    Waiter waiter{.least_depth = loop.depth_ + 1, .own = &loop};
+    Waiter waiter{.min_depth = loop.depth_ + 1, .own = &loop};
     // The calling thread takes the first task itself.
     call(loop, loop.count_ - 1);
     for (;;) {
@@ -87,7 +87,7 @@ class TaskPool {
         take_part(loop, lock);
       } else if (loop.running_ == 0) {
         break;
-      } else if (TaskLoop* inner = pick(waiter.least_depth)) {
+      } else if (TaskLoop* inner = pick(waiter.min_depth)) {
         take_part(*inner, lock);
       } else {
         wait(waiter, lock, true);
@@ -104,7 +104,7 @@ class TaskPool {
 
  private:
   struct Waiter {
-    int least_depth = 0;  // of the loops that it may take part in
+    int min_depth = 0;  // of the loops that it may take part in
     const TaskLoop* own = nullptr;
     bool woken = false;
     std::condition_variable changed = {};
@@ -112,13 +112,13 @@ class TaskPool {
 
   /// The loop that the next free thread takes a task of: the inner before the outer, slabs last,
   /// and of like ones that which began first.
-  TaskLoop* pick(int least_depth) const {
+  TaskLoop* pick(int min_depth) const {
     const auto rank = [](const TaskLoop& loop) {
       return loop.depth_ == depth_of_slabs ? -1 : loop.depth_;
     };
     TaskLoop* best = nullptr;
     for (TaskLoop* loop : open_)
-      if (loop->depth_ >= least_depth && loop->has_room() && (!best || rank(*loop) > rank(*best)))
+      if (loop->depth_ >= min_depth && loop->has_room() && (!best || rank(*loop) > rank(*best)))
         best = loop;
     return best;
   }
@@ -143,7 +143,7 @@ class TaskPool {
   /// Wakes so many free threads for a loop.
   void call(const TaskLoop& loop, Index wanted) {
     for (std::size_t k = free_.size(); k-- > 0 && wanted > 0;)
-      if (free_[k]->least_depth <= loop.depth_) {
+      if (free_[k]->min_depth <= loop.depth_) {
         release(k);
         --wanted;
       }

@@ -51,15 +51,15 @@ Integral integrate(const std::function<double(double)>& f, std::span<const doubl
     if (distinct.empty() || point > distinct.back()) distinct.push_back(point);
   if (distinct.size() < 2) return {.converged = true};
 
-  constexpr std::size_t most_intervals = 2000;
-  const Workspace workspace(gsl_integration_workspace_alloc(most_intervals),
+  constexpr std::size_t max_intervals = 2000;
+  const Workspace workspace(gsl_integration_workspace_alloc(max_intervals),
                             &gsl_integration_workspace_free);
   if (!workspace) throw std::bad_alloc();
   Guarded guarded{f, nullptr};
   const gsl_function function{&Guarded::call, &guarded};
   Integral result;
   const int status = gsl_integration_qagp(&function, distinct.data(), distinct.size(),
-                                          absolute_tolerance, relative_tolerance, most_intervals,
+                                          absolute_tolerance, relative_tolerance, max_intervals,
                                           workspace.get(), &result.value, &result.error);
   if (guarded.failure) std::rethrow_exception(guarded.failure);
   // Round-off ends the refinement with a status of its own when the tolerance is nearly reached;

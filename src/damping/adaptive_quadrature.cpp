@@ -18,8 +18,8 @@ int first_levels(const Oscillation& motion, const LevelQuadratureOptions& option
 void validate(const AdaptiveQuadratureOptions& options) {
   require(options.relative_error > 0 && options.relative_error < 1, "relative_error",
           options.relative_error, "must lie between 0 and 1");
-  require(options.most_points >= 1, "most_points", options.most_points, "must be >= 1");
-  require(options.most_levels >= 4, "most_levels", options.most_levels, "must be >= 4");
+  require(options.max_points >= 1, "max_points", options.max_points, "must be >= 1");
+  require(options.max_levels >= 4, "max_levels", options.max_levels, "must be >= 4");
 }
 
 }  // namespace
@@ -48,9 +48,9 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
                                 result.trials[count - 2].work_per_cycle);
   };
   const auto finer_grid = [&] {
-    return std::max(result.grid.nx, result.grid.ny) * 2 <= options.most_points;
+    return std::max(result.grid.nx, result.grid.ny) * 2 <= options.max_points;
   };
-  const auto more_levels = [&] { return result.levels * 2 <= options.most_levels; };
+  const auto more_levels = [&] { return result.levels * 2 <= options.max_levels; };
 
   run();
   double by_levels = unknown, by_grid = finer_grid() ? unknown : 0;
@@ -85,7 +85,7 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const ContactLevels& levels, 
                                                    double mean_indentation,
                                                    const AdaptiveQuadratureOptions& options) {
   AdaptiveQuadratureOptions fixed_grid = options;
-  fixed_grid.most_points = 1;
+  fixed_grid.max_points = 1;
   return adaptive_level_quadrature([&](const Grid2D&) { return levels; }, grid, material, motion,
                                    mean_indentation, fixed_grid);
 }

@@ -90,8 +90,8 @@ AsperityDamping asperity_damping(const std::vector<Summit>& summits, const Mater
     const double indentation = caps[i].height - separation;
     damping.work_per_cycle += damping.work[i];
     if (indentation < amplitude) damping.intermittent_work += damping.work[i];
-    damping.contacts_most += indentation + amplitude > 0;
-    damping.contacts_least += indentation - amplitude > 0;
+    damping.max_contacts += indentation + amplitude > 0;
+    damping.min_contacts += indentation - amplitude > 0;
     if (indentation > 0)
       curvature += material.contact_modulus * std::sqrt(caps[i].force_radius / indentation);
   }

@@ -15,7 +15,7 @@
 
 #include "base/special_values.hpp"
 #include "judge.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "level_loss.hpp"
 
 namespace salebra {
@@ -309,7 +309,7 @@ struct Limits {
 // yet, to `high`.
 Limits first_crossings(const std::function<double(double)>& change, double low, double high) {
   constexpr double step = 1.2;
-  constexpr int halvings = 18, most_steps = 400;  // 32 decades
+  constexpr int halvings = 18, max_steps = 400;  // 32 decades
   Limits limits;
   double below = low;
   int taken = 0;
@@ -319,7 +319,7 @@ Limits first_crossings(const std::function<double(double)>& change, double low, 
     while (change(above) <= percent) {
       below = above;
       // None within the range, or within any that numbers can tell apart.
-      if (!(above < high) || ++taken > most_steps) return limits;
+      if (!(above < high) || ++taken > max_steps) return limits;
       above = std::min(above * step, high);
     }
     for (int i = 0; i < halvings && above > below; ++i) {
@@ -545,16 +545,16 @@ Assumption plasticity_of(const ContactParameters& parameters, double peak_force)
   // Flow begins below a paraboloid's centre at 1.6 yield stresses, H is 2.8 of them.
   Assumption assumption{.onset = 0.6};
   // A paraboloid has this ratio.
-  constexpr double largest_over_mean = 1.5;
+  constexpr double max_over_mean = 1.5;
   double stress = unknown;
-  for (const double one : {parameters.largest_pressure, largest_over_mean * parameters.mean_contact_pressure,
+  for (const double one : {parameters.max_pressure, max_over_mean * parameters.mean_contact_pressure,
                            parameters.contact_modulus * parameters.rms_slope})
     stress = std::fmax(stress, one);
   assumption.value = stress / parameters.hardness;
   if (std::isnan(parameters.hardness))
     assumption.needs = "hardness";
   else if (std::isnan(stress))
-    assumption.needs = "largest_pressure";
+    assumption.needs = "max_pressure";
   judge_flow(assumption);
   return assumption;
 }
@@ -646,7 +646,7 @@ void set_limits(Assumption& assumption, const Limits& limits, double unit) {
 // displacement: that of 5 % in units of μ/g. closed_limits: of the levels that stay closed, for a
 // μ/g.
 template <class ClosedLimits>
-std::vector<LargestMotion> largest_motions(const JudgedMotion& motion, const ContactParameters& parameters,
+std::vector<LargestMotion> max_motions(const JudgedMotion& motion, const ContactParameters& parameters,
                                            double stiffness_ratio, double displacement,
                                            const ClosedLimits& closed_limits) {
   std::vector<double> coefficients{parameters.friction_coefficient};
@@ -726,7 +726,7 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
     return ClosedLevels(law, motion.mean - amplitude, amplitude, moved)
         .limits(stick * moved * moved, 100 * length);
   };
-  assumptions.largest = largest_motions(motion, parameters, ratio, displacements.five, closed_limits);
+  assumptions.largest = max_motions(motion, parameters, ratio, displacements.five, closed_limits);
   if (!motion.drag) {
     set_limits(closed, displacements, stretch);
   } else if (closed.needs.empty()) {

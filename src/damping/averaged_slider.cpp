@@ -10,7 +10,7 @@
 #include <salebra/base/error.hpp>
 
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 
 namespace salebra::detail {
 
@@ -151,12 +151,12 @@ double AveragedSlider::slip(double time) {
 void AveragedSlider::advance() {
   constexpr double part = 2 * std::numbers::pi / 256;
   // An equation that is stiff, as by a dashpot of many times √(km), would take steps without end.
-  constexpr int most_steps = 100'000;
+  constexpr int max_steps = 100'000;
   double left = part;
   int taken = 0;
   while (left > 1e-12 * part) {
     left -= direction_ == 0 ? stick(left) : slip(left);
-    if (++taken > most_steps)
+    if (++taken > max_steps)
       throw NotConverged(
           "slider: the averaged equation is too stiff: a 256th of a slow period takes more than "
           "100000 steps; use less damping, or a contact that is less stiff");

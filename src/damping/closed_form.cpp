@@ -13,7 +13,7 @@
 
 #include "base/quiet_gsl.hpp"
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "phase_quadrature.hpp"
 
 namespace salebra::closed_form {
@@ -159,7 +159,7 @@ double work_per_cycle_exponential(double modulus_ratio, double reference_force, 
       !(amplitude > detail::possible_amplitude(decay_length)), "normal_amplitude", amplitude,
       fmt::format("m takes the force beyond {:g} times that at rest, up to which an exponential "
                   "law holds; at most {}, or hold the mean force",
-                  detail::most_force_ratio,
+                  detail::max_force_ratio,
                   format_quantity(detail::possible_amplitude(decay_length), Dimension::length, 3)));
   const double peak_curvature = reference_force * std::exp(k) / square(decay_length);
   return work_at(modulus_ratio, peak_curvature, motion) * exponential_ratio_scaled(motion, k);

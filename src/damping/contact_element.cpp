@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {
@@ -51,7 +51,7 @@ std::vector<double> depths(double first, double last, int count) {
 }
 
 // Part of K_t at a node: how far the mean of nodes where it falls may lie from it.
-constexpr double most_scatter = 0.25;
+constexpr double max_scatter = 0.25;
 
 // A rising function at the ends of an interval, and its slope there.
 struct Ends {
@@ -175,7 +175,7 @@ void LawLevels::set_tangential(const ContactLaw& law) {
   }
   sum_ = rising(stiffness);
   for (std::size_t i = 0; i < node_.size(); ++i)
-    require(std::abs(sum_[i] - stiffness[i]) <= most_scatter * sum_[i], "law", node_[i],
+    require(std::abs(sum_[i] - stiffness[i]) <= max_scatter * sum_[i], "law", node_[i],
             "m has a tangential stiffness by more than a quarter off the mean of those about it, "
             "which fall; smooth the curve, or leave out the sample there");
   const double floor = slope_[0] > 0 ? node_[0] - force_[0] / slope_[0] : node_[0];

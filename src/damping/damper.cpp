@@ -8,7 +8,7 @@
 #include <salebra/damping/damper.hpp>
 
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 
 namespace salebra {
 namespace {
@@ -85,12 +85,12 @@ DamperMap damper_map(const ContactLaw& law, const OperatingPoint& point,
 
 double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
                              double angular_frequency, double falling_slope,
-                             double largest_amplitude, const DampingOptions& options) {
+                             double max_amplitude, const DampingOptions& options) {
   require_positive(falling_slope, "falling_slope");
-  require_positive(largest_amplitude, "largest_amplitude");
+  require_positive(max_amplitude, "max_amplitude");
   if (options.hold == Hold::indentation)
-    largest_amplitude =
-        std::min(largest_amplitude, detail::possible_amplitude(law, indentation_of(law, point)));
+    max_amplitude =
+        std::min(max_amplitude, detail::possible_amplitude(law, indentation_of(law, point)));
   auto excess = [&](double amplitude) {
     return damper_at(law, point, amplitude, angular_frequency, options).damping_constant -
            falling_slope;
@@ -102,16 +102,16 @@ double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
   DampingOptions small = options;
   small.amplitude = Amplitude::small;
   const double proportional =
-      largest_amplitude * falling_slope /
-      damper_at(law, point, largest_amplitude, angular_frequency, small).damping_constant;
-  const double lowest = std::min(proportional / 16, largest_amplitude / 256);
+      max_amplitude * falling_slope /
+      damper_at(law, point, max_amplitude, angular_frequency, small).damping_constant;
+  const double lowest = std::min(proportional / 16, max_amplitude / 256);
   constexpr int steps_per_octave = 4;
   const int steps =
-      static_cast<int>(std::ceil(steps_per_octave * std::log2(largest_amplitude / lowest)));
+      static_cast<int>(std::ceil(steps_per_octave * std::log2(max_amplitude / lowest)));
   double below = 0;
   for (int i = -steps; i <= 0; ++i) {
     const double amplitude =
-        largest_amplitude * std::exp2(static_cast<double>(i) / steps_per_octave);
+        max_amplitude * std::exp2(static_cast<double>(i) / steps_per_octave);
     if (excess(amplitude) >= 0) return detail::find_root(excess, below, amplitude);
     below = amplitude;
   }

@@ -12,7 +12,7 @@
 
 #include "base/special_values.hpp"
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "sweep_breaks.hpp"
 
 namespace salebra {

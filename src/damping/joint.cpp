@@ -17,7 +17,7 @@
 #include "base/stop_check.hpp"
 #include "contact/quadrature.hpp"
 #include "joint_loop.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "surface/refine.hpp"
 #include "sweep_breaks.hpp"
 
@@ -179,8 +179,8 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
   contact.start(level[0], first);
   std::vector<double> x(level.size()), force(level.size());
   Followed result;
-  constexpr int most_periods = 200;
-  for (int period = 0; period < most_periods; ++period) {
+  constexpr int max_periods = 200;
+  for (int period = 0; period < max_periods; ++period) {
     const double lost = contact.dissipated(), slipped = contact.dissipated_in_permanent_contact();
     for (std::size_t i = 0; i < level.size(); ++i) {
       detail::stop_if_asked();
@@ -188,7 +188,7 @@ Followed follow(const ContactLaw& law, const JointPath& path, double friction_co
       if (i % interval == interval - 1 && on_progress &&
           !on_progress(
               {"joint",
-               (period + static_cast<double>(i) / static_cast<double>(level.size())) / most_periods,
+               (period + static_cast<double>(i) / static_cast<double>(level.size())) / max_periods,
                period, 0}))
         throw Interrupted("joint: interrupted");
       if (by_force)

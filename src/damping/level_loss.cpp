@@ -39,10 +39,10 @@ SlidingLevels::SlidingLevels(double swing, double speed) : rise_(swing * mean_ri
   }
 }
 
-double SlidingLevels::loss_of_way(double least_stretch, double excursion) const {
-  const double mean = least_stretch + rise_;
+double SlidingLevels::loss_of_way(double min_stretch, double excursion) const {
+  const double mean = min_stretch + rise_;
   return std::max(0.0,
-                  mean * (excursion - 2 * mean) + (2 * least_stretch + 4.0 / 3 * rise_) * back_);
+                  mean * (excursion - 2 * mean) + (2 * min_stretch + 4.0 / 3 * rise_) * back_);
 }
 
 double SlidingLevels::deepest(double excursion) const {

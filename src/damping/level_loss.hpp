@@ -25,7 +25,7 @@ class SlidingLevels {
   /// of a level that touches from −θ to θ, θ/π times it.
   double turning_share(double excursion) const { return (2 * rise_ - 4.0 / 3 * back_) / excursion; }
   /// W, m²; 0 where it is not above 0.
-  double loss_of_way(double least_stretch, double excursion) const;
+  double loss_of_way(double min_stretch, double excursion) const;
   /// e of the deepest level that slips, where W is 0.
   double deepest(double excursion) const;
 

@@ -103,8 +103,8 @@ Series best_fit(const FitData& data, int highest_degree) {
 // What independent errors of K_t at the nodes, and of the least one, make of W: the square root of
 // the sum of their squares.
 double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes,
-                       const std::vector<double>& errors, double error_of_least) {
-  double sum = std::pow(loss(motion, nodes, [](std::size_t) { return 0.0; }, error_of_least), 2);
+                       const std::vector<double>& errors, double error_of_min) {
+  double sum = std::pow(loss(motion, nodes, [](std::size_t) { return 0.0; }, error_of_min), 2);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     sum += std::pow(
         loss(motion, nodes, [&](std::size_t i) { return i == k ? errors[k] : 0.0; }, 0), 2);

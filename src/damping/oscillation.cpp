@@ -41,11 +41,11 @@ std::optional<Oscillation> oscillation_of(const Motion& motion) {
   return {};
 }
 
-CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles) {
+CommonPeriod common_period(const TwoFrequencies& motion, int max_cycles) {
   require_positive(motion.normal_angular_frequency, "normal_angular_frequency");
   require_positive(motion.tangential_angular_frequency, "tangential_angular_frequency");
   const double ratio = motion.tangential_angular_frequency / motion.normal_angular_frequency;
-  for (int p = 1; p <= most_cycles; ++p) {
+  for (int p = 1; p <= max_cycles; ++p) {
     const double q = std::round(ratio * p);
     if (q >= 1 && q < 1e9 && std::abs(ratio * p - q) <= 1e-9 * q) return {p, static_cast<int>(q)};
   }

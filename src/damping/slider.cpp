@@ -15,7 +15,7 @@
 
 #include "averaged_slider.hpp"
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "slider_equation.hpp"
 
 namespace salebra {
@@ -45,7 +45,7 @@ void check(const NormalOscillation& normal, const Slider& slider, double frictio
   require(options.steps >= 16, "steps", options.steps, "must be >= 16");
   require(options.tolerance >= 1e-6 && options.tolerance <= 0.5, "tolerance", options.tolerance,
           "must lie between 1e-6 and 0.5");
-  require(options.most_cycles > 0, "most_cycles", options.most_cycles, "must be > 0");
+  require(options.max_cycles > 0, "max_cycles", options.max_cycles, "must be > 0");
   require(std::isfinite(normal.normal_amplitude) && normal.normal_amplitude >= 0,
           "normal_amplitude", normal.normal_amplitude, "must be finite and >= 0");
   if (!(normal.normal_amplitude > 0)) return;
@@ -283,8 +283,8 @@ void set_means(SliderMotion& motion, const Case& at, const Sample& begin, const 
 template <class Equation>
 void record(SliderMotion& motion, Equation& equation, const Slider& slider, double duration,
             Watch& watch) {
-  constexpr double most_samples = 1500;
-  const double end = equation.time() + duration, spacing = duration / most_samples;
+  constexpr double max_samples = 1500;
+  const double end = equation.time() + duration, spacing = duration / max_samples;
   double next = equation.time();
   while (equation.time() < end) {
     if (equation.time() >= next) {
@@ -308,7 +308,7 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
   equation.begin(offset, relative_velocity);
   CycleMeter meter(slider, options.tolerance);
   meter.add(sample_of(equation));
-  const double longest = options.most_cycles * at.slow_cycle(slider);
+  const double longest = options.max_cycles * at.slow_cycle(slider);
   SliderMotion motion;
   while (true) {
     equation.advance();
@@ -319,12 +319,12 @@ SliderMotion follow(Equation& equation, const Case& at, const Slider& slider,
       break;
     }
     if (equation.time() > longest ||
-        meter.cycles().size() > static_cast<std::size_t>(options.most_cycles))
+        meter.cycles().size() > static_cast<std::size_t>(options.max_cycles))
       break;
     const auto done = static_cast<int>(meter.cycles().size());
     watch.passed(
         equation.steps(),
-        std::max(equation.time() / longest, static_cast<double>(done) / options.most_cycles), done);
+        std::max(equation.time() / longest, static_cast<double>(done) / options.max_cycles), done);
   }
   if (meter.steady()) {
     motion.state = SliderState::steady;
@@ -509,7 +509,7 @@ SliderMotion slider_motion(const ContactLaw& law, const OperatingPoint& point,
     SliderEquation equation(at.contact, slider, steps);
     return follow(equation, at, slider, options);
   };
-  constexpr int most_halvings = 4;
+  constexpr int max_halvings = 4;
   SliderMotion coarse = motion_with(options.steps);
   for (int halving = 1;; ++halving) {
     SliderMotion fine = motion_with(options.steps << halving);
@@ -518,7 +518,7 @@ SliderMotion slider_motion(const ContactLaw& law, const OperatingPoint& point,
     const double difference = std::abs(fine.slider_amplitude - coarse.slider_amplitude);
     fine.slider_amplitude_error += difference / 3;
     const bool close = same && difference <= options.tolerance * fine.slider_amplitude;
-    if (close || halving == most_halvings || !fine.converged) {
+    if (close || halving == max_halvings || !fine.converged) {
       fine.converged = fine.converged && close;
       return fine;
     }
@@ -553,12 +553,12 @@ SliderStability slider_stability(const ContactLaw& law, const OperatingPoint& po
   Watch watch(options.on_progress, "stability");
   const PeriodMap map{equation, watch};
   double offset = at.spring_offset, relative_velocity = 0;
-  constexpr int most_iterations = 20;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  constexpr int max_iterations = 20;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const Jacobian j =
         jacobian(map, offset, relative_velocity, slider.velocity / natural, slider.velocity);
     const auto [next_offset, next_velocity] = map(offset, relative_velocity);
-    if (!(equation.least_velocity() > 0)) return result;
+    if (!(equation.min_velocity() > 0)) return result;
     const double left = offset - next_offset, left_velocity = relative_velocity - next_velocity;
     const double determinant = (j.a - 1) * (j.d - 1) - j.b * j.c;
     const double step = ((j.d - 1) * left - j.b * left_velocity) / determinant;

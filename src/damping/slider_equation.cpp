@@ -16,7 +16,7 @@ using std::numbers::pi;
 
 TangentialContact contact_of(const SliderContact& at) {
   return {at.law,
-          at.least_indentation(),
+          at.min_indentation(),
           at.indentation + at.normal_amplitude,
           {.friction_coefficient = at.friction_coefficient,
            .table_tolerance = 1e-9,
@@ -60,7 +60,7 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
   std::vector<double> times;
   for (int i = 0; i <= count; ++i) times.push_back(period_ * i / count);
   if (oscillates) {
-    const double low = contact.least_indentation();
+    const double low = contact.min_indentation();
     for (const double level : sweep_breaks(contact.law, low, highest)) {
       if (!(level > low && level < highest) || contact.law.force(level) > 0) continue;
       const double phase = 2 * std::atan2(std::sqrt(level - low), std::sqrt(highest - level));
@@ -71,14 +71,14 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
     std::ranges::sort(times);
   }
   for (const double time : times) nodes_.push_back(instant_at(time));
-  contact_.slide(contact.least_indentation(), 0, 1);
+  contact_.slide(contact.min_indentation(), 0, 1);
   slid_force_ = contact_.tangential_force();
 }
 
 SliderEquation::Instant SliderEquation::instant_at(double time) const {
   if (!(at_.normal_amplitude > 0)) return {time, at_.indentation, 0};
   const double half = pi * time / period_, sine = std::sin(half);
-  return {time, at_.least_indentation() + 2 * at_.normal_amplitude * sine * sine,
+  return {time, at_.min_indentation() + 2 * at_.normal_amplitude * sine * sine,
           2 * at_.normal_amplitude * at_.angular_frequency * sine * std::cos(half)};
 }
 
@@ -90,8 +90,8 @@ void SliderEquation::begin(double offset, double relative_velocity) {
   offset_ = offset, relative_velocity_ = relative_velocity;
   periods_ = 0;
   totals_ = {};
-  contact_.slide(at_.least_indentation(), offset, 1);
-  furthest_ = offset - slope_limit_ * at_.least_indentation();
+  contact_.slide(at_.min_indentation(), offset, 1);
+  furthest_ = offset - slope_limit_ * at_.min_indentation();
   force_ = contact_.tangential_force();
 }
 
@@ -138,7 +138,7 @@ void SliderEquation::part(const Instant& from, const Instant& to, double acceler
   totals_.falling_gain +=
       slider_.falling_slope * sum(std::pow(before + velocity, 2), std::pow(after + velocity, 2));
   totals_.contact_loss = contact_.dissipated();
-  least_velocity_ = std::min(least_velocity_, after + velocity);
+  min_velocity_ = std::min(min_velocity_, after + velocity);
   if (!(at_.normal_amplitude > 0) && std::abs(force_) < (1 - 1e-6) * slid_force_)
     totals_.stuck += length;
 }
@@ -187,7 +187,7 @@ void SliderEquation::step(Instant from, const Instant& to) {
 }
 
 void SliderEquation::advance() {
-  least_velocity_ = relative_velocity_ + slider_.velocity;
+  min_velocity_ = relative_velocity_ + slider_.velocity;
   for (std::size_t i = 1; i < nodes_.size(); ++i) step(nodes_[i - 1], nodes_[i]);
   ++periods_;
   if (at_.normal_amplitude > 0 && std::abs(force_) < (1 - 1e-6) * slid_force_)

@@ -26,7 +26,7 @@ struct SliderContact {
   double angular_frequency;     ///< ω, rad/s; not used for u_z = 0
   double friction_coefficient;  ///< μ, times the law's G*/E* over its own K_t/K at δ0
 
-  double least_indentation() const { return indentation - normal_amplitude; }
+  double min_indentation() const { return indentation - normal_amplitude; }
 };
 
 /// The full equation of motion of a slider, step by step. The unknowns are y = x − Vt and w = ẋ −
@@ -63,7 +63,7 @@ class SliderEquation {
   double relative_velocity() const { return relative_velocity_; }  ///< w, m/s
   double tangential_force() const { return force_; }               ///< T, N
   double slid_force() const { return slid_force_; }  ///< T of sliding at the least indentation, N
-  double least_velocity() const { return least_velocity_; }  ///< of the last period, m/s
+  double min_velocity() const { return min_velocity_; }  ///< of the last period, m/s
   const SliderTotals& totals() const { return totals_; }     ///< since begin()
   double stored_energy() const;
 
@@ -88,7 +88,7 @@ class SliderEquation {
   std::vector<Instant> nodes_;  // ends of steps within a period
   double slid_force_ = 0;
   long periods_ = 0;
-  double offset_ = 0, relative_velocity_ = 0, force_ = 0, least_velocity_ = 0;
+  double offset_ = 0, relative_velocity_ = 0, force_ = 0, min_velocity_ = 0;
   double furthest_ =
       0;  // greatest x − (μK/K_t)δ so far: where it is reached, levels that never open slip
   SliderTotals totals_;

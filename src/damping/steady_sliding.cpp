@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "mean_rise.hpp"
 #include "sweep_breaks.hpp"
 
@@ -212,7 +212,7 @@ struct Force {
 // ∫_0^π of the shares over 2π. Pieces of the law first, at their shared nodes; then the worst piece
 // is halved until the sum of errors reaches the tolerance. Near φ = 0 a slow sliding has φ_e ≈ 2π −
 // √(φ² + 4πr), which bends more than any law.
-Force force_above_least(const HalfPeriod& half, const Shares& shares, double tolerance) {
+Force force_above_min(const HalfPeriod& half, const Shares& shares, double tolerance) {
   std::vector<PhasePiece> pieces;
   half.for_each_piece(shares.period,
                       [&](std::span<const PhaseState> nodes, double from, double to) {
@@ -222,8 +222,8 @@ Force force_above_least(const HalfPeriod& half, const Shares& shares, double tol
   Force force;
   double size = 0;
   for (const PhasePiece& piece : pieces) size += std::abs(piece.value), force.error += piece.error;
-  constexpr std::size_t most_pieces = 10'000;
-  while (force.error > tolerance * size && pieces.size() < most_pieces) {
+  constexpr std::size_t max_pieces = 10'000;
+  while (force.error > tolerance * size && pieces.size() < max_pieces) {
     std::ranges::pop_heap(pieces, {}, &PhasePiece::error);
     const PhasePiece worst = pieces.back();
     pieces.pop_back();
@@ -265,8 +265,8 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
   common.mean_force = stuck.mean_force;
   common.relaxation_damping = stuck.damping_constant;
   common.critical_velocity = friction_coefficient / stiffness_ratio * amplitude * omega;
-  const double least_friction = friction_coefficient * law.force(low);
-  common.static_friction_coefficient = least_friction / common.mean_force;
+  const double min_friction = friction_coefficient * law.force(low);
+  common.static_friction_coefficient = min_friction / common.mean_force;
   if (amplitude > 0)
     common.low_speed_damping =
         common.relaxation_damping + pi * law.tangential_stiffness(low) / omega;
@@ -284,9 +284,9 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
       result.converged = stuck.converged;
     } else {
       if (!half) half.emplace(law, low, amplitude);
-      const Force force = force_above_least(
+      const Force force = force_above_min(
           *half, {period, friction_coefficient * amplitude, velocity, omega}, tolerance);
-      result.mean_tangential_force = least_friction + force.value;
+      result.mean_tangential_force = min_friction + force.value;
       result.sliding_damping = force.damping;
       result.error_estimate = force.error;
       result.converged = force.converged && stuck.converged;
@@ -294,7 +294,7 @@ std::vector<SteadySliding> sliding_of(const DampingResult& stuck, const ContactL
     const double travel = 2 * pi * velocity / omega;
     const double rise = amplitude > 0 ? amplitude * period.mean_rise() : 0;
     result.slip_work =
-        travel * (least_friction + friction_coefficient * law.normal_stiffness(low) * rise);
+        travel * (min_friction + friction_coefficient * law.normal_stiffness(low) * rise);
     result.relaxation_work = travel * result.mean_tangential_force - result.slip_work;
     result.friction_coefficient = result.mean_tangential_force / result.mean_force;
   }

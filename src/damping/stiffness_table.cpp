@@ -96,8 +96,8 @@ void StiffnessTable::add_cells(const ContactLaw& law, double low, double high, d
     fits = std::abs(horner(cell.coefficients, between) - exact(between)) <= tolerance;
   }
   // Where a law scatters by more than the tolerance, each half would be halved to the deepest.
-  constexpr std::size_t most_cells = std::size_t{1} << 20;
-  if (fits || !(cell.middle > low && cell.middle < high) || cells_.size() >= most_cells) {
+  constexpr std::size_t max_cells = std::size_t{1} << 20;
+  if (fits || !(cell.middle > low && cell.middle < high) || cells_.size() >= max_cells) {
     cells_.push_back(cell);
     starts_.push_back(low);
     return;

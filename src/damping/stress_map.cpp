@@ -9,7 +9,7 @@
 #include <salebra/damping/stress_map.hpp>
 
 #include "contact/quadrature.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 
 namespace salebra {
 namespace {

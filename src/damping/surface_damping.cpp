@@ -36,7 +36,7 @@ using detail::StiffnessSample;
 using detail::VarianceScales;
 using std::numbers::pi;
 
-constexpr int most_levels = 32;
+constexpr int max_levels = 32;
 constexpr Index piece_parts = 64;
 // The finest grid has at least so many: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
@@ -44,7 +44,7 @@ constexpr double widest_window = 0.25;  // of F/K
 // F/K that one parabola and its random function span below the oscillation.
 constexpr double widest_piece = 1.5;
 // Part of the loss with slip that is left to levels below the deepest contact.
-constexpr double least_rest = 3e-3;
+constexpr double min_rest = 3e-3;
 
 /// A work per cycle, J.
 struct KrigedWork {
@@ -178,7 +178,7 @@ class Load {
         const GridValue by_half =
             evaluate(KrigedStiffness(every_other(contacts), places(center)), center, scales);
         level_error_ = std::abs(value.work - by_half.work);
-        if (options_.choose_levels && n < most_levels && level_error_ > value.deviation) continue;
+        if (options_.choose_levels && n < max_levels && level_error_ > value.deviation) continue;
       }
       scales_ = scales;
       const double mean = mean_position(kriged, center);
@@ -239,7 +239,7 @@ class Load {
           3 * lowest_contact.stiffness * lowest_contact.stiffness / lowest_contact.force;
       rest = material_.modulus_ratio() * ratio_.middle() * (*slip_)(top - mean) * bend *
              (top - bottom);
-      shallow_ = rest <= least_rest * std::abs(value.work);
+      shallow_ = rest <= min_rest * std::abs(value.work);
     }
     const Eigen::VectorXd window = places(center);
     add_window(contacts, window, kriged);
@@ -247,7 +247,7 @@ class Load {
       if (first) {
         const StiffnessSample highest = levels.at(top);
         rest = material_.modulus_ratio() * ratio_.middle() * highest.force * slip_->steepest();
-        if (!levels.usable() || rest <= least_rest * std::abs(sum.work)) break;
+        if (!levels.usable() || rest <= min_rest * std::abs(sum.work)) break;
         const double width = widest_piece * highest.force / highest.stiffness;
         // No piece is so narrow that no cells enter, or that forces must be known to more digits
         // than in the window.
@@ -602,7 +602,7 @@ std::vector<SurfaceDamping> surface_damping(const Surface& surface, const Materi
         open.push_back(&load);
     }
     const Index factor = halving > 0 ? Index(1) << halving : 1;
-    if (open.empty() || (halving > options.refinements && factor > options.most_refined)) break;
+    if (open.empty() || (halving > options.refinements && factor > options.max_refined)) break;
     const Surface fine = halving < 0 ? every_second(surface) : refined(surface, factor);
     solve_on(fine, open, options);
   }

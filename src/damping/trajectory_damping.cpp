@@ -9,7 +9,7 @@
 
 #include "base/special_values.hpp"
 #include "base/stop_check.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 
 namespace salebra {
 namespace {

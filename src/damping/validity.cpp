@@ -145,7 +145,7 @@ std::span<const AssumptionName> assumption_names() {
 
 std::string given_as(const std::string& parameter) {
   // A law given by its formula has neither size nor pressure.
-  if (parameter == "loaded_size" || parameter == "largest_pressure") return "curve";
+  if (parameter == "loaded_size" || parameter == "max_pressure") return "curve";
   return parameter == "angular_frequency" ? "frequency" : fact;
 }
 

@@ -12,7 +12,7 @@
 #include "base/loop_progress.hpp"
 #include "base/stop_check.hpp"
 #include "contact/mdr/viscoelastic_spring.hpp"
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 #include "surface/dense_systems.hpp"
 
 namespace salebra {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "analysis/part.hpp"
-#include "damping/largest_motion.hpp"
+#include "damping/max_motion.hpp"
 #include "formats.hpp"
 
 namespace salebra {
@@ -227,8 +227,8 @@ void check(const DeckProblem& problem, detail::DeckContent content) {
           "must be from 4 to 100000");
   require(problem.sliders >= 2 && problem.sliders <= 100000, "sliders", problem.sliders,
           "must be from 2 to 100000");
-  require(problem.smallest_force > 0 && problem.smallest_force < 1, "smallest_force",
-          problem.smallest_force, "must be > 0 and < 1, a part of the force at which all slips");
+  require(problem.min_force > 0 && problem.min_force < 1, "min_force",
+          problem.min_force, "must be > 0 and < 1, a part of the force at which all slips");
   if (problem.pressure_window)
     require(problem.pressure_window->first > 0 &&
                 problem.pressure_window->second > problem.pressure_window->first,
@@ -309,10 +309,10 @@ std::vector<std::string> opening(const DeckProblem& problem) {
   return lines;
 }
 
-void add_table(Deck& deck, int most_rows, DeckSolution& answer) {
+void add_table(Deck& deck, int max_rows, DeckSolution& answer) {
   const DeckProblem& problem = deck.problem;
   const Range range = common_range(problem);
-  const int rows = std::min(problem.rows, most_rows);
+  const int rows = std::min(problem.rows, max_rows);
   for (int i = 0; i < rows; ++i)
     deck.clearance.push_back(std::lerp(range.far, range.close, double(i) / (rows - 1)));
   const double middle = (range.far + range.close) / 2;
@@ -364,7 +364,7 @@ void add_sliders(Deck& deck, DeckSolution& answer) {
   std::vector<DeckContact> contacts;
   for (const std::size_t i : which) contacts.push_back(problem.contacts[i]);
   detail::SliderSet set = detail::jenkins_sliders(contacts, problem.friction_coefficient,
-                                                  problem.sliders, problem.smallest_force);
+                                                  problem.sliders, problem.min_force);
   answer.tangential_stiffness = set.stiffness;
   answer.slip_force = set.force;
   answer.loss_error = set.loss_error;
@@ -383,7 +383,7 @@ void add_sliders(Deck& deck, DeckSolution& answer) {
   deck.header.push_back(fmt::format(
       "Loss of a cycle at {:g} of the force of all: off by {:.3g} %. Beyond {:.4g} of it all that "
       "sticks is one slider.",
-      problem.smallest_force, 100 * set.loss_error, set.resolved));
+      problem.min_force, 100 * set.loss_error, set.resolved));
   deck.sliders = std::move(set.sliders);
 }
 
@@ -483,7 +483,7 @@ DeckSolution solve(const DeckProblem& asked) {
   Deck deck{.problem = problem, .header = opening(problem)};
   switch (writer.content) {
     case detail::DeckContent::table:
-      add_table(deck, writer.most_rows, answer);
+      add_table(deck, writer.max_rows, answer);
       break;
     case detail::DeckContent::sliders:
       add_sliders(deck, answer);

@@ -61,7 +61,7 @@ struct DeckWriter {
   DeckFormat format;
   std::string (*write)(const Deck&);
   DeckContent content = DeckContent::table;
-  int most_rows = 100000;
+  int max_rows = 100000;
 };
 const DeckWriter& writer_of(DeckFormat format);
 
@@ -73,6 +73,6 @@ struct SliderSet {
   double loss_error = 0;            ///< relative, at the smallest force
 };
 SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,
-                          int count, double smallest_force);
+                          int count, double min_force);
 
 }  // namespace salebra::detail

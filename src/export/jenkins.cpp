@@ -107,20 +107,20 @@ double loss(const std::vector<Slider>& sliders, double force) {
 }  // namespace
 
 SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double friction_coefficient,
-                          int count, double smallest_force) {
+                          int count, double min_force) {
   const Backbone backbone(contacts, friction_coefficient);
   SliderSet set{.sliders = {}, .stiffness = backbone.stiffness(0), .force = backbone.slip_force()};
   // Beyond this part nothing is told apart: the last slider holds what remains.
   constexpr double resolved = 0.999;
   const double known = std::isinf(backbone.end()) ? set.force : backbone.force(0, backbone.end());
   set.resolved = std::min(resolved, known / set.force);
-  require(smallest_force < set.resolved, "smallest_force", smallest_force,
+  require(min_force < set.resolved, "min_force", min_force,
           fmt::format("must be below {:.4g}, {}", set.resolved,
                       set.resolved < resolved
                           ? "up to which slip stays within the law; give a smaller one, or a curve "
                             "from lower forces on"
                           : "beyond which all that sticks is one slider"));
-  const double smallest = backbone.displacement(smallest_force * set.force);
+  const double smallest = backbone.displacement(min_force * set.force);
   const double last =
       set.resolved < resolved ? backbone.end() : backbone.displacement(resolved * set.force);
   const std::vector<double> x = edges(smallest, last, count);
@@ -142,7 +142,7 @@ SliderSet jenkins_sliders(const std::vector<DeckContact>& contacts, double frict
           "has levels below its range that would slip before those within; give one from lower "
           "forces on");
   set.sliders.push_back({rest_stiffness, rest_force});
-  set.loss_error = loss(set.sliders, smallest_force * set.force) / loss(backbone, smallest) - 1;
+  set.loss_error = loss(set.sliders, min_force * set.force) / loss(backbone, smallest) - 1;
   return set;
 }
 

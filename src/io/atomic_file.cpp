@@ -20,7 +20,7 @@ namespace salebra {
 namespace {
 
 /// More than any result without fields takes.
-constexpr std::uint64_t least_room = 1 << 20;
+constexpr std::uint64_t min_room = 1 << 20;
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -62,7 +62,7 @@ void require_output(const std::filesystem::path& file, const WriteOptions& optio
   detail::AtomicFile(file, options);
   struct statvfs room = {};
   if (statvfs(folder_of(file).c_str(), &room) != 0 || room.f_blocks == 0) return;
-  if (std::uint64_t{room.f_bavail} * room.f_frsize < least_room)
+  if (std::uint64_t{room.f_bavail} * room.f_frsize < min_room)
     throw IoError(file.string() +
                   ": less than 1 MB is free on its disk; make room or name a file on another disk");
 }

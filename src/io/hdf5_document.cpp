@@ -75,7 +75,7 @@ bool is_sound(const Object& object, std::uint64_t file_size) {
   for (const std::uint64_t extent : object.shape)
     if (__builtin_mul_overflow(doubles, extent, &doubles)) return false;
   if (object.place && (doubles > file_size || *object.place > file_size - doubles)) return false;
-  return doubles <= most_bytes(file_size) &&
+  return doubles <= max_bytes(file_size) &&
          (!object.numbers || object.numbers->size() == object.count());
 }
 
@@ -99,7 +99,7 @@ std::optional<std::string> Object::text(std::string_view attribute) const {
   return text ? std::optional(*text) : std::nullopt;
 }
 
-std::uint64_t most_bytes(std::uint64_t file_size) {
+std::uint64_t max_bytes(std::uint64_t file_size) {
   return (std::uint64_t{128} << 20) + 32 * file_size;
 }
 
@@ -109,7 +109,7 @@ Document::Document(InputFile file) : file_(std::move(file)) {
   Hdf5Reading reading = reading_of(file_, 0);
   reading.read = [&](const HandOver& hand_over) { read_outline(file_, hand_over); };
   reading.place = [&](std::size_t count) {
-    if (count > most_bytes(file_.size()) - bytes.size())
+    if (count > max_bytes(file_.size()) - bytes.size())
       refuse(path(), "has an outline larger than its content; it is damaged");
     bytes.resize(bytes.size() + count);
     return std::as_writable_bytes(std::span(bytes)).last(count);

@@ -86,7 +86,7 @@ class Document {
 };
 
 /// What Document may take of a file: bytes of one dataset as doubles.
-std::uint64_t most_bytes(std::uint64_t file_size);
+std::uint64_t max_bytes(std::uint64_t file_size);
 
 /// The two sides of the runner. The reading side is the only one that calls HDF5 on a file.
 using HandOver = std::function<void(std::span<const std::byte>)>;

@@ -195,7 +195,7 @@ File open_descriptor(int descriptor) {
 }
 
 void PagedFile::write(std::uint64_t place, const char* bytes, std::size_t count) {
-  if (count >= page_size * most_pages) {
+  if (count >= page_size * max_pages) {
     write_pages();
     if (failure_) return;
     try {
@@ -245,7 +245,7 @@ void PagedFile::finish(std::uint64_t size) {
 std::vector<char>& PagedFile::page(std::uint64_t start) {
   const auto found = pages_.find(start);
   if (found != pages_.end()) return found->second;
-  if (pages_.size() >= most_pages) write_pages();
+  if (pages_.size() >= max_pages) write_pages();
   std::vector<char> bytes(page_size);
   read_back(start, bytes.data(), page_size);
   return pages_.emplace(start, std::move(bytes)).first->second;

@@ -27,7 +27,7 @@ int failed_read();
 /// cost     memory: a megabyte
 class PagedFile {
  public:
-  static constexpr std::size_t page_size = 1 << 16, most_pages = 16;
+  static constexpr std::size_t page_size = 1 << 16, max_pages = 16;
 
   /// The file must outlive this.
   explicit PagedFile(AtomicFile& file) : file_(file) {}

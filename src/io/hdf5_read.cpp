@@ -146,9 +146,9 @@ std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
                    const std::vector<hsize_t>& shape) {
   const Type type(H5Dget_type(dataset), "read its type");
   const H5T_class_t kind = H5Tget_class(type);
-  constexpr std::size_t largest_number = 16;
+  constexpr std::size_t max_number = 16;
   const std::size_t size = H5Tget_size(type);
-  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || size == 0 || size > largest_number)
+  if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || size == 0 || size > max_number)
     return "is not of real numbers; store float64";
   hsize_t bytes = size, doubles = sizeof(double);
   for (const hsize_t extent : shape)
@@ -161,7 +161,7 @@ std::string excess(const InputFile& file, hid_t dataset, hid_t properties,
   if (bytes / (packed ? best_compression : 1) >
       std::min<hsize_t>(H5Dget_storage_size(dataset), file.size()))
     return "is larger than what the file holds of it; the file is truncated or damaged";
-  if (doubles > most_bytes(file.size()))
+  if (doubles > max_bytes(file.size()))
     return "takes " + std::to_string(doubles) + " bytes unpacked, too many for a file of " +
            std::to_string(file.size()) + "; store it without deflate";
   // A chunk is unpacked whole, however little of it the dataset needs.

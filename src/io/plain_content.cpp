@@ -64,7 +64,7 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
   const std::uint64_t most = 64 * std::uint64_t(content.size()) + (std::uint64_t{256} << 20);
   // Each height becomes eight bytes and more. A scan has at least one bit of news in each height,
   // hence at most eight heights in each packed byte; the first 8 million may have less.
-  const std::uint64_t most_doubles = 8 * std::uint64_t(content.size()) + (std::uint64_t{8} << 20);
+  const std::uint64_t max_doubles = 8 * std::uint64_t(content.size()) + (std::uint64_t{8} << 20);
   std::uint64_t doubles = 0;
   constexpr std::size_t piece = std::size_t{1} << 20;
   Inflater inflater;
@@ -99,7 +99,7 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
     const std::size_t before = filled;
     filled += room - inflater->avail_out;
     doubles += doubles_of(std::string_view(out).substr(0, filled), before);
-    if (filled > most || doubles > most_doubles) refuse_size();
+    if (filled > most || doubles > max_doubles) refuse_size();
     const bool stuck = status == Z_BUF_ERROR && content.empty();
     if (stuck || (status != Z_OK && status != Z_STREAM_END && status != Z_BUF_ERROR))
       refuse(file, "is a truncated or damaged gzip file; copy or pack it again");

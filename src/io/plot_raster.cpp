@@ -12,7 +12,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr Index most_cells = 1200;
+constexpr Index max_cells = 1200;
 
 // How the cells of one axis are made of the image's: cell k is the mean of `first`..`last`, or lies
 // at `fraction` between them.
@@ -39,7 +39,7 @@ Sampling sample_axis(const std::vector<double>& coordinate, const DisplayAxis& a
   Sampling out;
   out.averages = equal;
   if (equal) {
-    const Index cells = std::min(count, most_cells);
+    const Index cells = std::min(count, max_cells);
     const double width = static_cast<double>(count) / static_cast<double>(cells) * mean_step;
     out.step = width;
     out.start = at.front() + 0.5 * (width - mean_step);
@@ -47,7 +47,7 @@ Sampling sample_axis(const std::vector<double>& coordinate, const DisplayAxis& a
       out.cells.push_back({k * count / cells, (k + 1) * count / cells - 1, 0});
     return out;
   }
-  const Index cells = std::clamp<Index>(4 * count, 200, most_cells);
+  const Index cells = std::clamp<Index>(4 * count, 200, max_cells);
   out.start = at.front();
   out.step = (at.back() - at.front()) / static_cast<double>(cells - 1);
   for (Index k = 0; k < cells; ++k) {

@@ -20,10 +20,10 @@ LoadedSurface profile_of(const std::filesystem::path& file, const std::vector<do
   profile.is_profile = true;
   profile.size_x = step * static_cast<double>(count);
   profile.heights = Eigen::Map<const Eigen::ArrayXd>(heights.data(), static_cast<Index>(count));
-  double farthest = 0;
+  double max_offset = 0;
   for (std::size_t i = 0; i < count; ++i)
-    farthest = std::max(farthest, std::abs(positions[i] - first - static_cast<double>(i) * step));
-  if (!(farthest > 0.1 * step)) return profile;
+    max_offset = std::max(max_offset, std::abs(positions[i] - first - static_cast<double>(i) * step));
+  if (!(max_offset > 0.1 * step)) return profile;
   // The profile is what straight lines between its points make of it, on a grid of equal steps that
   // is fine even to the shortest of them: sums over it are integrals.
   const double length = positions.back() - first;

@@ -458,7 +458,7 @@ struct Corner {
                                const Corner& corner, const Holes& holes) {
   std::string advice = "`fill` fills them by the smoothest surface";
   const Grid2D& grid = surface.grid;
-  if (const auto part = largest_defined_part(surface)) {
+  if (const auto part = max_defined_part(surface)) {
     // Seven digits find a cell among 65536 again.
     const auto text = [](double length) { return fmt::format("{:.7g}um", 1e6 * length); };
     const double share = (part->x1 - part->x0) * (part->y1 - part->y0) / grid.area();
@@ -480,13 +480,13 @@ Surface prepared(const std::filesystem::path& file, Surface surface, const ReadO
     if (options.warnings && !text.empty()) options.warnings->push_back(file.string() + ": " + text);
   };
   // With fewer points no scatter of neighbours is known.
-  constexpr Index least_points = 8;
+  constexpr Index min_points = 8;
   if (options.despike) {
     const std::vector<Spike> spikes = find_spikes(surface, *options.despike);
     remove_spikes(surface, spikes);
     if (!spikes.empty()) warning(spikes_text(spikes, true));
   } else if (options.warnings && !surface.periodic &&
-             std::min(surface.grid.nx, surface.grid.ny) >= least_points) {
+             std::min(surface.grid.nx, surface.grid.ny) >= min_points) {
     warning(spikes_text(first_contacts(surface, find_spikes(surface)), false));
   }
   Corner corner;

@@ -122,8 +122,8 @@ Margins margins_of(const TextRows& rows) {
         "has no number in the corner of an equally spaced row or column, which is no line of "
         "heights; remove that line";
   // Numbers of the rows alone, or of the columns.
-  constexpr Index least_numbers = 5;
-  const auto down = step_of(column, least_numbers);
+  constexpr Index min_numbers = 5;
+  const auto down = step_of(column, min_numbers);
   const auto next_down = step_of(Line{rows, false, 1}, least);
   const bool numbered_profile = rows.columns == 3 && rises(rows, 1) && !is_monotone(rows, 2) &&
                                 counts(column, down) &&
@@ -139,7 +139,7 @@ Margins margins_of(const TextRows& rows) {
     margins.column = true;
   }
   const Line titles = margins.column ? row_behind : row;
-  const auto across = step_of(titles, least_numbers);
+  const auto across = step_of(titles, min_numbers);
   if (across && !step_of(Line{rows, true, 1, titles.first}, least)) {
     if (!counts(titles, across)) {
       if (titles.size() < certain) return margins;
@@ -176,8 +176,8 @@ std::optional<Columns> columns_of(const std::filesystem::path& file, const TextR
     return title.unit.empty() && (title.text.empty() || (title.meaning & unknown));
   });
   if (silent && (count > 3 || count == 1)) return {};
-  constexpr Index least_of_profile = 4;
-  if (count == 2 && rows.rows < least_of_profile &&
+  constexpr Index min_of_profile = 4;
+  if (count == 2 && rows.rows < min_of_profile &&
       std::ranges::all_of(titles, [](const auto& title) { return title.unit.empty(); }))
     return {};
   if (count > most) {

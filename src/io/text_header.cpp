@@ -138,7 +138,7 @@ class HeaderReader {
 
   void read(const HeaderLine& line) {
     // A longer line is no line of a header.
-    constexpr std::size_t most_looked_at = 2000;
+    constexpr std::size_t max_looked_at = 2000;
     const std::string decoded = utf8(line.text);
     std::string_view text = without_spaces(decoded);
     while (!text.empty() && (std::string_view("#%!*/'\" ").find(text.front()) != text.npos ||
@@ -146,9 +146,9 @@ class HeaderReader {
       text.remove_prefix(1);
     line_ = trimmed(text);
     number_ = line.number;
-    const std::vector<HeaderToken> tokens = header_tokens(text.substr(0, most_looked_at));
+    const std::vector<HeaderToken> tokens = header_tokens(text.substr(0, max_looked_at));
     if (tokens.empty()) return;
-    if (!read_line(tokens) || (text.size() > most_looked_at && names_length(tokens))) refuse_line();
+    if (!read_line(tokens) || (text.size() > max_looked_at && names_length(tokens))) refuse_line();
   }
 
   TextHeader take() {
@@ -158,10 +158,10 @@ class HeaderReader {
 
  private:
   std::string quoted() const {
-    constexpr std::size_t most_quoted = 60;
+    constexpr std::size_t max_quoted = 60;
     std::string text(line_);
-    if (text.size() > most_quoted) {
-      std::size_t end = most_quoted;
+    if (text.size() > max_quoted) {
+      std::size_t end = max_quoted;
       while ((static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;  // not within a letter
       text = text.substr(0, end) + "\u2026";
     }
@@ -217,10 +217,10 @@ class HeaderReader {
       if (read_titles(tokens)) return true;
       if (read_unit_line(tokens)) return true;
       // Names of columns that do not fit the columns.
-      constexpr Index most_titled = 8;
+      constexpr Index max_titled = 8;
       const Meaning axes = meaning::x | meaning::y | meaning::plane | meaning::z | meaning::height |
                            meaning::ordinate | meaning::position;
-      if (layout_.titled_columns > 1 && layout_.titled_columns <= most_titled &&
+      if (layout_.titled_columns > 1 && layout_.titled_columns <= max_titled &&
           std::ranges::count_if(tokens, [&](const HeaderToken& token) {
             return token.kind == Kind::word && (detail::meaning_of(token.text) & axes);
           }) > 1)
@@ -272,8 +272,8 @@ class HeaderReader {
       return true;
     }
     // Units of the axes of a matrix.
-    constexpr Index most_titled = 3;
-    if (layout_.titled_columns <= most_titled && layout_.titled_columns > 1 && titles.size() > 1)
+    constexpr Index max_titled = 3;
+    if (layout_.titled_columns <= max_titled && layout_.titled_columns > 1 && titles.size() > 1)
       return false;
     const Meaning axes = meaning::x | meaning::y | meaning::z | meaning::height |
                          meaning::ordinate | meaning::values;

@@ -143,16 +143,16 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
   std::vector<HeaderLine> first_rows;
   Interruptions interruptions;
   // Lines of a header are kept. A text of more of them is none.
-  constexpr std::size_t most_lines = 5000;
+  constexpr std::size_t max_lines = 5000;
   for (std::string_view line; lines.next(line);) {
     const std::string_view content = trimmed(line);
     const bool comment = content.starts_with('#') || content.starts_with('%');
     if (content.empty() || comment) interruptions.line(matrix, lines.number(), content);
     if (content.empty()) continue;
     if (comment || (matrix.rows == 0 && !starts_with_number(content))) {
-      if (matrix.lines.size() < most_lines)
+      if (matrix.lines.size() < max_lines)
         matrix.lines.push_back({lines.number(), std::string(without_spaces(line).substr(0, 4000))});
-      else if (matrix.lines.size() == most_lines)
+      else if (matrix.lines.size() == max_lines)
         matrix.lines.push_back({lines.number(), "more lines [m]"});
       continue;
     }
@@ -180,8 +180,8 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
       // Where tabs separate values, blanks hide those that are empty.
       if (!tabs && !reader.symbol() && text.holds('\t')) return read_rows(file, text, true);
       // Counts before the numbers.
-      constexpr Index most_counts = 3;
-      if (matrix.rows <= most_counts && matrix.columns <= most_counts && columns > matrix.columns &&
+      constexpr Index max_counts = 3;
+      if (matrix.rows <= max_counts && matrix.columns <= max_counts && columns > matrix.columns &&
           matrix.leading.empty() && static_cast<Index>(first_rows.size()) == matrix.rows) {
         matrix.leading = std::move(first_rows);
         matrix.values.erase(matrix.values.begin(),

@@ -315,8 +315,8 @@ class TextReader {
                                                                   : margins.row   ? "row and column"
                                                                                   : "column"));
     // x, y, z and more of each point.
-    constexpr Index most_columns = 8;
-    if (rows_.columns >= 3 && rows_.columns <= most_columns && rows_.rows >= 4 &&
+    constexpr Index max_columns = 8;
+    if (rows_.columns >= 3 && rows_.columns <= max_columns && rows_.rows >= 4 &&
         !(rows_.columns == 3 && !margins.column)) {
       std::vector<double> xyz;
       for (Index row = 0; row < rows_.rows; ++row)

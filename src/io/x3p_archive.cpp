@@ -11,7 +11,7 @@ namespace {
 
 /// Bytes of a member that an archive of so many may hold. Deflate packs zeros a thousand times,
 /// heights of a measurement hardly four times; integers of two bytes become doubles.
-std::uint64_t most_bytes(std::uint64_t archive_size) {
+std::uint64_t max_bytes(std::uint64_t archive_size) {
   return (std::uint64_t{32} << 20) + 8 * archive_size;
 }
 
@@ -53,7 +53,7 @@ std::optional<std::string> extracted(const std::filesystem::path& file, zip_t* a
     refuse(file, "holds " + std::to_string(about.size) + " bytes in its member " + name +
                      " where its main.xml asks for " + std::to_string(*bytes) +
                      "; it is truncated or damaged");
-  if (about.size > (bytes ? *bytes : max_xml_size) || about.size > most_bytes(archive_size))
+  if (about.size > (bytes ? *bytes : max_xml_size) || about.size > max_bytes(archive_size))
     refuse(file, "declares " + std::to_string(about.size) + " bytes for its member " + name +
                      ", more than it can hold; it is damaged or made to fill the memory");
   const std::unique_ptr<zip_file_t, CloseMember> stream(zip_fopen_index(archive, number, 0));

@@ -95,11 +95,11 @@ XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& 
   // Values closer than 1e-6 of the span are one line of the grid, hence at most a million lines are
   // told apart.
   std::size_t lines = 1;
-  double line = coordinates.front(), least_gap = span;
+  double line = coordinates.front(), min_gap = span;
   for (const double value : coordinates) {
     if (value - line > 1e-6 * span) {
       ++lines;
-      least_gap = std::min(least_gap, value - line);
+      min_gap = std::min(min_gap, value - line);
       line = value;
     }
   }
@@ -109,10 +109,10 @@ XyzAxis find_axis(const std::filesystem::path& file, const std::vector<double>& 
                      "size in the header");
   double intervals = static_cast<double>(lines - 1);
   // Where a few whole lines are undefined, the closest neighbours still show the step.
-  constexpr double most_missing = 0.1;
+  constexpr double max_missing = 0.1;
   if (!on_grid(coordinates, span / intervals) &&
-      std::round(span / least_gap) * (1 - most_missing) <= intervals)
-    intervals = std::round(span / least_gap);
+      std::round(span / min_gap) * (1 - max_missing) <= intervals)
+    intervals = std::round(span / min_gap);
   if (!on_grid(coordinates, span / intervals)) {
     if (const auto axis = axis_of_clusters(coordinates)) return *axis;
     refuse_unknown(file, std::string("has three columns, but as XYZ points their ") + name +

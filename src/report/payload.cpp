@@ -63,7 +63,7 @@ std::string base64(const std::vector<T>& values) {
 }
 
 /// Realisations that are drawn one by one; more are only noise on a page.
-constexpr std::size_t most_single_curves = 24;
+constexpr std::size_t max_single_curves = 24;
 /// Points of all maps of one report together.
 constexpr double map_budget = 512. * 512.;
 
@@ -302,7 +302,7 @@ class Point {
     const std::size_t count = realisations(), loads = pressures_.size();
     const auto gaps = part("curve/mean_gap", bem(), count * loads);
     const auto converged = part("curve/converged", bem(), count * loads);
-    for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r) {
+    for (std::size_t r = 0; r < std::min(count, max_single_curves); ++r) {
       Json row = Json::array();
       for (std::size_t k = r * loads; k < (r + 1) * loads; ++k)
         row.push_back(converged[k] != 0 ? number(gaps[k]) : Json());
@@ -323,10 +323,10 @@ class Point {
     for (std::size_t m = 0; m < models_.size(); ++m)
       for (const char* name :
            {"decay_length", "decay_length_over_rms_height", "area_slope", "law_bend",
-            "decay_length_closest_over_rms_height", "decay_length_farthest_over_rms_height"})
+            "decay_length_at_min_gap_over_rms_height", "decay_length_at_max_gap_over_rms_height"})
         if (has(std::string("fit/ensemble_") + name + "_mean"))
           json["models"][models_[m]][name] = single(std::string("fit/ensemble_") + name, m);
-    for (const char* name : {"law_off_closest", "law_off_farthest", "fair"})
+    for (const char* name : {"law_off_at_min_gap", "law_off_at_max_gap", "fair"})
       if (const std::string column = std::string("fit/") + name; has(column))
         json["models"]["bem"][name] = number(part(column, bem(), 1)[0]);
     for (const char* name : {"decay_length", "reference_pressure", "pressure_min", "pressure_max"})
@@ -341,7 +341,7 @@ class Point {
     const std::size_t count = realisations(), points = midpoints->size();
     for (const char* name : {"mean_gap", "local_decay_length"}) {
       const auto values = part(std::string("local/") + name, bem(), count * points);
-      for (std::size_t r = 0; r < std::min(count, most_single_curves); ++r)
+      for (std::size_t r = 0; r < std::min(count, max_single_curves); ++r)
         json[name].push_back(list(std::span(values).subspan(r * points, points)));
     }
     return json;
@@ -421,7 +421,7 @@ class Point {
   Json spots() const {
     Json json;
     for (const char* name :
-         {"spot_count", "corrected_area_fraction", "largest_spot_area", "mean_spot_area"})
+         {"spot_count", "corrected_area_fraction", "max_spot_area", "mean_spot_area"})
       if (has(std::string("spots/ensemble_") + name + "_mean"))
         json[name] = estimate(std::string("spots/ensemble_") + name, 0, pressures_.size());
     return json;

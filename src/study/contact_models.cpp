@@ -31,7 +31,7 @@ SpotStatistics spot_statistics(const ContactSpots& contact, const Grid2D& grid) 
   SpotStatistics statistics;
   statistics.spot_count = double(contact.spots.size());
   statistics.corrected_area_fraction = contact.corrected_area_fraction;
-  statistics.largest_spot_area = contact.spots.empty() ? 0 : contact.spots.front().area;
+  statistics.max_spot_area = contact.spots.empty() ? 0 : contact.spots.front().area;
   statistics.mean_spot_area = contact.spots.empty() ? 0
                                                     : contact.contact_area_fraction * grid.area() /
                                                           double(contact.spots.size());

@@ -96,7 +96,7 @@ Bootstrap::Bootstrap(int resamples, std::uint64_t seed) : resamples_(resamples),
 
 EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
   const std::vector<double> kept = known(values);
-  if (kept.size() < std::size_t(least_bootstrap_count)) return student_mean(kept);
+  if (kept.size() < std::size_t(min_bootstrap_count)) return student_mean(kept);
   const Moments sample = moments_of(kept);
   EnsembleMean estimate{sample.mean, sample.mean, sample.mean};
   // Equal up to round-off: there is no scatter to resample.

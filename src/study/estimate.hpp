@@ -24,7 +24,7 @@ EnsembleMean prediction(const std::vector<double>& values);
 /// which, unlike percentiles of mean*, holds its 95 % for the few surfaces of an ensemble, and
 /// unlike Student's t follows a skew distribution. Numbers come from Philox streams of their own:
 /// an interval depends on the values and their order alone, and all quantities of one ensemble are
-/// drawn together. Fewer than least_bootstrap_count values: Student's t. Each arm is held between a
+/// drawn together. Fewer than min_bootstrap_count values: Student's t. Each arm is held between a
 /// half and twice Student's: of few values most of which are alike, resamples without scatter would
 /// otherwise decide one limit, and the mean lie at the edge of its own interval. By Hall's
 /// expansion the largest skewness that n values can have, √n, changes an arm by 3/4 of it [Hall
@@ -32,7 +32,7 @@ EnsembleMean prediction(const std::vector<double>& values);
 /// hold the mean, 93.1 % of them without the limits, 92.2 % of Student's.
 class Bootstrap {
  public:
-  static constexpr int least_bootstrap_count = 6;
+  static constexpr int min_bootstrap_count = 6;
 
   /// resamples: at least 200, or InvalidInput.
   explicit Bootstrap(int resamples = 2000, std::uint64_t seed = 1);

@@ -26,7 +26,7 @@ void vary(std::vector<StudyConfiguration>& configurations, const std::vector<Val
   configurations = std::move(varied);
 }
 
-constexpr double most_points = 1e4, most_bytes = 256e6;
+constexpr double max_points = 1e4, max_bytes = 256e6;
 
 /// Before any combination is made: three lists of 2000 values are 8e9 combinations.
 void require_countable(const StudyConfiguration& configuration) {
@@ -39,13 +39,13 @@ void require_countable(const StudyConfiguration& configuration) {
   const auto& surfaces = std::get<GeneratedSurfaces>(configuration.surfaces);
   const double each = double(sizeof configuration + configuration.text.size() +
                              8 * (surfaces.seeds.size() + configuration.pressures.size()));
-  if (points > 1 && (points > most_points || points * each > most_bytes))
+  if (points > 1 && (points > max_points || points * each > max_bytes))
     throw InvalidInput(
         "ensemble",
         fmt::format(
             "its lists make {:.0f} combinations, whose settings would take "
             "{:.3g} MB; at most {:.0f} combinations and {:.0f} MB are allowed; split the study",
-            points, points * each / 1e6, most_points, most_bytes / 1e6));
+            points, points * each / 1e6, max_points, max_bytes / 1e6));
 }
 
 Index scaled(Index count, double factor, double size) {

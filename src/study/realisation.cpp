@@ -180,14 +180,14 @@ void require_converged(const ForceCurve& curve, const StudyConfiguration& config
 
 /// The surface that the models press: after the first loading, where a hardness is known.
 ResidualSurface first_loaded(Surface surface, const StudyConfiguration& configuration,
-                             double largest_pressure, const Progress& progress) {
+                             double max_pressure, const Progress& progress) {
   if (std::isnan(configuration.known.hardness)) return {.surface = std::move(surface)};
   NormalContactOptions options;
   options.tolerance = configuration.tolerance;
   options.hardness = configuration.known.hardness;
   options.on_progress = progress;
   ResidualSurface residual = after_first_loading(
-      std::move(surface), configuration.material.contact_modulus, largest_pressure, options,
+      std::move(surface), configuration.material.contact_modulus, max_pressure, options,
       std::visit([](const auto& motion) { return motion.normal_amplitude; }, configuration.motion));
   if (residual.termination == Termination::interrupted) throw Interrupted("study: interrupted");
   if (!residual.converged())
@@ -252,7 +252,7 @@ bool stick_solves(const StudyConfiguration& configuration) {
 
 SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configuration,
                                               const Grid2D& grid, std::uint64_t seed) {
-  constexpr Index most_halved = 256;
+  constexpr Index max_halved = 256;
   const std::vector<std::uint64_t> seeds = detail::seeds_of(configuration);
   const bool alone = seeds.size() == 1, to_error = configuration.relative_error > 0;
   SurfaceDampingOptions options;
@@ -264,7 +264,7 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
   options.seam = configuration.seam;
   options.keep_cells = !alone && !to_error;
   options.refinements = 0;
-  if (to_error || (alone && std::max(grid.nx, grid.ny) <= most_halved))
+  if (to_error || (alone && std::max(grid.nx, grid.ny) <= max_halved))
     options.refinements = 1;
   else if (seed == seeds.front())
     options.coarsen = true;
@@ -279,7 +279,7 @@ std::vector<StudyModel> models_of(const StudyConfiguration& configuration) {
 }
 
 double ModelResult::law_bend() const {
-  return test.window.points >= 4 ? test.decay_length_farthest / test.decay_length_closest - 1
+  return test.window.points >= 4 ? test.decay_length_at_max_gap / test.decay_length_at_min_gap - 1
                                  : ForceSample::unknown;
 }
 

@@ -101,7 +101,7 @@ void require_room(const StudyResult& result, const Groups& groups) {
                  groups.all());
 }
 
-constexpr double least_waves_in_cell = 16, least_cells_in_wave = 8, least_spots = 50;
+constexpr double min_waves_in_cell = 16, min_cells_in_wave = 8, min_spots = 50;
 
 void warn_of_ensemble(StudyResult& result) {
   const auto of_loading = [&](double FirstLoading::*member) {
@@ -126,13 +126,13 @@ void warn_of_ensemble(StudyResult& result) {
     const double cell = std::max(result.grid.dx(), result.grid.dy());
     // Lengths are given in decimals: a wave of exactly 8 cells must not fall below by rounding.
     constexpr double slack = 1 + 1e-9;
-    if (longest * least_waves_in_cell > size * slack)
+    if (longest * min_waves_in_cell > size * slack)
       result.ensemble_warnings.push_back(
           {"finite_size",
            fmt::format("finite size: the roll-off is 1/{:.3g} of the surface, more than 1/16; few "
                        "independent hills carry the load, and surfaces scatter widely",
                        size / longest)});
-    if (shortest * slack < least_cells_in_wave * cell)
+    if (shortest * slack < min_cells_in_wave * cell)
       result.ensemble_warnings.push_back(
           {"discretisation",
            fmt::format("discretisation: the shortest wave has {:.3g} cells, fewer than 8; the "
@@ -154,7 +154,7 @@ void warn_of_ensemble(StudyResult& result) {
               .fit.window.contains(result.pressures[k], PressureWindow::round_off) &&
           !std::isnan(realisation.spots[k].spot_count))
         fewest = std::min(fewest, realisation.spots[k].spot_count);
-  if (fewest < least_spots)
+  if (fewest < min_spots)
     result.ensemble_warnings.push_back(
         {"few_spots",
          fmt::format(

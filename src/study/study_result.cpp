@@ -74,10 +74,10 @@ std::optional<LawDescription> StudyResult::law_description(ContactModel model) c
   const auto over_rms_height = [&](const char* length) {
     return fitted(std::string(length) + "_over_rms_height", model).mean;
   };
-  const double closest = over_rms_height("decay_length_closest");
-  if (!(closest > 0)) return {};
-  return describe_law(over_rms_height("decay_length"), closest,
-                      over_rms_height("decay_length_farthest"));
+  const double at_min_gap = over_rms_height("decay_length_at_min_gap");
+  if (!(at_min_gap > 0)) return {};
+  return describe_law(over_rms_height("decay_length"), at_min_gap,
+                      over_rms_height("decay_length_at_max_gap"));
 }
 
 std::vector<EnsembleMean> StudyResult::at_pressures(
@@ -317,7 +317,7 @@ std::string StudyResult::interval_method() const {
   if (configuration.of_twin())
     return fmt::format("95 % interval of a surface of the part, by {} surfaces of its twin", count);
   return fmt::format("95 % {} interval of the mean over {} surfaces",
-                     count < Bootstrap::least_bootstrap_count ? "Student-t" : "bootstrap-t", count);
+                     count < Bootstrap::min_bootstrap_count ? "Student-t" : "bootstrap-t", count);
 }
 
 }  // namespace salebra

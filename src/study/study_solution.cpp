@@ -18,7 +18,7 @@ ForceCurve mean_curve(const StudyResult& result) {
   const auto area = result.curve(&ForceSample::contact_area_fraction);
   ForceCurve curve;
   curve.nominal_area = result.grid.area();
-  double least_gap = HUGE_VAL;
+  double min_gap = HUGE_VAL;
   for (std::size_t k = 0; k < result.pressures.size(); ++k) {
     ForceSample& sample = curve.samples.emplace_back();
     sample.mean_gap = mean_gap[k].mean;
@@ -28,8 +28,8 @@ ForceCurve mean_curve(const StudyResult& result) {
     sample.tangential_stiffness = tangential[k].mean;
     sample.contact_area_fraction = area[k].mean;
     // Means over different surfaces, where some did not converge, need not fall.
-    sample.converged = sample.mean_gap < least_gap;
-    if (sample.converged) least_gap = sample.mean_gap;
+    sample.converged = sample.mean_gap < min_gap;
+    if (sample.converged) min_gap = sample.mean_gap;
   }
   return curve;
 }

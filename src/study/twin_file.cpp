@@ -59,8 +59,8 @@ TwinMeasurement read_measurement(TomlTable& table, const std::filesystem::path& 
 
 /// Limits of what a file may hold. A fit has five knots a decade and a thousand draws unless the
 /// user wants more; a study tabulates each draw.
-constexpr Index most_draws = 20000;
-constexpr std::size_t most_knots = 64;
+constexpr Index max_draws = 20000;
+constexpr std::size_t max_knots = 64;
 
 /// The parameters of a twin with their names.
 constexpr std::pair<const char*, TwinParameter SurfaceTwin::*> parameters[] = {
@@ -138,8 +138,8 @@ SurfaceTwin twin_of(const std::vector<TwinMeasurement>& measurements, const Twin
 
 void write_twin(const std::filesystem::path& path, const SurfaceTwin& twin,
                 const Provenance& provenance, const WriteOptions& options) {
-  require(std::ssize(twin.draws) <= most_draws, "draws", twin.draws.size(),
-          fmt::format("must be at most {} in a file", most_draws));
+  require(std::ssize(twin.draws) <= max_draws, "draws", twin.draws.size(),
+          fmt::format("must be at most {} in a file", max_draws));
   ResultFile file(path, provenance, options);
   ResultGroup plain = file.group("twin");
   plain.attribute("form", name_of(twin.form));
@@ -174,17 +174,17 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const auto count_of = [&](const std::string& name) {
     std::size_t count = 1;
     for (const Index extent : file.shape(place + name)) {
-      require(extent <= most_draws, path.string(), extent,
+      require(extent <= max_draws, path.string(), extent,
               fmt::format("values of {}{} along one dimension must be at most {}", place, name,
-                          most_draws));
+                          max_draws));
       count *= static_cast<std::size_t>(extent);
     }
     return count;
   };
   const std::size_t knots_of_draw = count_of("knot"), values_of_draws = count_of("log_psd");
-  require(table ? knots_of_draw >= 2 && knots_of_draw <= most_knots : knots_of_draw == 1,
+  require(table ? knots_of_draw >= 2 && knots_of_draw <= max_knots : knots_of_draw == 1,
           path.string(), knots_of_draw,
-          table ? fmt::format("knots in {}knot must be from 2 to {}", place, most_knots)
+          table ? fmt::format("knots in {}knot must be from 2 to {}", place, max_knots)
                 : fmt::format("knots in {}knot must be one for the form {}", place, *word));
   const std::size_t count = values_of_draws / knots_of_draw;
   require(count > 0 && count * knots_of_draw == values_of_draws, path.string(), values_of_draws,

@@ -64,7 +64,7 @@ struct Places {
 /// Sorts falling numbers by their place between the greatest and the least, then those of nearly
 /// one place again, which takes a third of the time of a sort by comparisons.
 void sort_falling(std::span<double> values, std::vector<double>& room, int depth = 0) {
-  constexpr std::size_t few = 32, most_places = 2048;
+  constexpr std::size_t few = 32, max_places = 2048;
   constexpr int deepest = 4;  // beyond, some numbers are far greater than all others
   const auto [least, greatest] = std::ranges::minmax(values);
   if (least == greatest) return;
@@ -72,7 +72,7 @@ void sort_falling(std::span<double> values, std::vector<double>& room, int depth
     std::ranges::sort(values, std::greater{});
     return;
   }
-  const Places places(least, greatest, std::min(most_places, values.size() / 4));
+  const Places places(least, greatest, std::min(max_places, values.size() / 4));
   std::vector<std::size_t> ends(places.count + 1, 0);
   for (const double value : values) ++ends[places.of(value) + 1];
   std::partial_sum(ends.begin(), ends.end(), ends.begin());

@@ -42,7 +42,7 @@ Surface cropped(const Surface& surface, const Rectangle& part) {
   return result;
 }
 
-std::optional<Rectangle> largest_defined_part(const Surface& surface) {
+std::optional<Rectangle> max_defined_part(const Surface& surface) {
   surface.require_whole("a search for its largest part without undefined points");
   detail::require_shape(surface);
   const Grid2D& grid = surface.grid;

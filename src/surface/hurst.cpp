@@ -22,7 +22,7 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double least_span = 3;            ///< of the fitted range, q_max/q_min
+constexpr double min_span = 3;            ///< of the fitted range, q_max/q_min
 constexpr double forgiven_deviation = 0.1;  ///< of C from a power law, in the choice of the range
 
 struct Range {
@@ -94,7 +94,7 @@ Range self_affine_range(const PowerSpectrum& spectrum, const RadialSpectrum& rad
   std::size_t best_begin = 0, best_end = 0;
   for (std::size_t begin = 0; begin < count; ++begin) {
     for (std::size_t end = begin + 3; end <= count; ++end) {
-      if (radial.wavenumber[bins[end - 1]] < least_span * radial.wavenumber[bins[begin]]) continue;
+      if (radial.wavenumber[bins[end - 1]] < min_span * radial.wavenumber[bins[begin]]) continue;
       const double misfit = fits.fit(0, begin, false).misfit + fits.fit(begin, end, true).misfit +
                             fits.fit(end, count, true).misfit;
       // A plateau costs its level and its end; a tail its beginning and one or two parameters.
@@ -180,7 +180,7 @@ class ModesWithin {
         greatest = std::max(greatest, mode.x);
       }
     }
-    return {communicator().least_of(least), -communicator().least_of(-greatest)};
+    return {communicator().min_of(least), -communicator().min_of(-greatest)};
   }
   const Communicator& communicator() const { return columns_.communicator(); }
 
@@ -262,7 +262,7 @@ HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
     places.push_back(k);
   }
   const detail::PowerLawRange law =
-      detail::fit_power_law_range(bins, windowed_density(grid), least_span);
+      detail::fit_power_law_range(bins, windowed_density(grid), min_span);
   if (!law.found()) return {};
   const auto limit = [&](std::size_t ring, std::size_t next) {
     return std::sqrt(radial.wavenumber[ring] * radial.wavenumber[next]);
@@ -328,7 +328,7 @@ HurstEstimate found_or_not(const PowerSpectrum& spectrum, double highest) {
   const double freedom = filled - 2;
   const double value = -1 - law(1) / 2;
   const double span = std::exp(greatest - least);
-  if (freedom < 1 || span < least_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5)) return {};
+  if (freedom < 1 || span < min_span * (1 - 1e-9) || !(value > -0.25 && value < 1.5)) return {};
   const double dispersion = scatter / freedom;
   const double error = std::sqrt(dispersion * detail::pseudo_inverse(information)(1, 1)) / 2;
   const double half_width = gsl_cdf_tdist_Pinv(0.975, freedom) * error;

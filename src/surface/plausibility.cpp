@@ -119,8 +119,8 @@ std::optional<std::string> warning_of_slope(double rms_slope, double unit) {
   if (!(rms_slope > most)) return {};
   // A slope that is hardly too large is that of a steep surface or of spikes: any unit would make
   // it far too small. The units leave a thousandfold range between them, down to polished surfaces.
-  constexpr double least_error = 10, least = 1e-3;
-  if (rms_slope >= least_error)
+  constexpr double min_error = 10, least = 1e-3;
+  if (rms_slope >= min_error)
     for (const auto& [name, metres] : {std::pair("mm", 1e-3), {"\u00b5m", 1e-6}, {"nm", 1e-9}})
       if (const double slope = rms_slope * metres / unit; slope >= least && slope <= most)
         return fmt::format("rms slope {:.3g} is above 1: heights in {}? rms slope would be {:.2g}",

@@ -18,7 +18,7 @@
 namespace salebra::detail {
 namespace {
 
-constexpr double least_hurst = -0.2, greatest_hurst = 1.5;
+constexpr double min_hurst = -0.2, greatest_hurst = 1.5;
 
 /// The free numbers of a law.
 enum Parameter : std::size_t { hurst, rolloff, attenuation, floor_share, parameters };
@@ -34,7 +34,7 @@ class LawInRange {
     last_ = std::log(bins.back().wavenumber);
     // A roll-off below the first bin is none. g is in units of the last wave number, the floor in
     // those of the law there.
-    least_ = {least_hurst, first_ - 0.3, 0, 0};
+    least_ = {min_hurst, first_ - 0.3, 0, 0};
     greatest_ = {greatest_hurst, last_ - 0.7, 6, 50};
   }
 
@@ -175,9 +175,9 @@ IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& bes
   const auto end = [&](double direction) {
     double inside = best.at[hurst], step = 0.03;
     LawInRange::Fit warm = best;
-    while (step > 2e-3 && inside > least_hurst && inside < greatest_hurst) {
+    while (step > 2e-3 && inside > min_hurst && inside < greatest_hurst) {
       Numbers from = warm.at;
-      from[hurst] = std::clamp(inside + direction * step, least_hurst, greatest_hurst);
+      from[hurst] = std::clamp(inside + direction * step, min_hurst, greatest_hurst);
       const LawInRange::Fit tried = range.descend(from, {true, false, false, false});
       if (tried.deviance - best.deviance > limit) {
         step /= 3;
@@ -195,7 +195,7 @@ IntervalEstimate interval_of(const LawInRange& range, const LawInRange::Fit& bes
 }  // namespace
 
 PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
-                                  const SelfAffineDensity& density, double least_span) {
+                                  const SelfAffineDensity& density, double min_span) {
   constexpr std::size_t fewest = 8;
   if (bins.size() < fewest) return {};
   struct Candidate {
@@ -212,7 +212,7 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     for (const std::size_t end : places)
       if (end >= begin + fewest)
         if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber;
-            span >= least_span)
+            span >= min_span)
           candidates.push_back({begin, end, span});
   std::ranges::stable_sort(candidates, std::greater(), &Candidate::span);
   const auto acceptable = [&](std::size_t begin, std::size_t end, const LawInRange::Fit& fit) {
@@ -223,7 +223,7 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     const LawInRange range(bins.subspan(candidate.begin, candidate.end - candidate.begin), density);
     const LawInRange::Fit best = range.fit(true);
     if (!acceptable(candidate.begin, candidate.end, best)) continue;
-    if (best.at[hurst] <= least_hurst || best.at[hurst] >= greatest_hurst) continue;
+    if (best.at[hurst] <= min_hurst || best.at[hurst] >= greatest_hurst) continue;
     const double limit = gsl_cdf_chisq_Pinv(0.95, 1);
     PowerLawRange found{candidate.begin, candidate.end, interval_of(range, best, limit)};
     const LawInRange::Fit straight = range.fit(false);

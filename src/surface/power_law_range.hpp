@@ -37,8 +37,8 @@ struct PowerLawRange {
 /// of H is that of a likelihood-ratio test at 5 % in which they are free, as is the roll-off, and
 /// holds the most likely H of the range without its shortest half octave. A range counts if its deviance
 /// is not above the 90 % point. An interval that holds all of 0 … 1 is none.
-/// least_span: the least ratio of the wave numbers of a range.
+/// min_span: the least ratio of the wave numbers of a range.
 PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
-                                  const SelfAffineDensity& density, double least_span);
+                                  const SelfAffineDensity& density, double min_span);
 
 }  // namespace salebra::detail

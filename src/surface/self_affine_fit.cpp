@@ -172,7 +172,7 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
           of_block[1] += 1;
         });
       });
-  const double least_power = ended * sums[0] / sums[1];
+  const double min_power = ended * sums[0] / sums[1];
   // The least (sign 1) or greatest (−1) wave number beyond one, of all modes or of those with
   // power.
   const auto extreme = [&](double sign, double from, bool with_power) {
@@ -181,13 +181,13 @@ IntervalEstimate find_short_cutoff(const PowerSpectrum& spectrum, const HurstEst
              parallel::block_rows(columns.rows()), columns.count(), [&](Index begin, Index end) {
                double found = std::numeric_limits<double>::infinity();
                for_modes(spectrum, begin, end, [&](double q, double power, double) {
-                 if (q > from && (!with_power || flat(q, power) >= least_power))
+                 if (q > from && (!with_power || flat(q, power) >= min_power))
                    found = std::min(found, sign * q);
                });
                return found;
              }))
       best = std::min(best, of_block);
-    return sign * spectrum.communicator.least_of(best);
+    return sign * spectrum.communicator.min_of(best);
   };
   // A mode of the law is below a thousandth of it with a probability of a thousandth: a run of them
   // is the end.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr double deviation_per_median = 1.4826;  // of a Gaussian
-constexpr std::size_t largest_spike = 4;         // points
+constexpr std::size_t max_spike = 4;         // points
 
 /// Returns the median of some values, whose order it may change.
 double middle_of(std::span<double> values) {
@@ -105,7 +105,7 @@ class Neighbourhoods {
     const double half = (height(from) + middle) / 2;
     const bool above = height(from) > middle;
     std::vector<GridPoint> found{from};
-    for (std::size_t k = 0; k < found.size() && found.size() <= largest_spike; ++k)
+    for (std::size_t k = 0; k < found.size() && found.size() <= max_spike; ++k)
       around(found[k], [&](GridPoint point) {
         if ((height(point) > half) == above && height(point) != half &&
             std::ranges::find(found, point) == found.end())
@@ -201,7 +201,7 @@ std::vector<Spike> find_spikes(const Surface& surface, double threshold) {
       const auto around = neighbours.surroundings({ix, iy}, true);
       if (!(deviation > threshold * around.deviation)) continue;
       const std::vector<GridPoint> points = neighbours.beside({ix, iy}, around.median);
-      if (points.size() > largest_spike) continue;
+      if (points.size() > max_spike) continue;
       for (const GridPoint& point : points) {
         if (known(point.ix, point.iy)) continue;
         known(point.ix, point.iy) = true;

@@ -186,7 +186,7 @@ Ends ends_of(const Candidate& one) {
   ends.rolloff_ratio = 2 * (ends.without_rolloff.cost - one.fit.cost);
   if (!ends.sees_rolloff()) {
     const double bottom =
-        std::max(model.lowest()[TwinLaw::rolloff] + 1e-3, std::log(0.1 * model.largest_scan()));
+        std::max(model.lowest()[TwinLaw::rolloff] + 1e-3, std::log(0.1 * model.max_scan()));
     std::vector<double> values;
     for (int k = 0; k < steps; ++k) values.push_back(bottom + (top - bottom) * k / (steps - 1));
     ends.rolloffs = profiled(model, TwinLaw::rolloff, values, ends.without_rolloff.parameters);
@@ -196,7 +196,7 @@ Ends ends_of(const Candidate& one) {
 
 TwinDraw spectrum_of(const TwinModel& model, const Eigen::VectorXd& parameters) {
   return draw_of(model.law(), {parameters.data(), static_cast<std::size_t>(model.law().size())},
-                 2 * pi / model.largest_scan());
+                 2 * pi / model.max_scan());
 }
 
 /// Value and standard deviation of a function of the spectrum, by the curvature at a fit.
@@ -222,7 +222,7 @@ double log_height(const TwinDraw& draw) { return std::log(draw.rms_height); }
 
 /// The least rms height that the profile of the roll-off allows: along it, and below each of its
 /// fits by what remains of the drop.
-double least_height(const Candidate& one, const TwinProfile& profile) {
+double min_height(const Candidate& one, const TwinProfile& profile) {
   double least = one.fit.cost, lowest = std::numeric_limits<double>::infinity();
   for (const TwinFit& fit : profile.fits) least = std::min(least, fit.cost);
   for (const TwinFit& fit : profile.fits) {
@@ -568,7 +568,7 @@ class TwinRun {
       set_rolloff(ends);
     double end = model.finest_wavenumber();
     if (ends.sees_cutoff()) end = std::max(end, 2 * pi / quantile(cutoffs, 0.5));
-    twin_.spectrum = band_of(twin_.draws, model.law(), 2 * pi / model.largest_scan(), end);
+    twin_.spectrum = band_of(twin_.draws, model.law(), 2 * pi / model.max_scan(), end);
   }
 
   void set_cutoff(const Ends& ends, const std::vector<double>& cutoffs) {
@@ -586,7 +586,7 @@ class TwinRun {
 
   void set_heights_of_table() {
     note("rms height and slope are those of waves below " +
-         length_text(forms_.best.model.largest_scan()));
+         length_text(forms_.best.model.max_scan()));
     if (plateau_) return;
     twin_.rms_height = {};
     twin_.rms_height.low = quantile(sorted(&TwinDraw::rms_height), 0.05);
@@ -602,7 +602,7 @@ class TwinRun {
     twin_.rolloff.low = std::exp(ends.rolloffs->limit(forms_.best.fit.cost, one_sided)
                                      .value_or(ends.rolloffs->values.front()));
     twin_.rms_height = {};
-    twin_.rms_height.low = least_height(forms_.best, *ends.rolloffs);
+    twin_.rms_height.low = min_height(forms_.best, *ends.rolloffs);
     note("the roll-off is not seen: it lies beyond " + length_text(twin_.rolloff.low) +
          "; of the rms height only a lower limit is known");
   }

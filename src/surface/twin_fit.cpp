@@ -52,7 +52,7 @@ std::vector<Eigen::VectorXd> starts(const TwinModel& model) {
     for (const double rolloff : {0.15, 0.6})
       for (const double cutoff : cutoffs) {
         Eigen::VectorXd start = Eigen::VectorXd::Zero(model.size());
-        start.head(4) << level, hurst, std::log(rolloff * model.largest_scan()), cutoff;
+        start.head(4) << level, hurst, std::log(rolloff * model.max_scan()), cutoff;
         all.push_back(start);
       }
   return all;

@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 
 constexpr double tail_freedom = 4, blur_freedom = 0.05;
-constexpr double least_gain_error = 1e-4;  ///< for calibrations of 0
+constexpr double min_gain_error = 1e-4;  ///< for calibrations of 0
 constexpr double bend_freedom = 1.5;       ///< of second differences of ln C between knots
 
 /// r − 1 − ln r, without cancellation.
@@ -67,7 +67,7 @@ TwinModel::TwinModel(const std::vector<TwinData>& data, TwinLaw law)
         covariance(i, j) = a.height_calibration * b.height_calibration;
       if (i == j)
         covariance(i, i) += a.scan_calibration * a.scan_calibration / a.mean_scans +
-                            least_gain_error * least_gain_error;
+                            min_gain_error * min_gain_error;
     }
   gain_whitening_ = Eigen::LLT<Eigen::MatrixXd>(covariance)
                         .matrixL()

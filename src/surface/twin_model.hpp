@@ -67,7 +67,7 @@ class TwinModel {
   Index bins() const { return bins_; }
   const Eigen::VectorXd& lowest() const { return lowest_; }  ///< bounds; of others than the law's,
   const Eigen::VectorXd& highest() const { return highest_; }  ///< far away
-  double largest_scan() const { return largest_; }             ///< m
+  double max_scan() const { return largest_; }             ///< m
   double finest_wavenumber() const { return finest_; }         ///< rad/m, used
 
   /// s of 1/m = 1/m_c + s² in all bins, to which the squared doubt of a bin comes, and in those

@@ -11,7 +11,7 @@ namespace salebra::twin_detail {
 namespace {
 
 constexpr int settling = 80;     ///< steps before the first draw
-constexpr int least_steps = 30;  ///< after it
+constexpr int min_steps = 30;  ///< after it
 constexpr double apart =
     15;  ///< states of walkers for a draw that is kept, so that draws are as good as independent
 constexpr double freedom = 6;  ///< degrees of the proposals' t distribution
@@ -74,7 +74,7 @@ Eigen::MatrixXd sampled_posterior(const TwinModel& model, const Eigen::MatrixXd&
 
   const int steps =
       settling +
-      std::max(least_steps, static_cast<int>(std::ceil(static_cast<double>(draws) * apart /
+      std::max(min_steps, static_cast<int>(std::ceil(static_cast<double>(draws) * apart /
                                                        static_cast<double>(walkers))));
   Eigen::MatrixXd kept(size, (steps - settling) * walkers);
   for (int step = 0; step < steps; ++step) {

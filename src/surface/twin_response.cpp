@@ -17,8 +17,8 @@ using std::numbers::pi;
 
 constexpr double tilt = 3.4;             ///< C ∝ κ^−tilt within a cell
 constexpr double longest = 0.01;         ///< κ of the longest waves
-constexpr double farthest_tapered = 30;  ///< κ of sources for the bins of the sine tapers
-constexpr double farthest_hann = 60;
+constexpr double max_tapered = 30;  ///< κ of sources for the bins of the sine tapers
+constexpr double max_hann = 60;
 constexpr double window_reach =
     10;  ///< modes beyond which a Hann window passes less than 1e-7 of a wave
 constexpr double flat_above =
@@ -192,8 +192,8 @@ void add_full_response(const ScanModes& modes, const std::vector<double>& limits
   if (first >= last) return;
   const bool hann = tapers.front() == Taper::hann;
   const double inner = limits[first], outer = limits[last];
-  const double farthest = hann ? farthest_hann : farthest_tapered;
-  const std::size_t cells = std::min(response.middle.size(), cell_of(response, farthest) + 1);
+  const double max_source = hann ? max_hann : max_tapered;
+  const std::size_t cells = std::min(response.middle.size(), cell_of(response, max_source) + 1);
   parallel::for_slabs(static_cast<Index>(cells), [&](Index begin, Index end) {
     Quadrant quadrant(modes, inner, outer, tapers);
     for (Index cell = begin; cell < end; ++cell) {
@@ -318,7 +318,7 @@ void add_profile(const ScanModes& modes, const std::vector<double>& limits, Resp
     sides.emplace_back(taper, 1, last);
   // Fine where the plane takes most of a wave, and its share is as κ_x⁴.
   std::vector<double> places{0};
-  while (places.back() < farthest_hann)
+  while (places.back() < max_hann)
     places.push_back(places.back() + std::clamp(places.back() / 20, 0.002, 0.04));
   for (std::size_t step = 0; step + 1 < places.size(); ++step) {
     const double middle = (places[step] + places[step + 1]) / 2;
@@ -364,7 +364,7 @@ Response response_of(const Grid2D& grid, bool drifts) {
     add_profile(modes, limits, response);
     return response;
   }
-  Response response = empty_response(std::max(farthest_hann, 4.5 * modes.nyquist), bins);
+  Response response = empty_response(std::max(max_hann, 4.5 * modes.nyquist), bins);
   const std::size_t tapered = tapered_bins(limits), full = std::max(tapered, response_bins(limits));
   add_full_response(modes, limits, drifts, {0, tapered, {Taper::first_sine, Taper::second_sine}},
                     response);

@@ -238,8 +238,8 @@ TEST_CASE("fit answers with the fit, the test and the sensitivity of the window 
           fit_exponential(curve, window, weights).decay_length);
   const ExponentialTest bend = test_exponential(curve, window, FitWeights::force);
   CHECK(found["test"]["significance"] == bend.significance);
-  CHECK(found["test"]["decay_length_closest"] == bend.decay_length_closest);
-  CHECK(found["test"]["decay_length_farthest"] == bend.decay_length_farthest);
+  CHECK(found["test"]["decay_length_at_min_gap"] == bend.decay_length_at_min_gap);
+  CHECK(found["test"]["decay_length_at_max_gap"] == bend.decay_length_at_max_gap);
   const WindowSensitivity parts = window_sensitivity(curve, window, FitWeights::force);
   CHECK(found["window_sensitivity"]["decay_length_min"] == parts.decay_length_min);
   CHECK(found["window_sensitivity"]["decay_length_max"] == parts.decay_length_max);

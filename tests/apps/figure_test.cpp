@@ -338,11 +338,11 @@ TEST_CASE("The numbers of a comparison are those of its file, and the theories' 
     CHECK(found["decay_length"]["mean"] == single("fit/ensemble_decay_length_mean"));
     CHECK(found["area_slope"]["mean"] == single("fit/ensemble_area_slope_mean"));
     CHECK(found["law_bend"]["mean"] ==
-          Approx(single("fit/decay_length_farthest") / single("fit/decay_length_closest") - 1));
+          Approx(single("fit/decay_length_at_max_gap") / single("fit/decay_length_at_min_gap") - 1));
     ++row;
   }
   for (const std::string name :
-       {"spot_count", "largest_spot_area", "mean_spot_area", "corrected_area_fraction"})
+       {"spot_count", "max_spot_area", "mean_spot_area", "corrected_area_fraction"})
     check_alike(numbers(answer["spots"][name]["mean"]),
                 file.numbers("spots/ensemble_" + name + "_mean"), 1e-14);
 

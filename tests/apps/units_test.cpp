@@ -28,7 +28,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
            "rolloff.high short_cutoff.value short_cutoff.low short_cutoff.high mean_gap separation "
            "indentation tangential normal_amplitude stabilising_amplitude contact_radius "
            "decay_length decay_length_low decay_length_high decay_length_min decay_length_max "
-           "decay_length_closest decay_length_farthest decay_length_by_weights.spacing "
+           "decay_length_at_min_gap decay_length_at_max_gap decay_length_by_weights.spacing "
            "decay_length_by_weights.equal decay_length_by_weights.force")},
       {length_squared, words("moment0 contact_area_min contact_area_max")},
       {inverse_length_squared, words("moment4 summit_density Spd")},
@@ -221,7 +221,7 @@ TEST_CASE("Every table has the numbers of its JSON twin, in the unit of their qu
     ordered_json answer = ordered_json::parse(json.out);
     for (const std::string& table : tables) answer.erase(table);
     for (const char* key : {"assumptions", "validity", "verdicts"}) answer.erase(key);
-    answer.erase("largest_motion");
+    answer.erase("max_motion");
     answer.erase("regime");
     Twin twin(without_assumptions(text.out));
     twin.check(answer);

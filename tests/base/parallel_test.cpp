@@ -57,11 +57,11 @@ TEST_CASE("Blocks of rows cover all rows in order, and 16 rows or their multiple
 }
 
 TEST_CASE("More threads than any machine can use are refused before one is made", "[parallel]") {
-  CHECK(parallel::most_threads() >= 64);
+  CHECK(parallel::max_threads() >= 64);
   CHECK_THROWS_WITH(parallel::set_threads(100000), "threads: 100000 must be from 0 (all) to " +
-                                                       std::to_string(parallel::most_threads()));
+                                                       std::to_string(parallel::max_threads()));
   CHECK_THROWS_AS(parallel::set_threads(-1), InvalidInput);
-  parallel::set_threads(parallel::most_threads());
+  parallel::set_threads(parallel::max_threads());
   CHECK(parallel::sum_blocks(100, [](Index begin, Index end) { return double(end - begin); }) ==
         100);
   parallel::set_threads(0);

@@ -28,7 +28,7 @@ LevelsOnGrid free_levels(const Shape& shape) {
 AdaptiveQuadratureOptions to_error(double relative_error) {
   AdaptiveQuadratureOptions options;
   options.relative_error = relative_error;
-  options.most_points = 256;
+  options.max_points = 256;
   options.quadrature.stick.boundary = Boundary::free;
   return options;
 }
@@ -146,8 +146,8 @@ TEST_CASE("An error that cannot be reached is not called reached", "[levels]") {
       [](const Grid2D& grid) { return paraboloid_surface(grid, 0.3, off_grid_center(grid)); });
   const Oscillation motion = EqualFrequency{0.1e-6, 2e-7, pi / 2};
   AdaptiveQuadratureOptions options = to_error(1e-7);
-  options.most_points = 32;
-  options.most_levels = 16;
+  options.max_points = 32;
+  options.max_levels = 16;
   const AdaptiveQuadratureResult result =
       adaptive_level_quadrature(levels(coarsest), coarsest, material, motion, 0.3e-6, options);
   CHECK_FALSE(result.reached);

@@ -53,8 +53,8 @@ TEST_CASE("Springs of all summits lose what the force law of all summits loses, 
       CHECK(springs.power == Approx(whole.power).epsilon(1e-9));
       CHECK(springs.damping_constant == Approx(whole.damping_constant).epsilon(1e-9));
       CHECK(springs.small_amplitude_work == Approx(whole.small_amplitude_work).epsilon(1e-12));
-      CHECK(springs.contacts_most == model->at(separation - amplitude).contacts);
-      CHECK(springs.contacts_least == model->at(separation + amplitude).contacts);
+      CHECK(springs.max_contacts == model->at(separation - amplitude).contacts);
+      CHECK(springs.min_contacts == model->at(separation + amplitude).contacts);
       CHECK(std::accumulate(springs.work.begin(), springs.work.end(), 0.0) ==
             Approx(springs.work_per_cycle).epsilon(1e-14));
     }
@@ -67,7 +67,7 @@ TEST_CASE("At small amplitude the summits lose Eqs (12), (15) with the F'' of al
     const auto miss = [&](double amplitude) {
       const AsperityDamping damping =
           asperity_damping(summits, soft, 0.04, with_amplitude(kind, amplitude));
-      REQUIRE(damping.contacts_least == damping.contacts_most);
+      REQUIRE(damping.min_contacts == damping.max_contacts);
       return damping.work_per_cycle / damping.small_amplitude_work - 1;
     };
     // The correction is of first order in u_z in case (b) and of second order in case (a): the
@@ -86,13 +86,13 @@ TEST_CASE("Summits that open lose the intermittent part", "[asperities]") {
   };
   const AsperityDamping closed = asperity_damping(one, soft, -0.2, motion(0.1));
   CHECK(closed.intermittent_work == 0);
-  CHECK(closed.contacts_least == 1);
+  CHECK(closed.min_contacts == 1);
   const AsperityDamping opens = asperity_damping(one, soft, -0.2, motion(0.3));
   CHECK(opens.intermittent_work == opens.work_per_cycle);
-  CHECK(opens.contacts_least == 0);
+  CHECK(opens.min_contacts == 0);
   const AsperityDamping never = asperity_damping(one, soft, 0.2, motion(0.1));
   CHECK(never.work_per_cycle == 0);
-  CHECK(never.contacts_most == 0);
+  CHECK(never.max_contacts == 0);
   CHECK(asperity_damping(one, soft, -0.2, motion(0)).work_per_cycle == 0);
 }
 

@@ -202,14 +202,14 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
                                     sample(slow_drag(f * deepest), 0, 16), 8);
       },
       "at most 5.55 mm");
-  const double most_force = ball.force(deepest);
+  const double max_force = ball.force(deepest);
   const auto by_force = [&](double f) {
-    return relaxation_damping_force_controlled(ball, 0.9 * most_force, (f - 0.9) * most_force,
+    return relaxation_damping_force_controlled(ball, 0.9 * max_force, (f - 0.9) * max_force,
                                                slow_drag(0));
   };
   CHECK_NOTHROW(by_force(0.999));
   CHECK_THROWS_WITH(by_force(1.001), Catch::Contains("contact modulus"));
-  CHECK_THROWS_WITH(indentation_at_mean_force(ball, 0.9 * most_force, 0.5 * deepest),
+  CHECK_THROWS_WITH(indentation_at_mean_force(ball, 0.9 * max_force, 0.5 * deepest),
                     Catch::Contains("contact modulus"));
   // A contact that rests there already, whatever the amplitude.
   for (const Amplitude amplitude : {Amplitude::small, Amplitude::finite})

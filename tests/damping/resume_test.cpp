@@ -15,9 +15,9 @@ const ContactLevels levels = island_levels(grid);
 
 // The path begins at the greatest indentation: the first period is not the steady one.
 Trajectory two_periods() {
-  const Trajectory from_least = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
-  return {[=](double t) { return from_least.indentation(t + 0.5); },
-          [=](double t) { return from_least.tangential(t + 0.5); }};
+  const Trajectory from_min = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
+  return {[=](double t) { return from_min.indentation(t + 0.5); },
+          [=](double t) { return from_min.tangential(t + 0.5); }};
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST_CASE("Where δ is least the state of a sliding contact is its position and 
   whole.begin(-0.99 * friction * load.force / slider.spring_stiffness, 1e-5);
   for (int i = 0; i < 60; ++i) {
     whole.advance();
-    REQUIRE(whole.least_velocity() > 0);
+    REQUIRE(whole.min_velocity() > 0);
   }
   const double offset = whole.offset(), velocity = whole.relative_velocity();
   restarted.begin(offset, velocity);

@@ -108,7 +108,7 @@ TEST_CASE("The loss at the smallest force is right to 1 % with the sliders by de
   problem.friction_coefficient = friction;
   const DeckSolution answer = solve(problem);
   CHECK(std::abs(answer.loss_error) < 0.01);
-  const double q = problem.smallest_force;
+  const double q = problem.min_force;
   // W is μFx_c q³/6 · 4 … at small q: the series of the closed form, whose bracket cancels.
   const double exact = 8 * friction * friction / modulus_ratio * decay_length * force0 *
                        (q * q * q / 12 + q * q * q * q / 12);

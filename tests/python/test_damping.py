@@ -472,7 +472,7 @@ def test_an_oscillation_stops_the_stick_slip_of_a_slider() -> None:
     assert len(jerking.time) == len(jerking.slider_velocity) > 10
     omega = 2 * np.pi * 20e3
     threshold = salebra.threshold_amplitude(
-        law, slider, friction_coefficient=0.3, angular_frequency=omega, largest_amplitude=3e-8, force=0.02)
+        law, slider, friction_coefficient=0.3, angular_frequency=omega, max_amplitude=3e-8, force=0.02)
     assert threshold.value == pytest.approx(threshold.linear_estimate, abs=threshold.linear_estimate_error + 1e-3 * threshold.value)
     def at(part: float) -> salebra.SliderStability:
         return salebra.slider_stability(

@@ -50,7 +50,7 @@ def test_spikes_are_undefined_and_what_is_undefined_is_cropped_or_filled(tmp_pat
     assert math.isnan(cleaned.heights[5, 7])
     assert cleaned.undefined_points == 441
     assert salebra.Surface(heights, clean.size_x, clean.size_y).despiked(1e6).undefined_points == 440
-    part = cleaned.cropped(*(cleaned.largest_defined_part or ()))
+    part = cleaned.cropped(*(cleaned.max_defined_part or ()))
     assert part.undefined_points == 0
     assert part.nx * part.ny >= 24 * 64
 

@@ -135,8 +135,8 @@ def test_every_argument_with_a_dimension_takes_a_text_with_its_unit() -> None:
         cls = getattr(_core, function, None)
         if inspect.isclass(cls) and isinstance(getattr(cls, name, None), property) and getattr(cls, name).__doc__ and name not in WITHOUT_UNIT:
             assert spellings(salebra.quantity(_calls._like(name))[0]) & spellings(_show.meaning(cls, name)[0] or "1"), f"{function}: {name}"
-    parameters = salebra.ContactParameters(first_load="2 mN", largest_pressure="3 GPa", loaded_size="1 mm")  # type: ignore[arg-type, unused-ignore]
-    assert (parameters.first_load, parameters.largest_pressure, parameters.loaded_size) == (2e-3, 3e9, 1e-3)
+    parameters = salebra.ContactParameters(first_load="2 mN", max_pressure="3 GPa", loaded_size="1 mm")  # type: ignore[arg-type, unused-ignore]
+    assert (parameters.first_load, parameters.max_pressure, parameters.loaded_size) == (2e-3, 3e9, 1e-3)
     assert salebra.Adhesion("0.05 J/m^2", "2 nm").range == 2e-9  # type: ignore[arg-type, unused-ignore]
 
 

@@ -126,7 +126,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "SliderStability": lambda: salebra.slider_stability(
             law, slider, friction_coefficient=0.3, normal_amplitude=1e-7, angular_frequency=1e5, indentation=1e-6),
         "SliderThreshold": lambda: salebra.threshold_amplitude(
-            law, slider, friction_coefficient=0.3, angular_frequency=1e5, largest_amplitude=1e-6, indentation=1e-6),
+            law, slider, friction_coefficient=0.3, angular_frequency=1e5, max_amplitude=1e-6, indentation=1e-6),
         "SteadySliding": lambda: salebra.steady_sliding(law, DRAG, friction_coefficient=0.3, indentation=1e-6),
         "StickStiffness": lambda: salebra.stick_stiffness(contact, surface.grid, MATERIAL),
         "StressMap": lambda: salebra.stress_map(law, 1e-6, EQUAL, phases=16, radii=16),

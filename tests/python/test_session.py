@@ -160,7 +160,7 @@ LONG = {
     "trajectory_damping": "salebra.trajectory_damping(law, salebra.sample(motion, 0.0, 2000000), friction_coefficient=0.3)",
     "joint_loss": """salebra.joint_loss(law, friction_coefficient=0.3, tangential_amplitude=1e-8, force=1.0, normal_amplitude=1e-8,
         steps=2000000)""",
-    "threshold_amplitude": """salebra.threshold_amplitude(law, slider, friction_coefficient=0.3, angular_frequency=1.2e5, largest_amplitude=2e-8,
+    "threshold_amplitude": """salebra.threshold_amplitude(law, slider, friction_coefficient=0.3, angular_frequency=1.2e5, max_amplitude=2e-8,
         force=0.02, steps=100000)""",
     "viscoelastic_damping": "salebra.viscoelastic_damping(indenter, prony, salebra.sample(motion, 5e-7, 20000))",
     "areal_parameters": "salebra.areal_parameters(salebra.Surface(numpy.random.default_rng(0).normal(size=(3072, 3072)) * 1e-9, 1e-3, 1e-3))",

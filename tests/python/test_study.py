@@ -64,7 +64,7 @@ def test_weights_of_the_fit_are_those_of_the_program(
         assert fit.decay_length == pytest.approx(answer["decay_length"], rel=1e-12)
         lengths.append(fit.decay_length)
         test = salebra.test_exponential(curve, window, weights=weights)
-        assert test.decay_length_farthest == pytest.approx(answer["test"]["decay_length_farthest"], rel=1e-12)
+        assert test.decay_length_at_max_gap == pytest.approx(answer["test"]["decay_length_at_max_gap"], rel=1e-12)
         # A computed curve has misfit in place of scatter: no probability belongs to it.
         if weights == "spacing":
             assert "significance" not in answer["test"]

@@ -33,8 +33,8 @@ TEST_CASE("Results with parts missing, empty or short are refused, not read beyo
     refused(name + " is missing", [&] { hostile::remove(file, name); });
     refused(name + " has no values", [&] { hostile::set_numbers(file, name, {}); });
   }
-  refused("fit/law_off_closest has",
-          [&] { hostile::set_numbers(file, "fit/law_off_closest", {}); });
+  refused("fit/law_off_at_min_gap has",
+          [&] { hostile::set_numbers(file, "fit/law_off_at_min_gap", {}); });
   refused("picture/heights has 1 values",
           [&] { hostile::set_numbers(file, "picture/heights", {1e-9}); });
   refused("assumptions/inertia is missing", [&] { hostile::remove(file, "assumptions/inertia"); });

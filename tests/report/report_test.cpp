@@ -103,8 +103,8 @@ TEST_CASE("A report holds the numbers of its study and needs nothing else", "[re
   const auto law = result.law_description();
   REQUIRE(law);
   CHECK(point["fit"]["models"]["bem"]["fair"] == double(law->fair));
-  CHECK(point["fit"]["models"]["bem"]["law_off_closest"].get<double>() ==
-        Approx(law->law_off_closest).epsilon(1e-6));
+  CHECK(point["fit"]["models"]["bem"]["law_off_at_min_gap"].get<double>() ==
+        Approx(law->law_off_at_min_gap).epsilon(1e-6));
   CHECK_THAT(page,
              Contains(law->fair ? "law is a fair description." : "law is a poor description."));
   const auto curve = result.stated("damping_constant_without_slip");

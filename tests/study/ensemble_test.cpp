@@ -622,7 +622,7 @@ TEST_CASE("Every model of a comparison has its curve, fit and damping", "[ensemb
     largest = std::max(largest, spot.area);
   }
   CHECK(first.spots[6].spots_by_size == sizes);
-  CHECK(first.spots[6].largest_spot_area == Approx(largest).epsilon(1e-12));
+  CHECK(first.spots[6].max_spot_area == Approx(largest).epsilon(1e-12));
   // Persson's theory has the slope of the surface's own modes; a ring's mean radius differs from
   // its rms one by 2^(1/16) − 1 at most.
   CHECK(first.of(ContactModel::persson).curve.samples[6].contact_area_fraction ==

@@ -156,10 +156,10 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   file.of_models("fit/pressure_min", [](const auto& m) { return m.fit.window.pressure_min; });
   file.of_models("fit/pressure_max", [](const auto& m) { return m.fit.window.pressure_max; });
   file.of_models("fit/significance", [](const auto& m) { return m.test.significance; });
-  file.of_models("fit/decay_length_closest",
-                 [](const auto& m) { return m.test.decay_length_closest; });
-  file.of_models("fit/decay_length_farthest",
-                 [](const auto& m) { return m.test.decay_length_farthest; });
+  file.of_models("fit/decay_length_at_min_gap",
+                 [](const auto& m) { return m.test.decay_length_at_min_gap; });
+  file.of_models("fit/decay_length_at_max_gap",
+                 [](const auto& m) { return m.test.decay_length_at_max_gap; });
   file.of_models("fit/decay_length_min",
                  [](const auto& m) { return m.sensitivity.decay_length_min; });
   file.of_models("fit/decay_length_max",
@@ -179,11 +179,11 @@ TEST_CASE("A study's file holds the curves, fits and surfaces that the study fou
   std::vector<double> off, fair;
   for (const StudyModel& model : result.models()) {
     const std::optional<LawDescription> law = result.law_description(model.id);
-    off.push_back(law ? law->law_off_closest : ForceSample::unknown);
+    off.push_back(law ? law->law_off_at_min_gap : ForceSample::unknown);
     fair.push_back(law ? law->fair : ForceSample::unknown);
   }
   REQUIRE(std::ranges::any_of(fair, [](double known) { return known == 0 || known == 1; }));
-  file.values("fit/law_off_closest", {"model"}, off);
+  file.values("fit/law_off_at_min_gap", {"model"}, off);
   file.values("fit/fair", {"model"}, fair);
 
   std::vector<double> gaps, local_lengths;
@@ -248,7 +248,7 @@ TEST_CASE("A study's file holds the damping, the spots and the comparison that t
   const std::pair<const char*, double SpotStatistics::*> spots[] = {
       {"spot_count", &SpotStatistics::spot_count},
       {"corrected_area_fraction", &SpotStatistics::corrected_area_fraction},
-      {"largest_spot_area", &SpotStatistics::largest_spot_area},
+      {"max_spot_area", &SpotStatistics::max_spot_area},
       {"mean_spot_area", &SpotStatistics::mean_spot_area}};
   for (const auto& [name, quantity] : spots) {
     const auto of = quantity;

@@ -197,7 +197,7 @@ TEST_CASE("Curves without a decay length keep their damping, and the study says 
   REQUIRE(result.realisations.size() == 2);
   for (const Realisation& realisation : result.realisations) {
     CHECK(std::isnan(realisation.of(ContactModel::bem).fit.decay_length));
-    CHECK(std::isnan(realisation.of(ContactModel::bem).test.decay_length_closest));
+    CHECK(std::isnan(realisation.of(ContactModel::bem).test.decay_length_at_min_gap));
     CHECK(realisation.of(ContactModel::bem).damping.size() == 5);
     for (const DampingPoint& point : realisation.of(ContactModel::bem).damping)
       CHECK(std::isnan(point.work_per_cycle_closed_form));

@@ -16,7 +16,7 @@ namespace {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 /// All rectangles, one by one.
-Index most_points_by_search(const Surface& surface) {
+Index max_points_by_search(const Surface& surface) {
   const Grid2D& grid = surface.grid;
   Index most = 0;
   for (Index x = 0; x < grid.nx; ++x)
@@ -54,8 +54,8 @@ TEST_CASE("The largest part without undefined points is that of a search through
     const auto partition = 1 + engine() % 8;
     for (double& height : surface.heights.reshaped())
       if (engine() % 8 < partition) height = undefined;
-    const auto part = largest_defined_part(surface);
-    const Index most = most_points_by_search(surface);
+    const auto part = max_defined_part(surface);
+    const Index most = max_points_by_search(surface);
     REQUIRE(part.has_value() == (most > 0));
     if (!part) continue;
     const double area = (part->x1 - part->x0) * (part->y1 - part->y0);

@@ -27,7 +27,7 @@ Surface waves(Index points) {
   return surface;
 }
 
-double largest_difference(const Field& a, const Field& b) { return (a - b).abs().maxCoeff(); }
+double max_difference(const Field& a, const Field& b) { return (a - b).abs().maxCoeff(); }
 
 }  // namespace
 
@@ -38,7 +38,7 @@ TEST_CASE("Fourier interpolation of a band-limited surface is that surface") {
     CHECK(fine.periodic);
     // Round-off of transforms of numbers of order 1. cos 5y has the shortest wave of ten points,
     // cos 6x of twelve.
-    CHECK(largest_difference(fine.heights, exact.heights) < 1e-13);
+    CHECK(max_difference(fine.heights, exact.heights) < 1e-13);
   }
 }
 
@@ -77,7 +77,7 @@ TEST_CASE(
       for (Index j = 0; j < 2 * points; ++j)
         exact.heights(i, j) =
             height(0.5 * double(i) / double(points), 0.5 * double(j) / double(points));
-    return largest_difference(refined(coarse, 2).heights, exact.heights);
+    return max_difference(refined(coarse, 2).heights, exact.heights);
   };
   const double order = std::log2(error(32) / error(64));
   // The next power in the error is the sixth, of relative size (2π·3/32)² at most: the order is 4

@@ -124,7 +124,7 @@ struct DamperProblem {
   Amplitude amplitude = Amplitude::finite;
   std::optional<TangentialOscillator> oscillator = {};  ///< for one amplitude and one ω
   std::optional<double> falling_slope = {};  ///< slope b of a falling friction force, N s/m
-  double largest_amplitude = 0;              ///< end of the search for stability, m
+  double max_amplitude = 0;              ///< end of the search for stability, m
   /// Velocity of the slow motion, m/s; with friction γ depends on it and on parameters.excursion.
   double drag_velocity = ContactParameters::unknown;
   ContactParameters parameters = {};

@@ -56,7 +56,7 @@ struct OscillationRoutes {
   /// the shape is known.
   std::optional<double> relative_error;
   std::string shape;         ///< shape to be refined with relative_error; empty: the grid is given
-  Index most_points = 1024;  ///< limit for the finest grid
+  Index max_points = 1024;  ///< limit for the finest grid
 };
 
 /// One simulated cycle by each method.

@@ -55,7 +55,7 @@ struct SliderProblem {
   NormalOscillation normal;         ///< amplitude 0: none; frequency 0: no thresholds
   double friction_coefficient = 0;  ///< μ
   /// End of the search for the threshold, m; empty: 10 times the smallest amplitude with an effect.
-  std::optional<double> largest_amplitude = {};
+  std::optional<double> max_amplitude = {};
   SliderOptions options = {};
 };
 

@@ -81,7 +81,7 @@ class Communicator {
   /// Returns true if all processes pass true.
   bool all_agree(bool yes) const;
   /// Returns the minimum over all processes.
-  double least_of(double mine) const;
+  double min_of(double mine) const;
   /// from: units of this process for each other one; to: units of the others for this one. They
   /// must not overlap.
   void exchange(const Exchange& plan, const void* from, void* to) const;

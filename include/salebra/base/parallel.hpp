@@ -16,10 +16,10 @@ namespace salebra::parallel {
 /// Returns the maximum for set_threads(): four per processor available to the process, and 64 on
 /// small machines. More threads only wait for each other, and many thousands end the process, since
 /// the system refuses to create them.
-int most_threads();
+int max_threads();
 
 /// Sets the number of threads of parallel loops and transforms; 0 means all processors available to
-/// the process. Throws InvalidInput below 0 and above most_threads().
+/// the process. Throws InvalidInput below 0 and above max_threads().
 void set_threads(int threads);
 int threads();
 

@@ -10,8 +10,8 @@ using LevelsOnGrid = std::function<ContactLevels(const Grid2D& grid)>;
 
 struct AdaptiveQuadratureOptions {
   double relative_error = 0.01;  ///< of work_per_cycle, in (0, 1)
-  Index most_points = 1024;      ///< cells along the longer side of the finest grid
-  int most_levels = 128;
+  Index max_points = 1024;      ///< cells along the longer side of the finest grid
+  int max_levels = 128;
   /// Direction, tolerances and progress. The search starts from its number of levels, or from half
   /// of the default if that is 0.
   LevelQuadratureOptions quadrature = {};

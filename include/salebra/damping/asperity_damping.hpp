@@ -15,8 +15,8 @@ struct AsperityDamping {
   double intermittent_work = 0;  ///< part of it by summits that lose contact during the cycle, J
   /// Eq. (12) or (15) with F'' of all summits at the mean separation, J.
   double small_amplitude_work = 0;
-  int contacts_most = 0;        ///< summits in contact at the smallest separation …
-  int contacts_least = 0;       ///< … and at the largest
+  int max_contacts = 0;        ///< summits in contact at the smallest separation …
+  int min_contacts = 0;       ///< … and at the largest
   double power = 0;             ///< P, W; NaN where ω is not known
   double damping_constant = 0;  ///< γ, N s/m; NaN where ω or the velocity is not known
 };
@@ -31,9 +31,9 @@ constexpr void describe(auto&& visit, std::type_identity<AsperityDamping>) {
              energy});
   visit(&S::small_amplitude_work,
         Kept{"small_amplitude_work", "Eq. (12) or (15) with F'' of all summits", energy});
-  visit(&S::contacts_most, Kept{"contacts_most", "summits in contact where the body is closest"});
-  visit(&S::contacts_least,
-        Kept{"contacts_least", "summits in contact where the body is farthest"});
+  visit(&S::max_contacts, Kept{"max_contacts", "summits in contact where the body is closest"});
+  visit(&S::min_contacts,
+        Kept{"min_contacts", "summits in contact where the body is farthest"});
   visit(&S::power, Kept{"power", "mean dissipated power", Dimension::power});
   visit(&S::damping_constant, Kept{"damping_constant", "damping constant", damping});
 }

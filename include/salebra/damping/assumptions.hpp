@@ -31,7 +31,7 @@ struct ContactParameters {
   /// a at the deepest indentation, m: the radius of one contact, or the side of a rough surface.
   double loaded_size = unknown;
   double nominal_pressure = unknown;       ///< F over the nominal area, or over the one contact, Pa
-  double largest_pressure = unknown;       ///< Pa
+  double max_pressure = unknown;       ///< Pa
   double mean_contact_pressure = unknown;  ///< F over contact area at the deepest indentation, Pa
   double rms_slope = unknown;              ///< h', rms slope of a rough surface
   /// Largest F of a previous plastic loading, N, with pressures up to the hardness; the law is then
@@ -53,7 +53,7 @@ constexpr void describe(auto&& visit, std::type_identity<ContactParameters>) {
         Kept{"loaded_size", "radius of one contact, side of a rough surface", length});
   visit(&S::nominal_pressure,
         Kept{"nominal_pressure", "normal force over the nominal area", pressure});
-  visit(&S::largest_pressure, Kept{"largest_pressure", "largest pressure", pressure});
+  visit(&S::max_pressure, Kept{"max_pressure", "largest pressure", pressure});
   visit(&S::mean_contact_pressure,
         Kept{"mean_contact_pressure", "normal force over the true contact area", pressure});
   visit(&S::rms_slope, Quantity{"rms_slope", dimensionless, "root mean square of the gradient"});

@@ -101,10 +101,10 @@ DamperMap damper_map(const ContactLaw& law, const OperatingPoint& point,
 /// Returns the smallest normal amplitude, m, at which γ >= falling_slope. It estimates, without
 /// slip, the oscillation that prevents stick–slip of a slider whose friction force falls with
 /// velocity, F_f = F_0 − bv, with b = falling_slope > 0, N s/m: for small disturbances of steady
-/// sliding this is a damping constant of −b. NaN where no amplitude up to largest_amplitude
+/// sliding this is a damping constant of −b. NaN where no amplitude up to max_amplitude
 /// suffices: under a dead weight γ has a maximum over u_z.
 double stabilising_amplitude(const ContactLaw& law, const OperatingPoint& point,
                              double angular_frequency, double falling_slope,
-                             double largest_amplitude, const DampingOptions& options = {});
+                             double max_amplitude, const DampingOptions& options = {});
 
 }  // namespace salebra

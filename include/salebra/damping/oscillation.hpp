@@ -85,7 +85,7 @@ std::optional<Oscillation> oscillation_of(const Motion& motion);
 Motion motion_of(const Oscillation& motion);
 
 /// ω_x/ω_z = tangential_cycles/normal_cycles in lowest terms. It is 0/0 where no ratio with at most
-/// `most_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means replace sums.
+/// `max_cycles` normal cycles fits to 1e-9: then the motion never repeats, and means replace sums.
 struct CommonPeriod {
   int normal_cycles = 0;      ///< p
   int tangential_cycles = 0;  ///< q
@@ -99,7 +99,7 @@ constexpr void describe(auto&& visit, std::type_identity<CommonPeriod>) {
   visit(&S::tangential_cycles,
         Quantity{"tangential_cycles", dimensionless, "tangential cycles in the common period"});
 }
-CommonPeriod common_period(const TwoFrequencies& motion, int most_cycles = 1000);
+CommonPeriod common_period(const TwoFrequencies& motion, int max_cycles = 1000);
 
 /// One period of any motion, with straight lines between the samples; the last sample closes the
 /// period. δ returns to its first value; x may have advanced by a drift, which every period repeats

@@ -75,7 +75,7 @@ struct SliderOptions {
   /// Relative tolerance of the amplitude of a slow cycle, between halved steps and between the
   /// averaged cycles; 1e-6 … 0.5.
   double tolerance = 1e-2;
-  int most_cycles = 200;      ///< > 0, slow periods 2π√(m/k) after which the run gives up
+  int max_cycles = 200;      ///< > 0, slow periods 2π√(m/k) after which the run gives up
   Progress on_progress = {};  ///< for all functions here; a stop throws Interrupted
 };
 

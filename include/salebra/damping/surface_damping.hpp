@@ -65,7 +65,7 @@ struct SurfaceDampingOptions {
   /// X, distance between the turning points of a drag, m. Without it the loss of a drag with
   /// friction is NaN.
   double excursion = std::numeric_limits<double>::quiet_NaN();
-  Index most_refined =
+  Index max_refined =
       8;  ///< limit for relative_error: at most so many times the points along each side
   Progress on_progress = {};
 };

@@ -82,7 +82,7 @@ struct DeckProblem {
                                  ///< Ansys
   DeckCase of = DeckCase::mean;  ///< for sliders and C header; other formats contain all three
   int sliders = 200;             ///< 2 to 100000; for a C header springs, 8 to 4096
-  double smallest_force = 0.01;  ///< T/(μF) from which the loss of the Jenkins sliders is accurate
+  double min_force = 0.01;  ///< T/(μF) from which the loss of the Jenkins sliders is accurate
   std::string name = "contact";  ///< prefix of every name in a C header
   std::string source = {};       ///< source of the contacts, for the header
   std::string comment = {};       ///< additional sentence for the header

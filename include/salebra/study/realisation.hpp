@@ -90,11 +90,11 @@ struct ModelResult {
   /// end, minus 1, by the parabola of test_exponential(); unknown for fewer than four points.
   double law_bend() const;
   /// Lengths over h_rms:
-  double decay_length_closest_over_rms_height() const {
-    return test.decay_length_closest / curve.rms_height;
+  double decay_length_at_min_gap_over_rms_height() const {
+    return test.decay_length_at_min_gap / curve.rms_height;
   }
-  double decay_length_farthest_over_rms_height() const {
-    return test.decay_length_farthest / curve.rms_height;
+  double decay_length_at_max_gap_over_rms_height() const {
+    return test.decay_length_at_max_gap / curve.rms_height;
   }
   double decay_length_min_over_rms_height() const {
     return sensitivity.decay_length_min / curve.rms_height;
@@ -135,11 +135,11 @@ constexpr void describe(auto&& visit, std::type_identity<ModelResult>) {
   visit(&S::law_bend,
         Quantity{"law_bend", dimensionless,
                  "decay length at the far end of the window over that at its close end, less 1"});
-  visit(&S::decay_length_closest_over_rms_height,
-        Quantity{"decay_length_closest_over_rms_height", dimensionless,
+  visit(&S::decay_length_at_min_gap_over_rms_height,
+        Quantity{"decay_length_at_min_gap_over_rms_height", dimensionless,
                  "local decay length at the close end of the window over rms height"});
-  visit(&S::decay_length_farthest_over_rms_height,
-        Quantity{"decay_length_farthest_over_rms_height", dimensionless,
+  visit(&S::decay_length_at_max_gap_over_rms_height,
+        Quantity{"decay_length_at_max_gap_over_rms_height", dimensionless,
                  "local decay length at the far end of the window over rms height"});
   visit(&S::decay_length_min_over_rms_height,
         Quantity{"decay_length_min_over_rms_height", dimensionless,
@@ -159,12 +159,12 @@ constexpr void describe(auto&& visit, std::type_identity<ModelResult>) {
 struct SpotStatistics {
   double spot_count = ForceSample::unknown;
   double corrected_area_fraction = ForceSample::unknown;  ///< see ContactSpots
-  double largest_spot_area = ForceSample::unknown;        ///< m²
+  double max_spot_area = ForceSample::unknown;        ///< m²
   double mean_spot_area = ForceSample::unknown;           ///< m²
   std::vector<double> spots_by_size;  ///< patches of 2^k to 2^(k+1) − 1 cells, k = 0, 1, …
 
   /// Area of the largest patch over that of all.
-  double largest_spot_share() const { return largest_spot_area / (spot_count * mean_spot_area); }
+  double max_spot_share() const { return max_spot_area / (spot_count * mean_spot_area); }
 };
 
 constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
@@ -174,13 +174,13 @@ constexpr void describe(auto&& visit, std::type_identity<SpotStatistics>) {
   visit(&S::corrected_area_fraction,
         Quantity{"corrected_area_fraction", dimensionless,
                  "contact area over nominal area, corrected by the perimeter"});
-  visit(&S::largest_spot_area,
-        Quantity{"largest_spot_area", length_squared, "area of the largest contact spot"});
+  visit(&S::max_spot_area,
+        Quantity{"max_spot_area", length_squared, "area of the largest contact spot"});
   visit(&S::mean_spot_area,
         Quantity{"mean_spot_area", length_squared, "mean area of contact spots"});
   visit(&S::spots_by_size, Quantity{"spots_by_size", dimensionless,
                                     "contact spots of min_cells to twice as many cells"});
-  visit(&S::largest_spot_share, Quantity{"largest_spot_share", dimensionless,
+  visit(&S::max_spot_share, Quantity{"max_spot_share", dimensionless,
                                          "area of the largest contact spot over that of all"});
 }
 

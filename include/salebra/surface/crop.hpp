@@ -23,6 +23,6 @@ Surface cropped(const Surface& surface, const Rectangle& part);
 
 /// Finds the rectangle of the largest area without undefined points; empty if no point is defined.
 /// Cost: one pass.
-std::optional<Rectangle> largest_defined_part(const Surface& surface);
+std::optional<Rectangle> max_defined_part(const Surface& surface);
 
 }  // namespace salebra

@@ -27,7 +27,7 @@ double AdhesiveSummits::Summit::force(double a) const {
 }
 
 /// For summits that approach, the radius at δ = 0; for summits that separate, that at dδ/da = 0.
-double AdhesiveSummits::least_radius(const Summit& summit, bool unloading) {
+double AdhesiveSummits::min_radius(const Summit& summit, bool unloading) {
   if (!summit.jkr) return 0;
   const double at_touch = 2 * pi * summit.work * summit.radius * summit.radius / summit.modulus;
   return std::cbrt(unloading ? at_touch / 16 : at_touch);
@@ -50,13 +50,13 @@ AdhesiveSummits::AdhesiveSummits(const SummitEnsemble& ensemble, const Material&
            .nominal_area = nominal_area,
            .mean_height = ensemble.mean_height,
            .upper_separation = heights->highest() -
-                               std::min(0.0, summit.indentation(least_radius(summit, unloading))),
+                               std::min(0.0, summit.indentation(min_radius(summit, unloading))),
            .height_scale = heights->scale(),
            .rms_height = ensemble.rms_height}),
       summit_(summit),
       count_(ensemble.summit_density * nominal_area),
-      least_radius_(least_radius(summit, unloading)),
-      least_indentation_(summit.indentation(least_radius_)),
+      min_radius_(min_radius(summit, unloading)),
+      min_indentation_(summit.indentation(min_radius_)),
       heights_(std::move(heights)) {
   require_positive(ensemble.summit_density, "summit_density");
   require_positive(ensemble.radius, "radius");
@@ -74,17 +74,17 @@ double AdhesiveSummits::over_summits(double separation, double scale,
   const double unit =
       std::cbrt(2 * pi * summit_.work * std::pow(summit_.radius, 2) / summit_.modulus);
   std::vector<double> radii;
-  for (const double height : heights_->support(separation + least_indentation_)) {
-    const double beyond = height - separation - least_indentation_;
+  for (const double height : heights_->support(separation + min_indentation_)) {
+    const double beyond = height - separation - min_indentation_;
     radii.push_back(
         beyond <= 0
-            ? least_radius_
+            ? min_radius_
             : detail::find_root(
-                  [&](double a) { return summit_.indentation(a) - least_indentation_ - beyond; },
-                  least_radius_, least_radius_ + std::sqrt(summit_.radius * beyond) + unit));
+                  [&](double a) { return summit_.indentation(a) - min_indentation_ - beyond; },
+                  min_radius_, min_radius_ + std::sqrt(summit_.radius * beyond) + unit));
   }
   if (radii.size() < 2) return 0;
-  const double typical = least_radius_ + std::sqrt(summit_.radius * common().height_scale);
+  const double typical = min_radius_ + std::sqrt(summit_.radius * common().height_scale);
   const detail::Integral integral = detail::integrate(
       [&](double a) {
         return of_radius(a) * heights_->density(separation + summit_.indentation(a)) *
@@ -92,7 +92,7 @@ double AdhesiveSummits::over_summits(double separation, double scale,
       },
       radii, tolerance,
       tolerance * (scale + std::abs(of_radius(typical))) *
-          std::max(nothing, heights_->moment(0, separation + least_indentation_)));
+          std::max(nothing, heights_->moment(0, separation + min_indentation_)));
   if (!integral.converged) throw NotConverged("adhesive_summits: quadrature over heights");
   return count_ * integral.value;
 }
@@ -103,7 +103,7 @@ double AdhesiveSummits::force(double separation) const {
 }
 
 AsperityContact AdhesiveSummits::at(double separation) const {
-  return {.contacts = count_ * heights_->moment(0, separation + least_indentation_),
+  return {.contacts = count_ * heights_->moment(0, separation + min_indentation_),
           .contact_area = over_summits(separation, 0, [](double a) { return pi * a * a; }),
           .force = force(separation),
           .normal_stiffness =

@@ -77,9 +77,9 @@ Material Material::of_contact_modulus(double contact_modulus) {
 }
 
 std::optional<std::string> warning_of_pressure(double nominal_pressure, double contact_modulus) {
-  constexpr double most_strain = 0.1;
+  constexpr double max_strain = 0.1;
   const double ratio = nominal_pressure / contact_modulus;
-  if (!(ratio > most_strain)) return {};
+  if (!(ratio > max_strain)) return {};
   return fmt::format(
       "a nominal pressure of {} is {} times E* = {}: linear elasticity holds far below E*; check "
       "the units, a bare number is in Pa",

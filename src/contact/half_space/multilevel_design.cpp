@@ -166,7 +166,7 @@ std::vector<Aliases> aliases_of(const QuarterSymbol& fine, int radius, Index ste
   return classes;
 }
 
-double largest_error(const std::vector<Aliases>& classes, const Eigen::VectorXd& weights) {
+double max_error(const std::vector<Aliases>& classes, const Eigen::VectorXd& weights) {
   double largest = 0;
   for (const Aliases& at : classes) {
     const Eigen::Vector4d d = at.wanted - at.basis * weights;
@@ -214,7 +214,7 @@ MultilevelRung fitted_rung(const QuarterSymbol& fine, int radius) {
     for (double& value : emphasis) value /= mean;
   }
   MultilevelRung level{{radius, {best.data(), best.data() + best.size()}}, 0};
-  level.error = largest_error(aliases_of(fine, radius, every(measured_frequencies)), best);
+  level.error = max_error(aliases_of(fine, radius, every(measured_frequencies)), best);
   return level;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 // The coarsest transform has at least this many points along its shorter side: a smaller one costs
 // no less than what surrounds it.
-constexpr Index least_period = 128;
+constexpr Index min_period = 128;
 // Stencils worse than this make more exact transforms necessary than they save.
 constexpr double acceptable_error = 0.2;
 // Cells beyond the edge of an isolated patch that the splines of a coarser level reach, at each
@@ -28,7 +28,7 @@ Index last_reached(Index x) { return (x >> 1) + 1; }
 
 // A process that takes part in the coarsest transform has at least so many rows of it: fewer are
 // sooner transformed than sent.
-constexpr Index least_coarsest_rows = 64;
+constexpr Index min_coarsest_rows = 64;
 
 // The rows of the next coarser level, nx in all. Row I goes with row 2I − shift of the finer one,
 // or with the row behind that where a process begins between the two: kernels then count rows of
@@ -69,7 +69,7 @@ std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D&
                                                                    Boundary boundary) {
   int depth = 0;
   for (Index x = symbol.period_x, y = symbol.period_y;
-       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= least_period && depth < max_levels;
+       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= min_period && depth < max_levels;
        x /= 2, y /= 2)
     ++depth;
   if (depth == 0) return std::nullopt;
@@ -139,7 +139,7 @@ void MultilevelKernel::add_level(Index& nx, Index& ny) {
 
 // The transform of what the stencils leave, in whole blocks of rows.
 void MultilevelKernel::add_coarsest(Index nx, Index ny, const QuarterSymbol& left) {
-  const RowPartition last = levels_.back().rows, whole_blocks(rows_.communicator(), nx, least_coarsest_rows);
+  const RowPartition last = levels_.back().rows, whole_blocks(rows_.communicator(), nx, min_coarsest_rows);
   const auto all_of = [](const RowPartition& partition) {
     return [partition](int rank) {
       return RowExchange::Window{partition.begin_of(rank), partition.end_of(rank) - partition.begin_of(rank)};

@@ -24,13 +24,13 @@ bool NormalOperators::serves(const Grid2D& grid, double contact_modulus, Boundar
 
 std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double contact_modulus,
                                                      Boundary boundary, const RowPartition& rows) {
-  constexpr Index most_points = 12'000'000;
+  constexpr Index max_points = 12'000'000;
   static std::mutex mutex;
   static std::vector<std::shared_ptr<NormalOperators>> last;  // those of use lately come last
   const auto make = [&] {
     return std::make_shared<NormalOperators>(grid, contact_modulus, boundary, rows);
   };
-  if (!rows.communicator().alone() || grid.points() > most_points) return make();
+  if (!rows.communicator().alone() || grid.points() > max_points) return make();
   const std::lock_guard lock(mutex);
   const auto found = std::ranges::find_if(
       last, [&](const auto& one) { return one->serves(grid, contact_modulus, boundary); });
@@ -40,7 +40,7 @@ std::shared_ptr<NormalOperators> NormalOperators::of(const Grid2D& grid, double 
     std::rotate(found, found + 1, last.end());
   Index points = 0;
   auto first = last.end();
-  while (first != last.begin() && (points += (*(first - 1))->grid_.points()) <= most_points)
+  while (first != last.begin() && (points += (*(first - 1))->grid_.points()) <= max_points)
     --first;
   last.erase(last.begin(), first);
   return last.back();

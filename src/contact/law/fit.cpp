@@ -194,13 +194,13 @@ ExponentialTest test_exponential(const ForceCurve& curve,
   auto decay_length = [&](double mean_gap) {
     return -1 / (fit.slope + fit.quadratic * (2 * (mean_gap - fit.mean_x) - fit.skew));
   };
-  test.decay_length_closest = decay_length(points.front().mean_gap);
-  test.decay_length_farthest = decay_length(points.back().mean_gap);
+  test.decay_length_at_min_gap = decay_length(points.front().mean_gap);
+  test.decay_length_at_max_gap = decay_length(points.back().mean_gap);
   test.window = window_of(points);
   return test;
 }
 
-LawDescription describe_law(double decay_length, double closest, double farthest) {
+LawDescription describe_law(double decay_length, double at_min_gap, double at_max_gap) {
   // Where the parabola turns, l has no local value: it is infinite or below 0, and the law is far
   // off.
   const auto off = [&](double local) {
@@ -208,8 +208,8 @@ LawDescription describe_law(double decay_length, double closest, double farthest
     return ratio > 0 ? ratio * ratio - 1 : std::numeric_limits<double>::infinity();
   };
   const auto within = [](double off) { return off > -0.5 && off < 1; };
-  LawDescription law{.law_off_closest = off(closest), .law_off_farthest = off(farthest)};
-  law.fair = within(law.law_off_closest) && within(law.law_off_farthest);
+  LawDescription law{.law_off_at_min_gap = off(smallest gap), .law_off_at_max_gap = off(largest gap)};
+  law.fair = within(law.law_off_at_min_gap) && within(law.law_off_at_max_gap);
   return law;
 }
 

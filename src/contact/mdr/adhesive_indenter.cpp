@@ -56,7 +56,7 @@ AdhesivePoint jkr_pull_off(const IndenterProfile& profile, double contact_modulu
     return a * profile.image_slope(a) - 1.5 * drawn_in(contact_modulus, work, a);
   };
   const double first = std::max(profile.flat_radius(), std::numeric_limits<double>::min() * 1e10);
-  const double last = profile.largest_radius();
+  const double last = profile.max_radius();
   // Where g' grows beyond all bounds or slowly, the least force is many decades away.
   double high = std::isfinite(last) ? last : std::max(first, 1e-12);
   if (!std::isfinite(last))

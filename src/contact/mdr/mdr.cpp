@@ -73,7 +73,7 @@ Estimate line_load_stress(const std::function<double(double)>& slope, double edg
 
 double IndenterProfile::contact_radius(double indentation) const {
   require_positive(indentation, "indentation");
-  const double largest = largest_radius();
+  const double largest = max_radius();
   if (std::isfinite(largest) && indentation >= image(largest)) {
     if (has_side() || indentation <= image(largest) * (1 + 1e-12)) return largest;
     std::ostringstream constraint;
@@ -112,12 +112,12 @@ double IndenterLaw::normal_stiffness(double indentation) const {
 double IndenterLaw::force_curvature(double indentation) const {
   if (!(indentation > 0)) return 0;
   const double edge = contact_radius(indentation);
-  if (edge >= profile_->largest_radius() && profile_->has_side()) return 0;
+  if (edge >= profile_->max_radius() && profile_->has_side()) return 0;
   return 2 * contact_modulus_ / profile_->image_slope(edge);
 }
 
 double IndenterLaw::highest_indentation() const {
-  const double largest = profile_->largest_radius();
+  const double largest = profile_->max_radius();
   return std::isfinite(largest) && !profile_->has_side() ? profile_->image(largest) : infinity;
 }
 

@@ -55,7 +55,7 @@ class SphereProfile final : public IndenterProfile {
     return radius_ * radius_ * sum;
   }
   // g is infinite at the equator; what a half-space is there means nothing anyway.
-  double largest_radius() const override { return 0.999999 * radius_; }
+  double max_radius() const override { return 0.999999 * radius_; }
 
  private:
   double radius_;
@@ -69,7 +69,7 @@ class FlatPunchProfile final : public IndenterProfile {
   double image_slope(double) const override { return 0; }
   double image_integral(double) const override { return 0; }
   double flat_radius() const override { return radius_; }
-  double largest_radius() const override { return radius_; }
+  double max_radius() const override { return radius_; }
   bool has_side() const override { return true; }
   double contact_radius(double) const override { return radius_; }
 

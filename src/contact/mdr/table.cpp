@@ -162,7 +162,7 @@ TabulatedProfile::~TabulatedProfile() = default;
 
 double TabulatedProfile::height(double r) const {
   table_->require_known(r);
-  return table_->profile().at(std::min(r, largest_radius())).value;
+  return table_->profile().at(std::min(r, max_radius())).value;
 }
 
 double TabulatedProfile::image(double x) const {
@@ -184,7 +184,7 @@ double TabulatedProfile::image_integral(double x) const {
 
 double TabulatedProfile::flat_radius() const { return table_->flat_radius; }
 
-double TabulatedProfile::largest_radius() const { return table_->largest(); }
+double TabulatedProfile::max_radius() const { return table_->largest(); }
 
 std::vector<double> TabulatedProfile::breaks() const {
   const std::vector<double>& radii = table_->profile().nodes();

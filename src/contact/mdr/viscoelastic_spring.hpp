@@ -148,7 +148,7 @@ class NormalSpring {
 template <class OnPart>
 void NormalSpring::advance(const SpringPath& path, std::size_t step, OnPart&& on_part) {
   // Touch and release follow each other; more than these in a step are of rounding.
-  constexpr int most_events = 6;
+  constexpr int max_events = 6;
   const double duration = path.duration[step];
   double depth = path.indentation[step] - level_;
   const double end = path.indentation[step + 1] - level_;
@@ -166,7 +166,7 @@ void NormalSpring::advance(const SpringPath& path, std::size_t step, OnPart&& on
       if (!whole) partial = spring_.stretching(rest);
       const Stretching* part = whole ? &path.stretching[step] : &partial;
       const bool leaves =
-          event < most_events && spring_.force(end, part->decay * y_ + move * part->gain) < 0;
+          event < max_events && spring_.force(end, part->decay * y_ + move * part->gain) < 0;
       if (leaves) {
         share = force_at(0) > 0 ? find_root(force_at, 0, 1) : 0;
         partial = spring_.stretching(share * rest);
@@ -186,7 +186,7 @@ void NormalSpring::advance(const SpringPath& path, std::size_t step, OnPart&& on
                (depth + s * move);
       };
       const bool touches =
-          event < most_events &&
+          event < max_events &&
           (whole ? spring_.displacement_of_modes(modes_ * path.mode_decay[step]) - end
                  : gap_at(1)) < 0;
       if (touches) share = gap_at(0) > 0 ? find_root(gap_at, 0, 1) : 0;

@@ -29,9 +29,9 @@ constexpr double multilevel_refresh_after = 0.03;
 // Fresh residuals on the multilevel kernel are computed in double once e_c is below this.
 constexpr double exact_below = 2e-6;
 // Where so many fresh residuals in a row did not halve e_c, the multilevel kernel is left.
-constexpr int most_misses = 2;
+constexpr int max_misses = 2;
 // A start for a finer level needs no more than this many refreshes.
-constexpr int most_inexact_refreshes = 3;
+constexpr int max_inexact_refreshes = 3;
 
 }  // namespace
 
@@ -301,13 +301,13 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
       !(on_multilevel_ && run.estimate > std::max(exact_below, 0.7 * run.limits.tolerance));
   const bool whole = last || run.estimate < 2 * run.limits.tolerance || run.interrupted() ||
                      run.outcome.iterations >= run.limits.max_iterations ||
-                     (!run.limits.exact && run.refreshes + 1 >= most_inexact_refreshes);
+                     (!run.limits.exact && run.refreshes + 1 >= max_inexact_refreshes);
   const auto [level, residual] = dense_gap(run, exact, whole);
   run.level = level;
   run.outcome.residual = residual;
   if (on_multilevel_) {
     run.misses = residual > 0.5 * run.at_refresh ? run.misses + 1 : 0;
-    if (run.misses >= most_misses) on_multilevel_ = false;
+    if (run.misses >= max_misses) on_multilevel_ = false;
     run.best = std::max(run.best, residual);
   }
   run.at_refresh = std::max(residual, std::numeric_limits<double>::min());
@@ -316,7 +316,7 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
     run.outcome.termination = Termination::converged;
   run.finished = run.outcome.converged() || run.interrupted() ||
                  run.outcome.iterations >= run.limits.max_iterations ||
-                 (!run.limits.exact && run.refreshes >= most_inexact_refreshes);
+                 (!run.limits.exact && run.refreshes >= max_inexact_refreshes);
   if (run.finished && !whole) dense_gap(run, exact, true);
   if (!run.finished)
     choose_tiles(run, std::min(widest_margin, std::max(narrowest_margin, 20 * residual)));

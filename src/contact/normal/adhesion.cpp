@@ -20,7 +20,7 @@
 namespace salebra {
 namespace {
 
-constexpr double coarse_zone = 1 / 0.3, least_zone = 1 / 0.7;
+constexpr double coarse_zone = 1 / 0.3, min_zone = 1 / 0.7;
 // Largest part of the largest tension that may act at the edge of an isolated surface.
 constexpr double edge_tension = 1e-2;
 // Steps that Anderson's extrapolation looks back.
@@ -118,7 +118,7 @@ void check_adhesion(const Surface& surface, double contact_modulus, const Adhesi
             "start_tension", start->size(), "cells must fill the grid with finite tensions >= 0");
   const double zone = cells_in_process_zone(adhesion, surface.grid, contact_modulus);
   // The zone grows with the square of the range and with the number of cells.
-  require(zone >= least_zone || options.force_coarse, "adhesion_range", adhesion.range,
+  require(zone >= min_zone || options.force_coarse, "adhesion_range", adhesion.range,
           fmt::format("leaves {:.2g} cells in the process zone, and the cells decide what sticks; "
                       "use a range of {:.3g} m, cells of {:.3g} m, or `force_coarse`",
                       zone, adhesion.range * std::sqrt(coarse_zone / zone),
@@ -171,7 +171,7 @@ class AdhesiveSolve {
         extrapolated = false;
         continue;
       }
-      const double residual_here = found.largest_change / reference_;
+      const double residual_here = found.max_change / reference_;
       // Where neither the energy fell beyond the noise of the contacts nor the residual, they become
       // sharper.
       if (!(found.energy < energy - noise - noise_here) && residual_here > falls * residual)
@@ -216,7 +216,7 @@ class AdhesiveSolve {
   }
 
  private:
-  double largest() const { return adhesion_.largest_tension(); }
+  double largest() const { return adhesion_.max_tension(); }
   bool yields() const { return std::isfinite(options_.contact.hardness); }
   double bound() const { return adhesion_.pressure_bound(options_.contact.hardness); }
 
@@ -402,7 +402,7 @@ class AdhesiveSolve {
 
   struct Measure {
     double energy = 0;            // per area, what falls with each contact
-    double largest_change = 0;    // of the tension, over the cells with a gap
+    double max_change = 0;    // of the tension, over the cells with a gap
     double contact_pressure = 0;  // mean of p
   };
 
@@ -525,7 +525,7 @@ class AdhesiveSolve {
 double detail::adhesion_reference(const Surface& surface, double contact_modulus,
                                   const Adhesion& adhesion) {
   return std::max(contact_modulus * rms_slope_of(surface, surface.partition()),
-                  adhesion.largest_tension());
+                  adhesion.max_tension());
 }
 
 double Adhesion::energy(double gap) const {
@@ -541,7 +541,7 @@ double Adhesion::energy(double gap) const {
 }
 
 double Adhesion::tension(double gap) const {
-  const double ratio = gap / range, top = largest_tension();
+  const double ratio = gap / range, top = max_tension();
   switch (potential) {
     case AdhesionPotential::exponential:
       return top * std::exp(-ratio);
@@ -552,12 +552,12 @@ double Adhesion::tension(double gap) const {
   }
 }
 
-double Adhesion::largest_tension() const {
+double Adhesion::max_tension() const {
   return (potential == AdhesionPotential::van_der_waals ? 2 : 1) * work / range;
 }
 
 double cells_in_process_zone(const Adhesion& adhesion, const Grid2D& grid, double contact_modulus) {
-  const double top = adhesion.largest_tension();
+  const double top = adhesion.max_tension();
   if (!(top > 0)) return std::numeric_limits<double>::infinity();
   return contact_modulus * adhesion.work / (top * top * std::max(grid.dx(), grid.dy()));
 }

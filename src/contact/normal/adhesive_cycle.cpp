@@ -177,7 +177,7 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
     const bool by_force = loosest.control == ControlQuantity::normal_force;
     const double load = by_force ? loosest.value / surface.grid.area() : loosest.value;
     cycle.pull_off_pressure = run.pull_off(
-        std::max(std::abs(load) / 4, 1e-3 * adhesion.largest_tension()), cycle.unloading);
+        std::max(std::abs(load) / 4, 1e-3 * adhesion.max_tension()), cycle.unloading);
     return cycle;
   }
   const auto least =

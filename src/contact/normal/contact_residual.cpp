@@ -10,7 +10,7 @@ namespace salebra::detail {
 namespace {
 
 struct DenseSums {
-  double least_gap = std::numeric_limits<double>::infinity();  // least g where p is below its bound
+  double min_gap = std::numeric_limits<double>::infinity();  // least g where p is below its bound
   double pressure = 0;                                         // Σp
   double free_count = 0, free_gap = 0;  // cells with 0 < p < bound, and Σg over them
 };
@@ -29,7 +29,7 @@ ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
              for (Index k = begin * grid.ny; k < end * grid.ny; ++k) {
                sums.pressure += p[k];
                if (p[k] >= bound) continue;
-               sums.least_gap = std::min(sums.least_gap, g[k]);
+               sums.min_gap = std::min(sums.min_gap, g[k]);
                if (p[k] > 0) {
                  sums.free_count += 1;
                  sums.free_gap += g[k];
@@ -38,12 +38,12 @@ ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
              return sums;
            },
            rows.count() * grid.ny)) {
-    total.least_gap = std::min(total.least_gap, part.least_gap);
+    total.min_gap = std::min(total.min_gap, part.min_gap);
     total.pressure += part.pressure;
     total.free_count += part.free_count;
     total.free_gap += part.free_gap;
   }
-  const double plane = target.load_given() ? total.least_gap : target.value;
+  const double plane = target.load_given() ? total.min_gap : target.value;
   const double misfit = parallel::sum_blocks(
       rows,
       [&](Index begin, Index end) {
@@ -58,9 +58,9 @@ ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
   ContactResidual result;
   result.residual = total.pressure > 0 ? misfit / (total.pressure * rms_height) : 0;
   if (target.load_given()) {
-    result.level = total.free_count > 0 ? total.free_gap / total.free_count : total.least_gap;
+    result.level = total.free_count > 0 ? total.free_gap / total.free_count : total.min_gap;
   } else {
-    result.residual += std::max(0.0, plane - total.least_gap) / rms_height;
+    result.residual += std::max(0.0, plane - total.min_gap) / rms_height;
     result.level = target.value;
   }
   return result;

@@ -56,7 +56,7 @@ FirstLoading sink_in(Field& heights, const Field& displacement, const NormalCont
 
 // Part of the load by which the oscillation passes the hardness at most.
 constexpr double load_tolerance = 1e-3;
-constexpr int most_loadings = 20;
+constexpr int max_loadings = 20;
 
 /// The highest load of an oscillation about a contact of the residual surface, without further
 /// flow; none where the contact is full.
@@ -141,7 +141,7 @@ ResidualSurface after_first_loading(Surface surface, double contact_modulus,
         at_top(residual.surface, contact_modulus, nominal_pressure, normal_amplitude,
                state.contact_pressure, options);
     if (!top) return residual;
-    residual.termination = top->converged() && loading >= most_loadings
+    residual.termination = top->converged() && loading >= max_loadings
                                ? Termination::iteration_limit
                                : top->termination;
     if (!residual.converged()) return residual;

@@ -21,7 +21,7 @@ using detail::FlowMultigrid;
 
 // Narrower cells, in units of the mean gap, are closed: solvers of contacts do not know such gaps,
 // and their cubes leave the range of single precision.
-constexpr double least_open = 1e-9;
+constexpr double min_open = 1e-9;
 
 // Where so little is left of what the pressure field dissipated at the last look, its difference to
 // what the iteration gained has lost too many digits.
@@ -372,7 +372,7 @@ FlowFactors flow_through(const Field& gap, const Grid2D& grid, const FlowOptions
   if (!(result.mean_gap > 0)) return result;
   for (Index k = 0; k < grid.points(); ++k) {
     const double relative = conductance.data()[k] / result.mean_gap;
-    conductance.data()[k] = relative > least_open ? relative * relative * relative : 0;
+    conductance.data()[k] = relative > min_open ? relative * relative * relative : 0;
   }
   const double mean_cube =
       sum_cells(conductance, [](double s) { return s; }) / static_cast<double>(grid.points());

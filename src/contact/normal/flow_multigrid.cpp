@@ -13,8 +13,8 @@ namespace {
 // Unknowns are joined where the conductance between them is at least this part of what leaves the
 // less conducting one. The face of two cells has a quarter of that or more: 2 g_1³ g_2³/(g_1³ +
 // g_2³) >= min g³, and no face of a cell has more than 2 g³ of it.
-constexpr double least_part = 0.1;
-constexpr Index most_members = 4;
+constexpr double min_part = 0.1;
+constexpr Index max_members = 4;
 // A block of so many unknowns is worked off by pieces: their pairs are compared with each other.
 constexpr std::size_t block_piece = 64;
 // A level of so few unknowns is solved directly.
@@ -23,7 +23,7 @@ constexpr Index few_unknowns = 200;
 constexpr double diagonal_shift = 1e-6;
 // The second of two conjugate gradients is left out where the first gains so much, squared.
 constexpr double first_is_enough = 0.2 * 0.2;
-constexpr Index most_slabs = 32;
+constexpr Index max_slabs = 32;
 
 // Rows of unknowns in slabs of two colours. Slabs of one colour have no common faces, hence threads
 // may work on them side by side, and their number does not depend on that of the threads.
@@ -35,7 +35,7 @@ void visit_by_colours(Index rows, Index unknowns, const Body& body) {
     else
       for (Index row = end; row-- > begin;) body(row);
   };
-  const Index slabs = std::min(most_slabs, rows / 4 * 2);
+  const Index slabs = std::min(max_slabs, rows / 4 * 2);
   if (slabs < 2) return visit(0, rows);
   for (const Index colour : {forward ? 0 : 1, forward ? 1 : 0})
     parallel::for_slabs(
@@ -119,11 +119,11 @@ class BlockGroups {
 
   void join() {
     for (;;) {
-      double best = least_part;
+      double best = min_part;
       std::size_t first = count_, second = count_;
       for (std::size_t a = 0; a < count_; ++a)
         for (std::size_t b = 0; group_[a] == a && b < a; ++b) {
-          if (group_[b] != b || members_[a] + members_[b] > most_members) continue;
+          if (group_[b] != b || members_[a] + members_[b] > max_members) continue;
           const double part = between_[a][b] / std::min(leaves_[a], leaves_[b]);
           if (part > best) {
             best = part;

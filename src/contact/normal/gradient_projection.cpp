@@ -16,9 +16,9 @@ namespace {
 constexpr double sufficient_decrease = 0.1;
 // CG on one set of free cells ends when a step gains less than this part of the best one.
 constexpr double worthwhile_gain = 0.02;
-constexpr int most_steps_on_a_face = 60;
-constexpr int most_backtracks = 30;
-constexpr int most_fruitless_rounds = 3;
+constexpr int max_steps_on_a_face = 60;
+constexpr int max_backtracks = 30;
+constexpr int max_fruitless_rounds = 3;
 constexpr int refresh_every = 20;  // rounds, against the drift of g
 
 class Descent {
@@ -49,7 +49,7 @@ class Descent {
   // p is the solution.
   bool project_gradient() {
     if (!(step_ > 0)) step_ = first_step();
-    for (int trial = 0; trial < most_backtracks; ++trial) {
+    for (int trial = 0; trial < max_backtracks; ++trial) {
       const Field down = gradient();
       const Field change = projected(p_ - step_ * down) - p_;
       const double slope = sum(down * change);
@@ -169,7 +169,7 @@ class Descent {
       if (t > 0) room = std::min(room, p / t);
       if (t < 0) room = std::min(room, (p - target_.bound) / t);
     }
-    return rows_.communicator().least_of(room);
+    return rows_.communicator().min_of(room);
   }
 
   // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with
@@ -204,7 +204,7 @@ class Descent {
   }
   template <class Values>
   double least(const Values& values) const {
-    return rows_.communicator().least_of(values.size() > 0 ? values.minCoeff()
+    return rows_.communicator().min_of(values.size() > 0 ? values.minCoeff()
                                                     : std::numeric_limits<double>::infinity());
   }
 
@@ -236,9 +236,9 @@ void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits
     fruitless = descent.project_gradient() ? 0 : fruitless + 1;
     ++outcome.iterations;
     descent.descend_on_face(
-        std::min(most_steps_on_a_face, limits.max_iterations - outcome.iterations));
+        std::min(max_steps_on_a_face, limits.max_iterations - outcome.iterations));
     auto now = contact_residual(grid, rows, problem.target, problem.rms_height, p, g);
-    const bool stalled = fruitless >= most_fruitless_rounds;
+    const bool stalled = fruitless >= max_fruitless_rounds;
     const bool ends = stalled || outcome.iterations >= limits.max_iterations;
     bool interrupted = false;
     if (limits.keep_going &&

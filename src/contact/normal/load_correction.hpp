@@ -43,14 +43,14 @@ struct LoadCorrection {
 template <class SumsOf>
 LoadCorrection correction_for_load(double load, double bound, const SumsOf& sums_of) {
   constexpr double rounding = 1e-14;
-  constexpr int most_rounds = 60;
+  constexpr int max_rounds = 60;
   const auto missing = [&](const LoadSums& sums) {
     return load - (sums.saturated > 0 ? sums.saturated * bound : 0);
   };
   for (const bool keeps_full : {true, false}) {
     LoadCorrection correction;
     if (keeps_full) correction.full_from = bound;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       const LoadSums sums = sums_of(correction);
       const double factor = sums.below > 0      ? missing(sums) / sums.below
                             : missing(sums) > 0 ? 4.0
@@ -62,7 +62,7 @@ LoadCorrection correction_for_load(double load, double bound, const SumsOf& sums
     }
   }
   LoadCorrection correction;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < max_rounds; ++round) {
     const LoadSums sums = sums_of(correction);
     if (!(sums.unsaturated > 0)) break;
     const double more = (missing(sums) - sums.below) / sums.unsaturated;

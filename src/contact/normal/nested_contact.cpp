@@ -12,16 +12,16 @@ namespace salebra::detail {
 namespace {
 
 constexpr Index coarsest_points = 64 * 64;
-constexpr Index least_cells_across = 16;
+constexpr Index min_cells_across = 16;
 
 Index halved(Index n) {
-  if (n <= least_cells_across) return n;
+  if (n <= min_cells_across) return n;
   return n % 2 == 0 ? n / 2 : fast_transform_size(n / 2);
 }
 
 // A process that takes part on a coarse grid has at least so many rows: fewer are sooner computed
 // than sent.
-constexpr Index least_coarse_rows = 64;
+constexpr Index min_coarse_rows = 64;
 
 RowExchange::Edge edge_of(Boundary boundary) {
   return boundary == Boundary::periodic ? RowExchange::Edge::repeat : RowExchange::Edge::clamp;
@@ -199,7 +199,7 @@ std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const RowPartit
     const MultigridLevel& fine = levels.back();
     const Index nx = halved(fine.grid.nx), ny = halved(fine.grid.ny);
     if (nx == fine.grid.nx && ny == fine.grid.ny) break;
-    const RowPartition coarse_rows(rows.communicator(), nx, least_coarse_rows);
+    const RowPartition coarse_rows(rows.communicator(), nx, min_coarse_rows);
     MultigridLevel coarse{
         {nx, ny, grid.lx, grid.ly}, coarse_rows, sampled(fine, coarse_rows, ny, boundary), {}};
     levels.push_back(std::move(coarse));

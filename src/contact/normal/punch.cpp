@@ -23,7 +23,7 @@ namespace {
 // enough for a sharp load.
 constexpr int gains_in_a_row = 2;
 // A preconditioner needs no more: 99 % of what can be gained takes ten to twenty steps.
-constexpr int most_inner_steps = 100;
+constexpr int max_inner_steps = 100;
 
 }  // namespace
 
@@ -90,7 +90,7 @@ void ActiveSetCg<Real>::invert(const double* u, double step_ends, double* q,
   do {
     gain = punch_step(curvature, outcome);
     gained += gain;
-  } while (gain > step_ends * gained && outcome.iterations < most_inner_steps);
+  } while (gain > step_ends * gained && outcome.iterations < max_inner_steps);
   for (std::size_t k = 0; k < places_.size(); ++k) q[k] = p_[places_[k]];
 }
 

@@ -52,7 +52,7 @@ void SetInverse::apply(const double* u, double* q) {
   const std::size_t count = parts_->count;
   double largest = 0;
   for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, std::abs(u[k]));
-  largest = -parts_->rows.communicator().least_of(-largest);
+  largest = -parts_->rows.communicator().min_of(-largest);
   if (!(largest > 0)) {
     std::fill_n(q, count, 0.0);
     return;

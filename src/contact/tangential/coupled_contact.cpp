@@ -18,7 +18,7 @@ constexpr double loosest_contact = 1e-2;
 constexpr double first_looseness = 1000;
 // A sweep that changed less was lucky, and one that changed more than this was round-off: the error
 // falls by about β² < 1/4.
-constexpr double least_fall = 0.1, most_fall = 0.99;
+constexpr double min_fall = 0.1, max_fall = 0.99;
 
 }  // namespace
 
@@ -137,7 +137,7 @@ CoupledReport CoupledContact::advance(double indentation, const TangentialMove& 
     ++report.sweeps;
     // What remains, where the sweeps to come fall as this one fell from the last. Nothing that is
     // less than the solvers' own error can be asked for.
-    const double fall = std::min(most_fall, std::max(least_fall, report.change / before));
+    const double fall = std::min(max_fall, std::max(min_fall, report.change / before));
     still = looseness == 1 && report.sweeps > 1 &&
             report.change * fall < (1 - fall) * p.options.tolerance;
     if (solved == Termination::interrupted) break;

@@ -16,7 +16,7 @@ namespace {
 constexpr double allowed_error = 0.01;
 
 double largest(const std::vector<double>& vector) {
-  return largest_of(vector.data(), static_cast<Index>(vector.size()));
+  return max_of(vector.data(), static_cast<Index>(vector.size()));
 }
 
 template <class Each, class Value>

@@ -31,7 +31,7 @@ CellWindow affordable(const CellWindow& window, const Grid2D& grid, const RowPar
 
 }  // namespace
 
-double largest_of(const double* values, Index count) {
+double max_of(const double* values, Index count) {
   double largest = 0;
   for (const double part : parallel::map_blocks<double>(
            count,
@@ -80,7 +80,7 @@ void SurfaceResponse::apply(const PointList& loaded, const double* tractions, co
 void SurfaceResponse::apply_loosely(const PointList& points, const double* tractions,
                                     double* displacements) {
   if (!single_) single_ = make_single_();
-  double largest = largest_of(tractions, components() * points.size());
+  double largest = max_of(tractions, components() * points.size());
   if (!(largest > 0)) largest = 1;
   through(*single_, {1 / largest, largest * single_unit_}, points, tractions, points,
           displacements);

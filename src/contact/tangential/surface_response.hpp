@@ -29,7 +29,7 @@ void for_each(std::size_t count, std::size_t operations, const Body& body) {
       static_cast<Index>(operations));
 }
 
-double largest_of(const double* values, Index count);
+double max_of(const double* values, Index count);
 
 /// Σ a_i b_i, with the same bits for every thread count.
 double dot(const std::vector<double>& a, const std::vector<double>& b);

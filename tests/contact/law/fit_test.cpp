@@ -55,8 +55,8 @@ TEST_CASE("Only the curve that bends refutes the exponential law", "[fit]") {
   // The second set is y = −5.9957 + 2.7808 x − 0.12671 x² within its two decimals.
   CHECK(bent.quadratic == Approx(-0.12671).epsilon(1e-4));
   CHECK(bent.refuted(1e-6));
-  CHECK(1 / bent.decay_length_closest == Approx(2.7808 - 2 * 0.12671 * 14).epsilon(1e-3));
-  CHECK(1 / bent.decay_length_farthest == Approx(2.7808 - 2 * 0.12671 * 4).epsilon(1e-3));
+  CHECK(1 / bent.decay_length_at_min_gap == Approx(2.7808 - 2 * 0.12671 * 14).epsilon(1e-3));
+  CHECK(1 / bent.decay_length_at_max_gap == Approx(2.7808 - 2 * 0.12671 * 4).epsilon(1e-3));
 }
 
 TEST_CASE("An exact exponential has its decay length, no interval and no bend", "[fit]") {
@@ -101,7 +101,7 @@ TEST_CASE("Exponential summits obey the law, Gaussian ones bend it", "[fit]") {
   const ExponentialTest test = test_exponential(gaussian);
   CHECK(test.refuted(1e-3));
   CHECK(test.quadratic < 0);
-  CHECK(test.decay_length_closest > test.decay_length_farthest);
+  CHECK(test.decay_length_at_min_gap > test.decay_length_at_max_gap);
   // The secant between neighbours is l = F/K at their midpoint, to the second order of 0.25 σ.
   const LocalDecayLength local = local_decay_length(gaussian);
   const StatisticalSummits summits(ensemble, material, 1e-6);
@@ -115,8 +115,8 @@ TEST_CASE("Exponential summits obey the law, Gaussian ones bend it", "[fit]") {
 
 TEST_CASE("The law is fair where F/l^2 is within a factor of two of F'' at both ends", "[fit]") {
   const LawDescription law = describe_law(2, 1.5, 2.5);
-  CHECK(law.law_off_closest == 0.5625 - 1);
-  CHECK(law.law_off_farthest == 1.5625 - 1);
+  CHECK(law.law_off_at_min_gap == 0.5625 - 1);
+  CHECK(law.law_off_at_max_gap == 1.5625 - 1);
   CHECK(law.fair);
   // The squares of 1.41 and 1.42 are on either side of 2, those of 0.71 and 0.70 of 1/2.
   CHECK(describe_law(1, 0.71, 1.41).fair);
@@ -126,7 +126,7 @@ TEST_CASE("The law is fair where F/l^2 is within a factor of two of F'' at both 
     CHECK_FALSE(describe_law(1, 1, off).fair);
   }
   // No l is negative: there the parabola of the fit has turned.
-  CHECK(std::isinf(describe_law(1, 1, -1).law_off_farthest));
+  CHECK(std::isinf(describe_law(1, 1, -1).law_off_at_max_gap));
   CHECK_FALSE(describe_law(1, 1, -1).fair);
 }
 

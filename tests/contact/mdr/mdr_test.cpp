@@ -256,7 +256,7 @@ TEST_CASE("The image of a table of a parabola is that of the paraboloid, whereve
   // Quadrature leaves 2e-14; slopes at the nodes come from differences of heights, some 100 of
   // which make the profile.
   for (int i = 1; i <= 400; ++i) {
-    const double x = table.largest_radius() * i / 400.;
+    const double x = table.max_radius() * i / 400.;
     CAPTURE(x);
     CHECK(table.image(x) == Approx(exact->image(x)).epsilon(1e-12));
     CHECK(table.image_slope(x) == Approx(exact->image_slope(x)).epsilon(1e-11));

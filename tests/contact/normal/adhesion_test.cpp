@@ -107,7 +107,7 @@ Field minimised(EnergyOfGap& energy, Field gap) {
 
 double integral_of_tension(const AdhesiveContactState& state, const Adhesion& adhesion) {
   return (state.contact_pressure > 0)
-      .select(adhesion.largest_tension(),
+      .select(adhesion.max_tension(),
               state.gap.max(0.0).unaryExpr([&](double g) { return adhesion.tension(g); }))
       .sum();
 }
@@ -121,13 +121,13 @@ TEST_CASE("Potentials are concave, and their tension is their derivative", "[adh
   for (const AdhesionPotential potential : all_potentials) {
     const Adhesion adhesion{potential, 0.05, 2e-9};
     CHECK(adhesion.energy(0) == Approx(-0.05));
-    CHECK(adhesion.tension(0) == Approx(adhesion.largest_tension()));
+    CHECK(adhesion.tension(0) == Approx(adhesion.max_tension()));
     CHECK(adhesion.energy(1e-3) == Approx(0).margin(1e-12));
     double before = adhesion.tension(0);
     for (const double gap : {0.3e-9, 1.1e-9, 1.9e-9, 2.3e-9, 9e-9}) {
       constexpr double step = 1e-14;
       CHECK((adhesion.energy(gap + step) - adhesion.energy(gap - step)) / (2 * step) ==
-            Approx(adhesion.tension(gap)).margin(1e-5 * adhesion.largest_tension()));
+            Approx(adhesion.tension(gap)).margin(1e-5 * adhesion.max_tension()));
       CHECK(adhesion.tension(gap) <= before);
       before = adhesion.tension(gap);
     }
@@ -193,7 +193,7 @@ TEST_CASE("The solver's plain steps do not raise the energy", "[adhesion]") {
       // The tension is that of the gap before, but for cells that touch since.
       const Field of_gap =
           (before.contact_pressure > 0)
-              .select(adhesion.largest_tension(),
+              .select(adhesion.max_tension(),
                       before.gap.max(0.0).unaryExpr([&](double g) { return adhesion.tension(g); }));
       CHECK((state.contact_pressure > 0).select(0, (state.tension - of_gap).abs()).maxCoeff() == 0);
     }

@@ -36,7 +36,7 @@ NormalContactOptions elastic(NormalContactOptions options) {
 Surface rough() { return rough_surface({64, 64, 1e-3, 1e-3}); }
 
 /// The largest elastic pressure of rough(), Pa.
-double largest_elastic_pressure(Boundary boundary) {
+double max_elastic_pressure(Boundary boundary) {
   return press(rough(), contact_modulus, at_pressure(pressure), elastic(contact(boundary, 1)))
       .contact_pressure.maxCoeff();
 }
@@ -49,7 +49,7 @@ TEST_CASE("Below the hardness nothing flows, and the surface keeps its bits", "[
   const double amplitude = GENERATE(0.0, 1.0) * 0.01 * rms_height(surface);
   // An oscillation by a hundredth of the rms height raises the largest pressure by less than a
   // fifth.
-  const auto options = contact(boundary, 1.2 * largest_elastic_pressure(boundary));
+  const auto options = contact(boundary, 1.2 * max_elastic_pressure(boundary));
   const ResidualSurface residual =
       after_first_loading(surface, contact_modulus, pressure, options, amplitude);
   REQUIRE(residual.converged());
@@ -67,7 +67,7 @@ TEST_CASE("Below the hardness nothing flows, and the surface keeps its bits", "[
 TEST_CASE("A first loading that flows less and less ends in the elastic contact",
           "[first_loading]") {
   const Surface surface = rough();
-  const double largest = largest_elastic_pressure(Boundary::periodic);
+  const double largest = max_elastic_pressure(Boundary::periodic);
   const double step = GENERATE(0.04, 0.02, 0.01);
   const auto options = contact(Boundary::periodic, (1 - step) * largest);
   const ResidualSurface residual = after_first_loading(surface, contact_modulus, pressure, options);
@@ -85,7 +85,7 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const double share = GENERATE(0.6, 0.3, 0.1);
   const Surface surface = rough();
-  const auto options = contact(boundary, share * largest_elastic_pressure(boundary));
+  const auto options = contact(boundary, share * max_elastic_pressure(boundary));
   const auto loaded = press(surface, contact_modulus, at_pressure(pressure), options);
   const ResidualSurface residual = after_first_loading(surface, contact_modulus, pressure, options);
   REQUIRE(residual.converged());
@@ -118,7 +118,7 @@ TEST_CASE("The residual surface carries the first load by elasticity alone", "[f
 
 TEST_CASE("Reloading follows the unloading curve up to the first load", "[first_loading]") {
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
-  const auto options = contact(boundary, 0.2 * largest_elastic_pressure(boundary));
+  const auto options = contact(boundary, 0.2 * max_elastic_pressure(boundary));
   const ResidualSurface first = after_first_loading(rough(), contact_modulus, pressure, options);
   REQUIRE(first.converged());
   REQUIRE(first.first_loading.max_plastic_depth > 0);
@@ -139,7 +139,7 @@ TEST_CASE("Reloading follows the unloading curve up to the first load", "[first_
 TEST_CASE("A first loading in steps is a first loading at once", "[first_loading]") {
   const Surface surface = rough();
   const auto options =
-      contact(Boundary::periodic, 0.2 * largest_elastic_pressure(Boundary::periodic));
+      contact(Boundary::periodic, 0.2 * max_elastic_pressure(Boundary::periodic));
   const ResidualSurface at_once =
       after_first_loading(surface, contact_modulus, 2 * pressure, options);
   const ResidualSurface half = after_first_loading(surface, contact_modulus, pressure, options);
@@ -155,23 +155,23 @@ TEST_CASE("An oscillation about the first load stays below the hardness", "[firs
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const Surface surface = rough();
   const double amplitude = 0.03 * rms_height(surface);
-  const auto options = contact(boundary, 0.2 * largest_elastic_pressure(boundary));
+  const auto options = contact(boundary, 0.2 * max_elastic_pressure(boundary));
   const ResidualSurface still = after_first_loading(surface, contact_modulus, pressure, options);
   const ResidualSurface moved =
       after_first_loading(surface, contact_modulus, pressure, options, amplitude);
   REQUIRE(moved.converged());
-  const auto largest_pressure = [&](const ResidualSurface& residual) {
+  const auto max_pressure = [&](const ResidualSurface& residual) {
     const auto mean =
         press(residual.surface, contact_modulus, at_pressure(pressure), elastic(options));
     return press(residual.surface, contact_modulus, at_indentation(mean.indentation + amplitude),
                  elastic(options));
   };
-  const auto top = largest_pressure(moved);
+  const auto top = max_pressure(moved);
   // The load of the oscillation is found to a thousandth; a pressure at the hardness grows no
   // faster than a few times the load.
   CHECK(top.mean_pressure == Approx(moved.first_loading.pressure).epsilon(1e-3));
   CHECK(top.contact_pressure.maxCoeff() < 1.005 * options.hardness);
-  CHECK(largest_pressure(still).contact_pressure.maxCoeff() > 1.03 * options.hardness);
+  CHECK(max_pressure(still).contact_pressure.maxCoeff() > 1.03 * options.hardness);
 }
 
 TEST_CASE("A load that the hardness cannot carry is refused", "[first_loading]") {

@@ -69,12 +69,12 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
     Surface surface;
     Boundary boundary;
     ScaledOperatingPoint target;
-    int most_pairs;
+    int max_pairs;
   };
   int contacts = 0, multilevel_pairs = 0, applications = 0, transform_pairs = 0;
   const Surface square = unit_cells(512, 512, 1);
   const double depth = square.heights.maxCoeff() - square.heights.mean();
-  for (const auto& [surface, boundary, target, most_pairs] :
+  for (const auto& [surface, boundary, target, max_pairs] :
        {Case{square, Boundary::periodic, pressed(0.005), 8},
         Case{square, Boundary::periodic, pressed(0.1), 8},
         Case{square, Boundary::periodic, pressed(1.2), 8},
@@ -93,9 +93,9 @@ TEST_CASE("A contact takes six or seven exact transforms, and is the one that tr
     REQUIRE(multilevel.outcome.converged());
     REQUIRE(exact.outcome.converged());
     CHECK(multilevel.outcome.multilevel_count > 0);
-    CHECK(multilevel.outcome.fft_count <= most_pairs);
+    CHECK(multilevel.outcome.fft_count <= max_pairs);
     CHECK(exact.outcome.multilevel_count == 0);
-    CHECK(exact.outcome.fft_count > most_pairs);
+    CHECK(exact.outcome.fft_count > max_pairs);
     // e_c bounds the misfit of gaps where there is pressure; two solutions to 1e-8 differ in energy
     // by no more than some 1e-8, and in pressures by the root of that.
     const double difference = std::sqrt((multilevel.pressure - exact.pressure).square().sum() /

@@ -42,12 +42,12 @@ class AdhesiveSummits final : public AsperityModel {
   AdhesiveSummits(const SummitEnsemble& ensemble, const Material& material, double nominal_area,
                   const Summit& summit, bool unloading,
                   std::unique_ptr<const detail::HeightDensity> heights);
-  static double least_radius(const Summit& summit, bool unloading);
+  static double min_radius(const Summit& summit, bool unloading);
   template <class Function>
   double over_summits(double separation, double scale, const Function& of_radius) const;
 
   Summit summit_;
-  double count_, least_radius_, least_indentation_;
+  double count_, min_radius_, min_indentation_;
   std::unique_ptr<const detail::HeightDensity> heights_;
 };
 

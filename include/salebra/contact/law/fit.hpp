@@ -103,9 +103,9 @@ struct ExponentialTest {
   double standard_error = 0;        ///< standard error of c, 1/m²
   double significance = 1;          ///< p-value: two-sided probability of at least this |c| if the
                                     ///< law holds
-  double decay_length_closest = 0;  ///< −dū/d ln p of the parabola at the smallest ū of the window,
+  double decay_length_at_min_gap = 0;  ///< −dū/d ln p of the parabola at the smallest ū of the window,
                                     ///< m
-  double decay_length_farthest = 0;  ///< at the largest, m
+  double decay_length_at_max_gap = 0;  ///< at the largest, m
   PressureWindow window;
 
   /// Returns true if the law is rejected at this level. A computed curve has almost no noise, so
@@ -123,9 +123,9 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialTest>) {
                                      "standard error of the quadratic coefficient"});
   visit(&S::significance,
         Quantity{"significance", dimensionless, "probability of so large a bend if the law held"});
-  visit(&S::decay_length_closest, Quantity{"decay_length_closest", length,
+  visit(&S::decay_length_at_min_gap, Quantity{"decay_length_at_min_gap", length,
                                            "local decay length at the close end of the window"});
-  visit(&S::decay_length_farthest, Quantity{"decay_length_farthest", length,
+  visit(&S::decay_length_at_max_gap, Quantity{"decay_length_at_max_gap", length,
                                             "local decay length at the far end of the window"});
   visit(&S::window, Kept{"window", "pressures of the fit"});
 }
@@ -140,18 +140,18 @@ ExponentialTest test_exponential(const ForceCurve& curve,
 /// (16), from F'' at both ends of the window. For a computed curve the residuals are the misfit of
 /// the law, not scatter, so there is no probability.
 struct LawDescription {
-  double law_off_closest =
+  double law_off_at_min_gap =
       0;  ///< (l_local/l)² − 1 at the smallest ū of the window; ∞ if l_local ≤ 0
-  double law_off_farthest = 0;  ///< the same at the largest ū
+  double law_off_at_max_gap = 0;  ///< the same at the largest ū
   bool fair = false;            ///< true if F/l² is within a factor of two of F'' at both ends
 };
 
 constexpr void describe(auto&& visit, std::type_identity<LawDescription>) {
   using enum Dimension;
   using S = LawDescription;
-  visit(&S::law_off_closest, Quantity{"law_off_closest", dimensionless,
+  visit(&S::law_off_at_min_gap, Quantity{"law_off_at_min_gap", dimensionless,
                                       "F/l^2 over F'' at the close end of the window, less 1"});
-  visit(&S::law_off_farthest, Quantity{"law_off_farthest", dimensionless,
+  visit(&S::law_off_at_max_gap, Quantity{"law_off_at_max_gap", dimensionless,
                                        "F/l^2 over F'' at the far end of the window, less 1"});
   visit(&S::fair,
         Quantity{"fair", dimensionless, "whether one decay length describes the curve fairly"});
@@ -159,7 +159,7 @@ constexpr void describe(auto&& visit, std::type_identity<LawDescription>) {
 
 /// Compares l of the fit with the local l at the closest and farthest end of its window, in any
 /// unit.
-LawDescription describe_law(double decay_length, double closest, double farthest);
+LawDescription describe_law(double decay_length, double at_min_gap, double at_max_gap);
 
 /// Sensitivity of the fit to its window: the smallest and largest decay length of fit_exponential
 /// over all runs of consecutive samples that contain at least half of the window, and at least

@@ -40,7 +40,7 @@ Estimate line_load_stress(const std::function<double(double)>& slope, double edg
                           double edge, double r, std::span<const double> breaks = {});
 
 /// An axisymmetric indenter z = f(r), f(0) = 0, and its image g(x) of Eq. (3). Immutable. Lengths
-/// in m. Evaluated at x, r >= 0 up to largest_radius(); beyond: InvalidInput.
+/// in m. Evaluated at x, r >= 0 up to max_radius(); beyond: InvalidInput.
 class IndenterProfile {
  public:
   virtual ~IndenterProfile() = default;
@@ -52,8 +52,8 @@ class IndenterProfile {
   virtual double flat_radius() const { return 0; }
   /// Radius at which the profile ends: beyond it f = ∞ (a punch) or is unknown (a table, the
   /// equator of a sphere).
-  virtual double largest_radius() const { return std::numeric_limits<double>::infinity(); }
-  /// True if the contact stops growing at largest_radius() (the side of a punch), false if it then
+  virtual double max_radius() const { return std::numeric_limits<double>::infinity(); }
+  /// True if the contact stops growing at max_radius() (the side of a punch), false if it then
   /// leaves the known profile.
   virtual bool has_side() const { return false; }
   /// Radii at which f' is not smooth.
@@ -93,7 +93,7 @@ class TabulatedProfile final : public IndenterProfile {
   double image_slope(double x) const override;
   double image_integral(double x) const override;
   double flat_radius() const override;
-  double largest_radius() const override;
+  double max_radius() const override;
   std::vector<double> breaks() const override;
   double contact_radius(double indentation) const override;
   /// Returns the relative change of g(x) when every other point is omitted: an upper estimate of

@@ -32,10 +32,10 @@ struct Adhesion {
 
   double energy(double gap) const;   ///< φ(g), J/m²
   double tension(double gap) const;  ///< φ'(g), Pa
-  double largest_tension() const;    ///< φ'(0), Pa: w/ρ; 2w/ρ for van_der_waals
+  double max_tension() const;    ///< φ'(0), Pa: w/ρ; 2w/ρ for van_der_waals
   /// Upper bound H + φ'(0) of the contact pressure p in a first loading, Pa: touching bodies carry
   /// p − t.
-  double pressure_bound(double hardness) const { return hardness + largest_tension(); }
+  double pressure_bound(double hardness) const { return hardness + max_tension(); }
   bool operator==(const Adhesion&) const = default;
 };
 

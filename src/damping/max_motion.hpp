@@ -14,7 +14,7 @@ namespace salebra::detail {
 
 /// An exponential law is one of a rough surface between some first cells in contact, at about
 /// 10⁻⁴ E*h', and full contact, at about E*h'. No force can be more times that at rest.
-constexpr double most_force_ratio = 1e4;
+constexpr double max_force_ratio = 1e4;
 
 /// The largest amplitude of an exponential law with this decay length, the mean indentation held.
 double possible_amplitude(double decay_length);
@@ -23,7 +23,7 @@ double possible_amplitude(const ContactLaw& law, double rest);
 
 /// Throws InvalidInput, with the amplitude that is possible, where an oscillation takes a contact
 /// that rests at `rest` to pressures that no elastic contact has: an indenter to a mean pressure
-/// above E*, an exponential law to most_force_ratio times its force. A table has an end of its own.
+/// above E*, an exponential law to max_force_ratio times its force. A table has an end of its own.
 /// middle_at   mean indentation under an amplitude
 /// hold        what stays under an amplitude: under a held force an exponential law has no limit;
 ///             without a value the caller has no choice

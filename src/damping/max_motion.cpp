@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The largest normal oscillation that the law of a contact can describe.
-#include "largest_motion.hpp"
+#include "max_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,7 @@ bool is_above_modulus(const IndenterLaw& law, double indentation) {
 }
 
 // The largest number up to `asked` at which nothing is beyond its limit, as nothing is at `possible`.
-double largest_possible(double possible, double asked,
+double max_possible(double possible, double asked,
                         const std::function<bool(double)>& is_beyond) {
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = 0.5 * (possible + asked);
@@ -65,12 +65,12 @@ void require_possible(const IndenterLaw& law, double rest, double amplitude,
       in_words(mean_pressure(law, middle_at(amplitude) + amplitude), Dimension::pressure),
       in_words(law.contact_modulus(), Dimension::pressure));
   require(!is_above_modulus(law, rest), "indentation", rest, beyond + "reduce the load");
-  const double possible = largest_possible(0, amplitude, is_beyond);
+  const double possible = max_possible(0, amplitude, is_beyond);
   require(false, "normal_amplitude", amplitude,
           beyond + fmt::format("at most {} here", in_words(possible, Dimension::length)));
 }
 
-// rest: where the exponential law bears the force of which it holds most_force_ratio times.
+// rest: where the exponential law bears the force of which it holds max_force_ratio times.
 void require_possible_exponential(double length, double rest, double mean, double amplitude,
                                   const char* remedy) {
   const double most = possible_amplitude(length) + (rest - mean);
@@ -78,13 +78,13 @@ void require_possible_exponential(double length, double rest, double mean, doubl
           fmt::format("m takes the force to {:.2g} times that at rest, and an exponential law "
                       "holds up to {:g} times; at most {} here; {}give a `curve` that "
                       "covers the motion",
-                      std::exp((mean + amplitude - rest) / length), most_force_ratio,
+                      std::exp((mean + amplitude - rest) / length), max_force_ratio,
                       in_words(most, Dimension::length), remedy));
 }
 
 }  // namespace
 
-double possible_amplitude(double decay_length) { return decay_length * std::log(most_force_ratio); }
+double possible_amplitude(double decay_length) { return decay_length * std::log(max_force_ratio); }
 
 double possible_amplitude(const ContactLaw& law, double rest) {
   const double length = decay_length_of(law, rest);
@@ -115,9 +115,9 @@ void require_possible(const ContactLaw& law, double mean_indentation, double amp
 
 std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
                                                      std::span<const DampingResult> results) {
-  constexpr double most_ratio = 2;
+  constexpr double max_ratio = 2;
   if (hold == Hold::force) return {};
-  double worst = most_ratio;
+  double worst = max_ratio;
   std::optional<std::string> warning;
   for (const DampingResult& one : results) {
     // Infinite where the contact is open at rest; NaN where it never touches.
@@ -138,7 +138,7 @@ std::optional<std::string> warning_of_held_indentation(std::optional<Hold> hold,
 double possible_indentation(const ContactLaw& law, double rest, double asked) {
   if (const auto* indenter = dynamic_cast<const IndenterLaw*>(&law)) {
     const auto is_beyond = [&](double one) { return is_above_modulus(*indenter, one); };
-    return is_beyond(asked) ? largest_possible(0, asked, is_beyond) : asked;
+    return is_beyond(asked) ? max_possible(0, asked, is_beyond) : asked;
   }
   const double length = decay_length_of(law, rest);
   return std::isfinite(length) ? std::min(asked, rest + possible_amplitude(length)) : asked;
