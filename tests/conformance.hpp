@@ -72,7 +72,7 @@ inline void check_exchange(const Communicator& ranks) {
     for (int other = 0; other < ranks.size(); ++other) {
       const std::size_t length =
           unit * static_cast<std::size_t>(received[static_cast<std::size_t>(other)]);
-      expect(to.substr(unit * static_cast<std::size_t>(plan.received_place(other)), length) ==
+      expect(to.substr(unit * static_cast<std::size_t>(plan.received_offset(other)), length) ==
                  text_of(100 * other + me, length),
              "exchange: other bytes");
     }
@@ -154,8 +154,8 @@ inline void check_groups(const Communicator& ranks) {
   for (int count = 1; count <= ranks.size(); ++count) {
     const Groups groups(ranks, count);
     const std::vector<std::string> places =
-        ranks.gather_all(std::string(1, static_cast<char>('a' + groups.place())));
-    const std::string mine(1, static_cast<char>('a' + groups.place()));
+        ranks.gather_all(std::string(1, static_cast<char>('a' + groups.index())));
+    const std::string mine(1, static_cast<char>('a' + groups.index()));
     expect(std::is_sorted(places.begin(), places.end()) && places.front() == "a" &&
                places.back()[0] == static_cast<char>('a' + count - 1),
            "groups: not of consecutive processes");

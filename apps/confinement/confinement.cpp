@@ -272,7 +272,7 @@ void run_confined(const Hdf5Reading& reading) {
     if (!child.receive(std::as_writable_bytes(std::span(&header, 1)))) refuse_dead(reading, child);
     switch (header.kind) {
       case Header::data:
-        if (!child.receive(reading.place(header.size))) refuse_dead(reading, child);
+        if (!child.receive(reading.location(header.size))) refuse_dead(reading, child);
         break;
       case Header::end:
         return;

@@ -44,7 +44,7 @@ seed_count = 4               # 20 and more for intervals that one may publish
 first_seed = 1               # of consecutive ones
 # seeds = [1, 2, 3, 4]       # instead of seed_count and first_seed
 
-# [ensemble]                 # lists take the place of a key of [surface]: every combination, with all seeds
+# [ensemble]                 # lists take the index of a key of [surface]: every combination, with all seeds
 # hurst = [0.3, 0.5, 0.8]    # also: rolloff, short_cutoff, size_x (cells keep their size), points (the surface keeps its size)
 # target_precision = "2%"    # enough surfaces where the 95 % intervals of l/h_rms and of the area slope are so narrow
 # min_realisations = 8       # before the precision is looked at
@@ -80,7 +80,7 @@ tangential_stiffness = "stick"       # K_t by a solve on each contact; "proporti
 # conductivity = 50          # thermal, W/(m K): one value for both bodies, or two
 # resistivity = 2e-7         # electrical, ohm m: as conductivity
 
-# [adhesion]                 # in place of [damping]: contacts that adhere
+# [adhesion]                 # in index of [damping]: contacts that adhere
 # work_of_adhesion = "50mJ/m^2"  # of both surfaces together
 # range = "5nm"                  # of the attraction; a cell must be short against range^2 E*/work_of_adhesion
 # potential = "exponential"      # or "maugis", "van_der_waals"

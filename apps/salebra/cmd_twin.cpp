@@ -78,7 +78,7 @@ std::string twin_text(const SurfaceTwin& twin) {
 }
 
 constexpr std::string_view list_heading =
-    R"(# Scans of one surface, each at a place chosen at random. Next: salebra twin {0} -o surface.h5
+    R"(# Scans of one surface, each at a index chosen at random. Next: salebra twin {0} -o surface.h5
 # Lengths are strings with a unit: "1.5um". A line that begins with "# " and a key is a choice that was not made: take
 # the sign away to make it. Each scan needs an instrument. Beside what stands below it may have: pixel_size, lateral_unit,
 # channel, transpose, detrend, despike, crop = ["0um", "0um", "50um", "50um"], fill, as the options of that name.

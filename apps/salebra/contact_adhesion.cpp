@@ -27,10 +27,10 @@ struct Branch {
   std::vector<FlowFactors> flow;
   std::vector<CurveColumn> beside;  ///< the curve, of json()
 
-  void add(const Branch& other, std::size_t place) {
-    curve.samples.push_back(other.curve.samples[place]);
-    adhesion.push_back(other.adhesion[place]);
-    if (!other.flow.empty()) flow.push_back(other.flow[place]);
+  void add(const Branch& other, std::size_t index) {
+    curve.samples.push_back(other.curve.samples[index]);
+    adhesion.push_back(other.adhesion[index]);
+    if (!other.flow.empty()) flow.push_back(other.flow[index]);
   }
   Json json(const ContactArguments& arguments) {
     Json columns = to_json(curve);

@@ -122,7 +122,7 @@ struct SurfaceOptions {
   bool given() const { return !file.empty() || !recipe.empty(); }
   /// Read or made, over the processes of the session, and, with --detrend or else as is customary
   /// for its kind, detrended. points: by default filled where they are few, as contacts
-  /// need it, and all with --fill. Warns of cells, sizes and heights that are most likely a slip.
+  /// need it, and all with --fill. Warns of cells, sizes and heights that are most likely a mistake.
   Surface read(Session& session, std::optional<Undefined> points = {}) const {
     return read(session, session.communicator(), points);
   }
@@ -135,7 +135,7 @@ struct SurfaceOptions {
   SurfaceOutline outline(Session& session) const;
 };
 
-/// Cells ten times as long as wide, which are allowed and most likely a slip of the user's hand.
+/// Cells ten times as long as wide, which are allowed and most likely a mistake.
 std::vector<std::string> warnings_of_cells(const Grid2D& grid);
 
 /// Adds its columns under "first_loading", where there was one.

@@ -148,15 +148,15 @@ void write_files(const Session& session, const std::string& group, const Json& a
       ResultFile results(file, session.provenance(), session.write_options());
       write_answer(results, group, answer);
       for (const ResultTable& table : tables) {
-        ResultGroup place = results.group(table.name);
+        ResultGroup location = results.group(table.name);
         const ResultColumn& first = table.columns.front();
-        place.coordinate(first.name, first.values, first.units(), first.long_name());
+        location.coordinate(first.name, first.values, first.units(), first.long_name());
         for (std::size_t k = 1; k < table.columns.size(); ++k) {
           const ResultColumn& column = table.columns[k];
-          place.dataset(column.name, column.values, {first.name}, column.units(),
+          location.dataset(column.name, column.values, {first.name}, column.units(),
                         column.long_name());
         }
-        if (!table.note.empty()) place.attribute("note", table.note);
+        if (!table.note.empty()) location.attribute("note", table.note);
       }
       results.commit();
       break;

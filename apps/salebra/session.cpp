@@ -129,17 +129,17 @@ void Session::warn_of_few_cores() {
 bool Session::stopped() const { return !communicator().all_agree(!interrupted()); }
 
 WriteOptions Session::write_options() const {
-  const std::string place = communicator().alone() ? place_among_tasks() : "";
-  if (!place.empty() && !launch_.mpi.empty())
+  const std::string index = communicator().alone() ? place_among_tasks() : "";
+  if (!index.empty() && !launch_.mpi.empty())
     throw InvalidInput("--output",
                        fmt::format("would be written by each of several tasks, for this is {} "
                                    "and yet alone; start it with the mpirun of its own MPI",
-                                   place));
-  if (!place.empty())
+                                   index));
+  if (!index.empty())
     throw InvalidInput(
         "--output", fmt::format("would be written by each of several tasks, for this is {}; start "
                                 "one, or use salebra-mpi for one surface, study --shard for many",
-                                place));
+                                index));
   return {.overwrite = options_.overwrite};
 }
 

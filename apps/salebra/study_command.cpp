@@ -385,7 +385,7 @@ std::string shards_to_run(const std::vector<std::size_t>& missing,
   const std::size_t count =
       std::ranges::max_element(uses, {}, [](const auto& use) { return use.second; })->first;
   std::set<std::size_t> numbers;
-  for (const std::size_t place : missing) numbers.insert(place % count + 1);
+  for (const std::size_t index : missing) numbers.insert(index % count + 1);
   return fmt::format("run shard{} {} of {} again, or --shard any", numbers.size() == 1 ? "" : "s",
                      ranges_of(numbers), count);
 }

@@ -68,7 +68,7 @@ std::size_t hanging_indent(std::string_view line, std::size_t width) {
 std::string wrapped_line(std::string_view line, std::size_t width) {
   const std::size_t indent = hanging_indent(line, width);
   const bool command = line.substr(line.find_first_not_of(' ')).starts_with("salebra ");
-  const std::size_t room = command ? width - 2 : width;
+  const std::size_t line_width = command ? width - 2 : width;
   std::string text, current(line.substr(0, indent));
   bool empty = true;
   std::size_t begin = indent;
@@ -80,7 +80,7 @@ std::string wrapped_line(std::string_view line, std::size_t width) {
     const std::size_t end = std::min(line.find(' ', start), line.size());
     const std::string blanks(empty ? start - begin : 1, ' ');
     const std::string_view word = line.substr(start, end - start);
-    if (!empty && columns_of(current) + 1 + columns_of(word) > room) {
+    if (!empty && columns_of(current) + 1 + columns_of(word) > line_width) {
       text += current + (command ? " \\\n" : "\n");
       current = std::string(indent, ' ') + std::string(word);
     } else {

@@ -83,11 +83,11 @@ void append(std::string& text, const Json& object, const std::string& name, int 
 /// column.
 std::vector<std::vector<std::size_t>> parts_of(const std::vector<std::size_t>& widths,
                                                std::size_t indent) {
-  const std::size_t room = text_width();
+  const std::size_t line_width = text_width();
   std::vector<std::vector<std::size_t>> parts(1);
   std::size_t used = indent;
   for (std::size_t i = 0; i < widths.size(); ++i) {
-    if (parts.back().size() > (parts.size() > 1 ? 1 : 0) && used + 2 + widths[i] > room) {
+    if (parts.back().size() > (parts.size() > 1 ? 1 : 0) && used + 2 + widths[i] > line_width) {
       parts.push_back({0});
       used = indent + widths[0];
     }

@@ -48,9 +48,9 @@ double rms_slope_of(const Surface& surface, double mean) {
     of_rows.resize(static_cast<std::size_t>(surface.heights.rows()));
   });
   laplacian->apply(
-      [&](int, Index row, double* room) -> const double* {
-        for (Index iy = 0; iy < grid.ny; ++iy) room[iy] = surface.heights(row, iy) - mean;
-        return room;
+      [&](int, Index row, double* buffer) -> const double* {
+        for (Index iy = 0; iy < grid.ny; ++iy) buffer[iy] = surface.heights(row, iy) - mean;
+        return buffer;
       },
       [&](int, Index row, const double* values) {
         double sum = 0;

@@ -22,11 +22,11 @@ Surface surface_of_modes(const Grid2D& grid, const std::vector<FourierMode>& mod
     // Waves with j < 0 are stored by their opposites, those with j = 0 in both places.
     const auto put = [&](Index i, Index j, std::complex<double> amplitude) {
       if (j < 0) return;
-      const auto place = std::size_t((i < 0 ? i + grid.nx : i) * fft.modes_y() + j);
-      require(!given[place] || std::abs(spectrum[place] - amplitude) <= 1e-6 * std::abs(amplitude),
+      const auto position = std::size_t((i < 0 ? i + grid.nx : i) * fft.modes_y() + j);
+      require(!given[position] || std::abs(spectrum[position] - amplitude) <= 1e-6 * std::abs(amplitude),
               "modes", i, "periods along x have two amplitudes that contradict each other");
-      spectrum[place] = amplitude;
-      given[place] = true;
+      spectrum[position] = amplitude;
+      given[position] = true;
     };
     put(mode.i, mode.j, mode.amplitude);
     put(-mode.i, -mode.j, std::conj(mode.amplitude));

@@ -73,7 +73,7 @@ tangential_modulus : float, optional
                   nb::arg("second") = ElasticBody{},
                   "The material of two elastic bodies; at least one of them is not rigid.");
   m.def("_warning_of_pressure", &warning_of_pressure, nb::arg("pressure"), nb::arg("contact_modulus"),
-        "What is most likely a slip in the unit of one of them, or None.");
+        "What is most likely a mistake in the unit of one of them, or None.");
 }
 
 void bind_state(nb::module_& m) {

@@ -264,9 +264,9 @@ InvalidInput
          const ProgressArgument& progress) {
         cite({"popov2015"});
         require_one(indentation.has_value(), "indentation", force.has_value(), "force");
-        const std::vector<double>& places = force ? force->values : indentation->values;
-        const std::size_t count = std::max(places.size(), motions.size());
-        require((places.size() == count || places.size() == 1) &&
+        const std::vector<double>& positions = force ? force->values : indentation->values;
+        const std::size_t count = std::max(positions.size(), motions.size());
+        require((positions.size() == count || positions.size() == 1) &&
                     (motions.size() == count || motions.size() == 1),
                 "motions", motions.size(),
                 "motions for another number of operating points; give one, or as many");
@@ -274,8 +274,8 @@ InvalidInput
         cases.reserve(count);
         std::vector<Motion> described;
         for (std::size_t i = 0; i < count; ++i) {
-          const double place = places[places.size() == 1 ? 0 : i];
-          cases.push_back({force ? at_force(place) : at_indentation(place),
+          const double position = positions[positions.size() == 1 ? 0 : i];
+          cases.push_back({force ? at_force(position) : at_indentation(position),
                            motions[motions.size() == 1 ? 0 : i]});
           described.push_back(motion_of(cases[i].motion));
         }

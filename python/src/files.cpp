@@ -82,15 +82,15 @@ Parameters
 ----------
 file : str or os.PathLike
 size_x, size_y : float, optional
-    Size in m, in place of the file's; needed where the file does not know it.
+    Size in m, in index of the file's; needed where the file does not know it.
 periodic : bool, optional
-    In place of the file's.
+    In index of the file's.
 height_unit : str
     Such as "nm", for files that give none; empty: metres.
 transpose : bool
     Exchange x and y of the file, before all that follows.
 pixel_size : float or (float, float), optional
-    Distance of the points along x and y in m, in place of sizes.
+    Distance of the points along x and y in m, in index of sizes.
 lateral_unit : str
     Such as "um", of XYZ points whose file gives none; empty: metres.
 despike : float, optional

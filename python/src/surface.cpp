@@ -263,7 +263,7 @@ InvalidInput
         R"(Moments by finite differences of neighbouring points, for measured surfaces.
 
 Where the surface has structure at the scale of the grid they are smaller than the spectral moments: a mode of wave number q
-counts with (2 sin(q dx/2)/dx)² in place of q².
+counts with (2 sin(q dx/2)/dx)² in position of q².
 )");
   m.def("surface_moments", &of_surface<surface_moments>, nb::arg("surface"),
         ":func:`spectral_moments` of a periodic surface, :func:`difference_moments` of any other.");
@@ -272,7 +272,7 @@ counts with (2 sin(q dx/2)/dx)² in place of q².
       [](const BoundSurface& surface) {
         return unlocked([&] { return warning_of_heights(surface.surface); });
       },
-      nb::arg("surface"), "What is most likely a slip in the unit of the heights, or None.");
+      nb::arg("surface"), "What is most likely a mistake in the unit of the heights, or None.");
   m.def("detrended", &detrended_surface, nb::arg("surface"), nb::arg("method") = "plane",
         "The surface less its trend, see :meth:`Surface.detrended`.");
   m.def(

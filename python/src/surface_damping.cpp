@@ -130,7 +130,7 @@ curve : ForceCurve, optional
     Of this surface and material, by sweep_pressures(); its loads are the loads of the answer, whose assumptions are not judged. Where it
     has K_t of stick solves, so have the contacts.
 pressures : float or array, optional
-    Nominal pressures, Pa, in place of a curve: one is swept about each.
+    Nominal pressures, Pa, in index of a curve: one is swept about each.
 parameters : ContactParameters, optional
     Friction, hardness, density and the like: a coefficient of friction makes the loss one with slip, a hardness loads the surface
     plastically first, and the assumptions are judged by all.

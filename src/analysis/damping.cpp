@@ -351,9 +351,9 @@ DampingSolution solve(DampingProblem problem, const Context& context) {
     }
     const auto* drag = std::get_if<Drag>(&one.motion);
     if (drag == nullptr) continue;
-    if (const double way = drag->way_per_cycle(); problem.parameters.excursion >= way)
+    if (const double distance = drag->distance_per_cycle(); problem.parameters.excursion >= distance)
       solution.work_there_and_back.push_back(result.work_per_cycle * 2 * problem.parameters.excursion /
-                                             way);
+                                             distance);
     if (!warnings.empty()) continue;
     const ForceCurve* curve = solution.contact.curve ? &*solution.contact.curve : nullptr;
     warnings = warnings_of_path(drag->drag_velocity, drag->angular_frequency,

@@ -18,7 +18,7 @@ std::string why_loss_unknown(const Motion& motion, const ContactParameters& para
   const auto* drag = std::get_if<Drag>(&motion);
   if (drag && std::isnan(parameters.excursion))
     return "with friction the loss of a slow motion depends on its `excursion`; give it";
-  if (drag && parameters.excursion < drag->way_per_cycle())
+  if (drag && parameters.excursion < drag->distance_per_cycle())
     return "the motion turns back within one normal cycle: it is not slow; give a longer "
            "`excursion`, or a motion of equal frequencies";
   return {};

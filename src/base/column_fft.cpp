@@ -195,7 +195,7 @@ class BackwardByColumns {
   void pack(Index k, Index count, const Exchange& plan, const Complex* modes, Index pitch) {
     for (int rank = 0; rank < rows_.communicator().size(); ++rank) {
       const Index first = rows_.begin_of(rank), number = rows_.end_of(rank) - first;
-      Complex* to = sent_.get() + (plan.sent_place(rank) + k * number) * block;
+      Complex* to = sent_.get() + (plan.sent_offset(rank) + k * number) * block;
       for (Index row = first; row < first + number; ++row, to += block) {
         for (Index j = 0; j < count; ++j) to[j] = modes[row + j * pitch];
         std::fill(to + count, to + block, Complex{});
@@ -208,7 +208,7 @@ class BackwardByColumns {
       for (int rank = 0; rank < rows_.communicator().size(); ++rank)
         for (Index k = 0; k < deal_.count(rank, batch); ++k) {
           const Complex* modes =
-              received_.get() + (plan.received_place(rank) + k * rows_.count()) * block;
+              received_.get() + (plan.received_offset(rank) + k * rows_.count()) * block;
           keep(deal_.group(rank, batch, k), begin, end,
                [modes](Index row, Index j) { return modes[row * block + j]; });
         }

@@ -13,9 +13,9 @@ namespace {
 constexpr std::int64_t max_units = 2147483647;
 
 std::vector<std::int64_t> places_of(const std::vector<std::int64_t>& counts) {
-  std::vector<std::int64_t> places(counts.size() + 1, 0);
-  std::partial_sum(counts.begin(), counts.end(), places.begin() + 1);
-  return places;
+  std::vector<std::int64_t> offsets(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), offsets.begin() + 1);
+  return offsets;
 }
 
 // What a process has to say of its failure: a letter for the class, and its parts, each behind a
@@ -83,8 +83,8 @@ Exchange::Exchange(std::size_t unit, std::vector<std::int64_t> sent,
     : unit_(unit),
       sent_(std::move(sent)),
       received_(std::move(received)),
-      sent_places_(places_of(sent_)),
-      received_places_(places_of(received_)) {
+      sent_offsets_(places_of(sent_)),
+      received_offsets_(places_of(received_)) {
   for (const std::int64_t units : {sent_units(), received_units()})
     require(units <= max_units, "exchange", units,
             "must not have more than 2147483647 units in a process; use more processes");
@@ -134,8 +134,8 @@ void Communicator::exchange(const Exchange& plan, const void* from, void* to) co
   if (alone()) {
     std::memcpy(to, from, plan.unit_ * static_cast<std::size_t>(plan.sent_units()));
   } else {
-    transport_->exchange(plan.unit_, from, {plan.sent_, plan.sent_places_}, to,
-                         {plan.received_, plan.received_places_});
+    transport_->exchange(plan.unit_, from, {plan.sent_, plan.sent_offsets_}, to,
+                         {plan.received_, plan.received_offsets_});
   }
 }
 
@@ -147,8 +147,8 @@ Groups::Groups(const Communicator& all, int count) : all_(all), own_(all), count
   require(count >= 1 && count <= all.size(), "groups", count,
           "must lie between 1 and the number of processes");
   if (count == 1) return;
-  place_ = static_cast<int>(std::int64_t{all.rank()} * count / all.size());
-  own_ = all.split(place_);
+  offset_ = static_cast<int>(std::int64_t{all.rank()} * count / all.size());
+  own_ = all.split(offset_);
 }
 
 void collectively(const Communicator& communicator, const std::function<void()>& body) {

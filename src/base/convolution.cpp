@@ -59,7 +59,7 @@ struct Convolution2D<Real>::Passes {
   // those that are their own mirror.
   struct Columns {
     Index low = 0, low_count = 0, high = 0, high_count = 0;
-    Index place = 0;  // of its part in `by_rows`
+    Index position = 0;  // of its part in `by_rows`
     Index count() const { return low_count + high_count; }
     Index index(Index column) const {
       return column < low + low_count ? column - low : low_count + column - high;
@@ -69,7 +69,7 @@ struct Convolution2D<Real>::Passes {
   struct Rows {
     Index first_block = 0, blocks = 0;
     Index stride = 0;  // from one column of its rows to the next
-    Index place = 0;   // of its part in `by_columns`
+    Index position = 0;   // of its part in `by_columns`
   };
   std::vector<Rows> rows_of;  // each process
   Index received = 0;         // numbers from other processes
@@ -139,12 +139,12 @@ struct Convolution2D<Real>::Passes {
       away.push_back(units(rank, me));
       here.push_back(units(me, rank));
       if (rank == me) away.back() = here.back() = 0;
-      columns_of[static_cast<std::size_t>(rank)].place = away_place;
-      rows_of[static_cast<std::size_t>(rank)].place = here_place;
+      columns_of[static_cast<std::size_t>(rank)].position = away_place;
+      rows_of[static_cast<std::size_t>(rank)].position = here_place;
       away_place += gap * away.back();
       here_place += gap * here.back();
     }
-    columns_of[static_cast<std::size_t>(me)].place = away_place;  // behind those of the others
+    columns_of[static_cast<std::size_t>(me)].position = away_place;  // behind those of the others
     received = here_place;
     if (ranks == 1) return;
     to_columns.emplace(gap * sizeof(Complex), away, here);
@@ -165,7 +165,7 @@ struct Convolution2D<Real>::Passes {
   // Points of the transform in this process.
   Index points() const { return mine().blocks * rows_at_once * shape.period_y; }
   std::size_t rows_size() const {
-    return count(my_columns().place + components * my_columns().count() * mine().stride);
+    return count(my_columns().position + components * my_columns().count() * mine().stride);
   }
   std::size_t spectrum_size() const { return rows_size() + count(received); }
   void place_spectrum(Complex* memory) {
@@ -179,7 +179,7 @@ struct Convolution2D<Real>::Passes {
   }
   // Where the numbers of a column lie in the part of the process that has the rows.
   Complex* column(int component, Index index, const Rows& rows) {
-    Complex* part = &rows == &mine() ? by_rows + my_columns().place : by_columns + rows.place;
+    Complex* part = &rows == &mine() ? by_rows + my_columns().position : by_columns + rows.position;
     return part + (component * my_columns().count() + my_columns().index(index)) * rows.stride;
   }
   // body(first column, count of them, where their numbers of a block are to lie) for the columns of
@@ -189,7 +189,7 @@ struct Convolution2D<Real>::Passes {
     const Index stride = mine().stride;
     for (const Columns& some : columns_of) {
       Complex* part =
-          by_rows + some.place + component * some.count() * stride + block * pairs_at_once;
+          by_rows + some.position + component * some.count() * stride + block * pairs_at_once;
       if (some.low + some.low_count == some.high) {
         body(some.low, some.count(), part);
         continue;
@@ -238,7 +238,7 @@ struct Convolution2D<Real>::Passes {
   }
 
   // Room for the work on a block.
-  struct Room {
+  struct Buffers {
     LargeArray<Complex> row, rows;  // one row, and those of all pairs with stride between them
     LargeArray<Real> near, far;     // of the two real rows of a pair
     Index stride;
@@ -251,11 +251,11 @@ struct Convolution2D<Real>::Passes {
     parallel::for_slabs(
         mine().blocks,
         [&](Index begin, Index end) {
-          const Room room{large_array<Complex>(count(stride)),
+          const Buffers buffers{large_array<Complex>(count(stride)),
                           large_array<Complex>(count(pairs_at_once * stride)),
                           large_array<Real>(count(shape.ny)), large_array<Real>(count(shape.ny)),
                           stride};
-          for (Index block = begin; block < end; ++block) body(block, room);
+          for (Index block = begin; block < end; ++block) body(block, buffers);
         },
         points());
   }
@@ -263,30 +263,30 @@ struct Convolution2D<Real>::Passes {
   // source(component, row, room) as RowSource.
   template <class Source>
   void rows_forward(const Source& source) {
-    for_blocks([&](Index block, const Room& room) {
+    for_blocks([&](Index block, const Buffers& buffers) {
       const Index first = block * rows_at_once, paired = pairs(block);
       for (int component = 0; component < components; ++component) {
         for (Index i = 0; i < pairs_at_once; ++i) {
-          Complex* to = room.rows.get() + i * room.stride;
+          Complex* to = buffers.rows.get() + i * buffers.stride;
           const Index row = first + i, partner = row + paired;
-          const Real* near = i < paired ? source(component, row, room.near.get()) : nullptr;
+          const Real* near = i < paired ? source(component, row, buffers.near.get()) : nullptr;
           const Real* far = i < paired && partner < rows_of_all.count()
-                                ? source(component, partner, room.far.get())
+                                ? source(component, partner, buffers.far.get())
                                 : nullptr;
           if (!near && !far) {
             std::fill_n(to, shape.period_y, Complex{});
             continue;
           }
           if (!near) {
-            std::fill_n(room.near.get(), shape.ny, Real(0));
-            near = room.near.get();
+            std::fill_n(buffers.near.get(), shape.ny, Real(0));
+            near = buffers.near.get();
           }
-          kernels.interleave(near, far, shape.ny, real(room.row.get()));
-          std::fill(room.row.get() + shape.ny, room.row.get() + shape.period_y, Complex{});
-          Api::execute(plans->row_forward.get(), raw(room.row.get()), raw(to));
+          kernels.interleave(near, far, shape.ny, real(buffers.row.get()));
+          std::fill(buffers.row.get() + shape.ny, buffers.row.get() + shape.period_y, Complex{});
+          Api::execute(plans->row_forward.get(), raw(buffers.row.get()), raw(to));
         }
         for_columns(component, block, [&](Index first_column, Index number, Complex* to) {
-          kernels.to_columns(real(room.rows.get() + first_column), room.stride, number, real(to),
+          kernels.to_columns(real(buffers.rows.get() + first_column), buffers.stride, number, real(to),
                              mine().stride);
         });
       }
@@ -296,22 +296,22 @@ struct Convolution2D<Real>::Passes {
   // place(component, row, room) says where a row is to be, and done(component, row, values) is told
   // when it is there.
   template <class Place, class Done>
-  void rows_backward(const Place& place, const Done& done) {
-    for_blocks([&](Index block, const Room& room) {
+  void rows_backward(const Place& position, const Done& done) {
+    for_blocks([&](Index block, const Buffers& buffers) {
       const Index first = block * rows_at_once, paired = pairs(block);
       for (int component = 0; component < components; ++component) {
         for_columns(component, block, [&](Index first_column, Index number, const Complex* from) {
-          kernels.to_rows(real(from), mine().stride, number, real(room.rows.get() + first_column),
-                          room.stride);
+          kernels.to_rows(real(from), mine().stride, number, real(buffers.rows.get() + first_column),
+                          buffers.stride);
         });
         for (Index i = 0; i < paired; ++i) {
-          Api::execute(plans->row_backward.get(), raw(room.rows.get() + i * room.stride),
-                       raw(room.row.get()));
+          Api::execute(plans->row_backward.get(), raw(buffers.rows.get() + i * buffers.stride),
+                       raw(buffers.row.get()));
           const Index row = first + i, partner = row + paired;
-          Real* near = place(component, row, room.near.get());
+          Real* near = position(component, row, buffers.near.get());
           Real* far =
-              partner < rows_of_all.count() ? place(component, partner, room.far.get()) : nullptr;
-          kernels.split(real(room.row.get()), shape.ny, near, far);
+              partner < rows_of_all.count() ? position(component, partner, buffers.far.get()) : nullptr;
+          kernels.split(real(buffers.row.get()), shape.ny, near, far);
           done(component, row, near);
           if (far) done(component, partner, far);
         }
@@ -426,10 +426,10 @@ struct Convolution2D<Real>::Passes {
       symbol[t] = tables[t].values.get() + j * table_rows();
       sign[t] = odd_along_x(tables[t].parity) ? Real(-1) : Real(1);
     }
-    const auto at = [&](Index place, Index i, Real s0, Real s1, Real s2) {
-      const Complex x = first[place], y = second[place];
-      first[place] = s0 * symbol[0][i] * x + s1 * symbol[1][i] * y;
-      second[place] = s1 * symbol[1][i] * x + s2 * symbol[2][i] * y;
+    const auto at = [&](Index position, Index i, Real s0, Real s1, Real s2) {
+      const Complex x = first[position], y = second[position];
+      first[position] = s0 * symbol[0][i] * x + s1 * symbol[1][i] * y;
+      second[position] = s1 * symbol[1][i] * x + s2 * symbol[2][i] * y;
     };
     for (Index i = 0; i < table_rows(); ++i) at(i, i, 1, 1, 1);
     for (Index i = 1; i < shape.period_x - shape.period_x / 2; ++i)
@@ -441,7 +441,7 @@ struct Convolution2D<Real>::Passes {
   }
 
   template <class Source, class Place, class Done>
-  void apply(const Source& source, const Place& place, const Done& done) {
+  void apply(const Source& source, const Place& position, const Done& done) {
     for (int t = 0; t < (components == 1 ? 1 : 3); ++t)
       if (tables[static_cast<std::size_t>(t)].values == nullptr)
         set_symbol(t / 2, t - t / 2, [](Index, Index) { return 0.0; }, Parity::even);
@@ -453,7 +453,7 @@ struct Convolution2D<Real>::Passes {
     if (to_columns) rows_of_all.communicator().exchange(*to_columns, by_rows, by_columns);
     columns();
     if (to_rows) rows_of_all.communicator().exchange(*to_rows, by_columns, by_rows);
-    rows_backward(place, done);
+    rows_backward(position, done);
   }
 
   void apply(const Real* const* fields, Real* const* results) {
@@ -502,7 +502,7 @@ void Convolution2D<Real>::apply(const Real* field, Real* result) {
 
 template <class Real>
 void Convolution2D<Real>::apply(const RowSource& source, const RowSink& sink) {
-  passes_->apply(source, [](int, Index, Real* room) { return room; }, sink);
+  passes_->apply(source, [](int, Index, Real* buffers) { return buffer; }, sink);
 }
 
 template <class Real>

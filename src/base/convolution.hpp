@@ -64,7 +64,7 @@ class Convolution2D {
 
   /// Where the ny numbers of a row of a component are: in `room`, which takes ny numbers, or
   /// elsewhere; nullptr: all are zero.
-  using RowSource = std::function<const Real*(int component, Index row, Real* room)>;
+  using RowSource = std::function<const Real*(int component, Index row, Real* buffer)>;
   /// Takes the ny numbers of a row of a component of the result, which are gone afterwards.
   using RowSink = std::function<void(int component, Index row, const Real* values)>;
   /// Fields and results that are nowhere as a whole: each row is asked for once and handed over

@@ -111,15 +111,15 @@ void RowExchange::operator()(const void* rows, std::size_t row_stride, void* win
 
 std::vector<const void*> RowExchange::fetch(const void* rows, std::size_t row_stride,
                                             std::size_t row_bytes,
-                                            std::vector<std::byte>& room) const {
-  room = receive(rows, row_stride, row_bytes);
-  std::vector<const void*> places(static_cast<std::size_t>(count_), nullptr);
+                                            std::vector<std::byte>& buffer) const {
+  buffer = receive(rows, row_stride, row_bytes);
+  std::vector<const void*> offsets(static_cast<std::size_t>(count_), nullptr);
   for (const Move& move : own_)
-    places[static_cast<std::size_t>(move.to)] =
+    offsets[static_cast<std::size_t>(move.to)] =
         row_at(static_cast<const std::byte*>(rows), move.from, row_stride);
   for (std::size_t k = 0; k < received_.size(); ++k)
-    places[static_cast<std::size_t>(received_[k])] = room.data() + k * row_bytes;
-  return places;
+    offsets[static_cast<std::size_t>(received_[k])] = buffer.data() + k * row_bytes;
+  return offsets;
 }
 
 Field gathered(const RowPartition& rows, const Field& mine, int root) {
@@ -207,16 +207,16 @@ void visit_groups(const Batches& batches, Index first, Index width, const Part& 
               pitch = (rows + in_line - 1) / in_line * in_line, group = batches.group;
   parallel::for_slabs((width + group - 1) / group, [&](Index begin, Index end) {
     const auto columns = large_array<Value>(static_cast<std::size_t>(group * pitch));
-    const auto room = large_array<Value>(static_cast<std::size_t>(group));
+    const auto buffer = large_array<Value>(static_cast<std::size_t>(group));
     for (Index k = begin; k < end; ++k) {
-      const Index place = k * group, count = std::min(group, width - place);
+      const Index offset = k * group, count = std::min(group, width - offset);
       for (Index row = 0; row < rows; ++row) {
-        const Value* values = part(row, place, count, room.get());
+        const Value* values = part(row, offset, count, buffer.get());
         for (Index j = 0; j < count; ++j)
           columns[static_cast<std::size_t>(j * pitch + row)] = values[j];
       }
       for (Index j = 0; j < count; ++j)
-        visit(first + place + j,
+        visit(first + offset + j,
               std::span<Value>(columns.get() + j * pitch, static_cast<std::size_t>(rows)));
     }
   });
@@ -232,9 +232,9 @@ void visit_columns(const RowPartition& rows, const RowPartition& columns,
   if (communicator.alone())
     return visit_groups<Value>(
         Batches(rows, columns), 0, columns.rows(),
-        [&](Index row, Index first, Index count, Value* room) {
-          read(row, first, count, room);
-          return room;
+        [&](Index row, Index first, Index count, Value* buffer) {
+          read(row, first, count, buffer);
+          return buffer;
         },
         visit);
   const Batches batches(rows, columns);
@@ -252,7 +252,7 @@ void visit_columns(const RowPartition& rows, const RowPartition& columns,
           if (const Index width = batches.width(rank, batch); width > 0)
             for (Index row = begin; row < end; ++row)
               read(row, batches.first(rank, batch), width,
-                   sent.get() + plan.sent_place(rank) + row * width);
+                   sent.get() + plan.sent_offset(rank) + row * width);
       });
     });
     communicator.exchange(plan, sent.get(), received.get());

@@ -84,13 +84,13 @@ struct Register {
   static constexpr int lanes = bytes / static_cast<int>(sizeof(Real)),
                        in_eight = 16 / lanes;  // registers that eight numbers take
 
-  static SALEBRA_INLINE Vector load(const Real* place) {
+  static SALEBRA_INLINE Vector load(const Real* offset) {
     Vector numbers;
-    __builtin_memcpy(&numbers, place, bytes);
+    __builtin_memcpy(&numbers, offset, bytes);
     return numbers;
   }
-  static SALEBRA_INLINE void store(Vector numbers, Real* place) {
-    __builtin_memcpy(place, &numbers, bytes);
+  static SALEBRA_INLINE void store(Vector numbers, Real* offset) {
+    __builtin_memcpy(offset, &numbers, bytes);
   }
   // Real and imaginary parts exchanged.
   static SALEBRA_INLINE Vector swapped(Vector v) {

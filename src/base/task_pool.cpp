@@ -83,7 +83,7 @@ class TaskPool {
     // The calling thread takes the first task itself.
     call(loop, loop.count_ - 1);
     for (;;) {
-      if (loop.has_room()) {
+      if (loop.accepts_more()) {
         take_part(loop, lock);
       } else if (loop.running_ == 0) {
         break;
@@ -118,7 +118,7 @@ class TaskPool {
     };
     TaskLoop* best = nullptr;
     for (TaskLoop* loop : open_)
-      if (loop->depth_ >= min_depth && loop->has_room() && (!best || rank(*loop) > rank(*best)))
+      if (loop->depth_ >= min_depth && loop->accepts_more() && (!best || rank(*loop) > rank(*best)))
         best = loop;
     return best;
   }
@@ -137,7 +137,7 @@ class TaskPool {
     // Its caller may have to be told, or takes the task that there is room for now.
     for (std::size_t k = 0; k < free_.size(); ++k)
       if (free_[k]->own == &loop) return release(k);
-    if (loop.has_room()) call(loop, 1);
+    if (loop.accepts_more()) call(loop, 1);
   }
 
   /// Wakes so many free threads for a loop.

@@ -57,7 +57,7 @@ class TaskLoop {
  private:
   friend class TaskPool;
 
-  bool has_room() const { return next_ < count_ && running_ < most_ && !stopped_ && !closed_; }
+  bool accepts_more() const { return next_ < count_ && running_ < most_ && !stopped_ && !closed_; }
   void one_by_one();
   void perform(Index task);
   void keep_failure();

@@ -67,7 +67,7 @@ std::vector<std::size_t> loads_of(const Groups& groups, std::size_t count) {
   std::vector<std::size_t> mine;
   for (std::size_t back = 0; back < count; ++back) {
     const int turn = static_cast<int>(back % (2 * static_cast<std::size_t>(groups.count())));
-    if (std::min(turn, 2 * groups.count() - 1 - turn) == groups.place())
+    if (std::min(turn, 2 * groups.count() - 1 - turn) == groups.index())
       mine.push_back(count - 1 - back);
   }
   return mine;
@@ -81,7 +81,7 @@ void validate(const std::vector<double>& pressures) {
   }
 }
 
-void require_room(const Surface& surface, const SweepOptions& options, const Groups& groups,
+void require_memory_of_sweep(const Surface& surface, const SweepOptions& options, const Groups& groups,
                   int concurrent) {
   // A stick solve follows a contact whose fields are still there.
   const double each =
@@ -137,7 +137,7 @@ ForceCurve sweep_pressures(const Surface& surface, const Material& material,
                      : options.concurrent_loads > 0 ? options.concurrent_loads
                                                     : parallel::threads();
   const int concurrent = std::max(1, std::min({wanted, loads, parallel::threads()}));
-  require_room(surface, options, groups, concurrent);
+  require_memory_of_sweep(surface, options, groups, concurrent);
   Samples samples(pressures.size());
   SweepOptions inner = options;
   const Progress& on_progress = options.contact.on_progress;

@@ -353,12 +353,12 @@ class ClosedLevels {
   ClosedLevels(const ContactLaw& law, double bottom, double amplitude, double displacement)
       : law_(law),
         bottom_(bottom),
-        way_per_cycle_(2 * pi * displacement),
+        distance_per_cycle_(2 * pi * displacement),
         levels_(amplitude, displacement),
         // A little beyond, for levels that all touch at once.
         depth_(1.001 * depth_of_share(law, bottom, 1e-9)) {}
 
-  double way_per_cycle() const { return way_per_cycle_; }
+  double distance_per_cycle() const { return distance_per_cycle_; }
   // The loss on a way, by the stretches δ_min − ζ of the levels.
   double loss(double excursion) const {
     constexpr int cells = 256;
@@ -369,14 +369,14 @@ class ClosedLevels {
       const double end = depth * (i + 1) / cells;
       const double below = law_.tangential_stiffness(bottom_ - end);
       const double stretch = depth * (i + 0.5) / cells;
-      sum += (above - below) * levels_.loss_of_way(stretch, excursion);
+      sum += (above - below) * levels_.loss_over_distance(stretch, excursion);
       above = below;
     }
     return sum;
   }
   // Mean over the normal cycles of the way.
   double loss_per_cycle(double excursion) const {
-    return loss(excursion) * way_per_cycle_ / excursion;
+    return loss(excursion) * distance_per_cycle_ / excursion;
   }
 
   // What the turning points leave of the loss of levels that open. cost: cost_of_turning(), two
@@ -394,15 +394,15 @@ class ClosedLevels {
       if (relaxation > 0) return slip / relaxation;
       return slip > negligible * excursion * excursion ? infinity : 0;
     };
-    Limits found = first_crossings(change, way_per_cycle_, longest + way_per_cycle_);
+    Limits found = first_crossings(change, distance_per_cycle_, longest + distance_per_cycle_);
     for (double* limit : {&found.five, &found.twenty})
-      if (*limit <= way_per_cycle_) *limit = 0;
+      if (*limit <= distance_per_cycle_) *limit = 0;
     return found;
   }
 
  private:
   const ContactLaw& law_;
-  double bottom_, way_per_cycle_;
+  double bottom_, distance_per_cycle_;
   detail::SlidingLevels levels_;
   double depth_;
 };
@@ -467,14 +467,14 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
 double cost_of_turning(const ContactLaw& law, double mean, double amplitude) {
   constexpr int cells = 360;
   const double closed = law.tangential_stiffness(mean - amplitude);
-  double squares = 0, ways = 0;
+  double squares = 0, distances = 0;
   for (int i = 0; i < cells; ++i) {
     const double angle = pi * (i + 0.5) / cells;
     const double opening = law.tangential_stiffness(mean + amplitude * std::cos(angle)) - closed;
     squares += angle * angle * opening;
-    ways += angle * opening;
+    distances += angle * opening;
   }
-  return ways > no_loss * cells * closed ? squares / (pi * ways) : 0;
+  return distances > no_loss * cells * closed ? squares / (pi * distances) : 0;
 }
 
 Assumption slow_motion_of(const ContactLaw& law, const JudgedMotion& motion,
@@ -822,16 +822,16 @@ Loss loss_with_slip(const ContactLaw& given, double mean_indentation, const Osci
     const SpringLoss loss = Springs(law, *one.path, true, 2 * displacement).at(displacement);
     return loss_of(loss.total - loss.permanent, loss.permanent);
   }
-  const double bottom = mean_indentation - one.amplitude, way = 2 * pi * displacement;
-  double relaxation = Springs(law, *one.path, false, way).at(displacement).total, slip = 0;
+  const double bottom = mean_indentation - one.amplitude, distance = 2 * pi * displacement;
+  double relaxation = Springs(law, *one.path, false, distance).at(displacement).total, slip = 0;
   if (!std::isnan(excursion)) {
     const ClosedLevels closed(law, bottom, one.amplitude, displacement);
     relaxation *= closed.kept(cost_of_turning(law, one.mean, one.amplitude), excursion / limit);
     slip = closed.loss_per_cycle(excursion / limit);
   } else if (law.tangential_stiffness(bottom) > 0) {
     // Forty F/K below its edge an exponential contact has nothing left.
-    const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + way;
-    slip = Springs(law, *one.path, true, ahead + way).at(displacement, ahead).permanent;
+    const double ahead = 40 * law.force(bottom) / law.normal_stiffness(bottom) + distance;
+    slip = Springs(law, *one.path, true, ahead + distance).at(displacement, ahead).permanent;
   }
   return loss_of(relaxation, slip);
 }
@@ -879,7 +879,7 @@ RegimeMap regime_map(const ContactLaw& given, double mean_indentation,
     std::vector<Regime>& regimes = map.regime.emplace_back();
     for (Index j = 0; j < columns; ++j) {
       const double excursion = excursions[static_cast<std::size_t>(j)] / limit;
-      if (excursion < closed.way_per_cycle()) {
+      if (excursion < closed.distance_per_cycle()) {
         regimes.push_back(Regime::unknown);
         continue;
       }

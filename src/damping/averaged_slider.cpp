@@ -40,9 +40,9 @@ MeanFriction::MeanFriction(const SliderContact& contact, double friction_coeffic
 double MeanFriction::at(double velocity) const {
   if (velocity >= critical_velocity_ || values_.size() == 1) return values_.back();
   const auto pieces = static_cast<double>(values_.size() - 1);
-  const double place = pieces * std::sqrt(std::max(velocity, 0.0) / critical_velocity_);
-  const auto left = std::min(static_cast<std::size_t>(place), values_.size() - 2);
-  const double t = place - static_cast<double>(left), u = 1 - t;
+  const double position = pieces * std::sqrt(std::max(velocity, 0.0) / critical_velocity_);
+  const auto left = std::min(static_cast<std::size_t>(position), values_.size() - 2);
+  const double t = position - static_cast<double>(left), u = 1 - t;
   return u * u * (1 + 2 * t) * values_[left] + t * t * (1 + 2 * u) * values_[left + 1] +
          t * u * (u * slopes_[left] - t * slopes_[left + 1]) / pieces;
 }

@@ -89,7 +89,7 @@ class CycleRun {
     }
   }
 
-  CycleResult go(bool first_is_steady) {
+  CycleResult run(bool first_is_steady) {
     const int steps = options_.steps;
     result_.termination = Termination::converged;
     bool sampled = options_.resume != nullptr;  // whether the step k has its sample already
@@ -206,7 +206,7 @@ class CycleRun {
 
 CycleResult run_cycle(CycleBody& body, const Grid2D& grid, const Trajectory& trajectory,
                       const CycleOptions& options, bool first_is_steady) {
-  return CycleRun(body, grid, trajectory, options).go(first_is_steady);
+  return CycleRun(body, grid, trajectory, options).run(first_is_steady);
 }
 
 }  // namespace detail

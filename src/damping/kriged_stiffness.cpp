@@ -28,10 +28,10 @@ constexpr Index trend_terms = 3;
 constexpr double prior_width = 1.5;
 
 /// The interval of decreasing places in which one lies, and its share of the way through it.
-std::pair<Index, double> interval_of(const VectorXd& places, double indentation) {
-  const auto after = std::upper_bound(places.begin(), places.end(), indentation, std::greater());
-  const Index i = std::clamp<Index>(after - places.begin() - 1, 0, places.size() - 2);
-  const double share = (indentation - places(i)) / (places(i + 1) - places(i));
+std::pair<Index, double> interval_of(const VectorXd& positions, double indentation) {
+  const auto after = std::upper_bound(positions.begin(), positions.end(), indentation, std::greater());
+  const Index i = std::clamp<Index>(after - positions.begin() - 1, 0, positions.size() - 2);
+  const double share = (indentation - positions(i)) / (positions(i + 1) - positions(i));
   return {i, std::clamp(share, 0.0, 1.0)};
 }
 
@@ -53,60 +53,60 @@ ArrayXXd VarianceScales::probability() const {
 }
 
 std::pair<Index, Index> VarianceScales::best() const {
-  std::pair<Index, Index> place;
-  log_probability_.maxCoeff(&place.first, &place.second);
-  return place;
+  std::pair<Index, Index> position;
+  log_probability_.maxCoeff(&position.first, &position.second);
+  return position;
 }
 
-KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, VectorXd places)
-    : places_(std::move(places)) {
+KrigedStiffness::KrigedStiffness(const std::vector<StiffnessSample>& samples, VectorXd positions)
+    : positions_(std::move(positions)) {
   const StiffnessSample &high = samples.front(), &low = samples.back();
   half_ = (high.indentation - low.indentation) / 2;
   corrections_ = VectorXd::NullaryExpr(static_cast<Index>(samples.size()), [&](Index k) {
     return samples[static_cast<std::size_t>(k)].force_correction;
   });
-  const VectorXd x = (places_.array() - (high.indentation + low.indentation) / 2) / half_;
-  const Said said = said_by(samples);
-  set_covariances(samples, x, said);
-  values_ = said.values / bend_;
-  trend_ = MatrixXd(places_.size(), trend_terms);
+  const VectorXd x = (positions_.array() - (high.indentation + low.indentation) / 2) / half_;
+  const Observations observations = observations_of(samples);
+  set_covariances(samples, x, observations);
+  values_ = observations.values / bend_;
+  trend_ = MatrixXd(positions_.size(), trend_terms);
   for (Index power = 0; power < trend_terms; ++power)
     trend_.col(power) = x.array().pow(static_cast<double>(power));
-  find_contrasts(said.operators * trend_);
+  find_contrasts(observations.operators * trend_);
   find_scales();
   predict(samples[samples.size() / 2]);
 }
 
-KrigedStiffness::Said KrigedStiffness::said_by(const std::vector<StiffnessSample>& samples) const {
+KrigedStiffness::Observations KrigedStiffness::observations_of(const std::vector<StiffnessSample>& samples) const {
   const auto count = static_cast<Index>(samples.size());
-  const Index size = places_.size(), data = 2 * count - 1;
-  Said said{MatrixXd::Zero(data, size), VectorXd(data), VectorXd(size)};
+  const Index size = positions_.size(), data = 2 * count - 1;
+  Observations observations{MatrixXd::Zero(data, size), VectorXd(data), VectorXd(size)};
   Index at = 0;
   for (Index k = 0; k < count; ++k) {
     const StiffnessSample& sample = samples[static_cast<std::size_t>(k)];
     const Index begin = at;
-    while (at + 1 < size && std::abs(places_(at + 1) - sample.indentation) <=
-                                std::abs(places_(at) - sample.indentation))
+    while (at + 1 < size && std::abs(positions_(at + 1) - sample.indentation) <=
+                                std::abs(positions_(at) - sample.indentation))
       ++at;
-    said.operators(count - 1 + k, at) = 1;
-    said.values(count - 1 + k) = sample.stiffness;
-    said.entered(at) = sample.cells;
+    observations.operators(count - 1 + k, at) = 1;
+    observations.values(count - 1 + k) = sample.stiffness;
+    observations.entered(at) = sample.cells;
     if (k == 0) continue;
     const StiffnessSample& above = samples[static_cast<std::size_t>(k - 1)];
     for (Index i = begin; i < at; ++i) {
-      const double width = (places_(i) - places_(i + 1)) / half_;
-      said.operators(k - 1, i) += width / 2;
-      said.operators(k - 1, i + 1) += width / 2;
-      const double share = (places_(begin) - places_(i + 1)) / (places_(begin) - places_(at));
-      said.entered(i + 1) = above.cells + share * (sample.cells - above.cells);
+      const double width = (positions_(i) - positions_(i + 1)) / half_;
+      observations.operators(k - 1, i) += width / 2;
+      observations.operators(k - 1, i + 1) += width / 2;
+      const double share = (positions_(begin) - positions_(i + 1)) / (positions_(begin) - positions_(at));
+      observations.entered(i + 1) = above.cells + share * (sample.cells - above.cells);
     }
-    said.values(k - 1) = (above.force - sample.force) / half_;
+    observations.values(k - 1) = (above.force - sample.force) / half_;
   }
-  return said;
+  return observations;
 }
 
 void KrigedStiffness::set_covariances(const std::vector<StiffnessSample>& samples,
-                                      const VectorXd& x, const Said& said) {
+                                      const VectorXd& x, const Observations& observations) {
   const StiffnessSample &high = samples.front(), &low = samples.back(),
                         &middle = samples[samples.size() / 2];
   const Index size = x.size();
@@ -131,14 +131,14 @@ void KrigedStiffness::set_covariances(const std::vector<StiffnessSample>& sample
     return apart > 0 ? of_spots * apart * apart * std::log(apart) : 0.0;
   });
   // A group that did not enter by chance may as well have done so.
-  const VectorXd entered = said.entered + group * x;
+  const VectorXd entered = observations.entered + group * x;
   const MatrixXd cells = MatrixXd::NullaryExpr(size, size, [&](Index i, Index k) {
     return together * step * step * variance *
            std::exp(-std::abs(entered(i) - entered(k)) / (2 * variance));
   });
-  spots_to_samples_ = said.operators * spots_;
-  of_spots_ = spots_to_samples_ * said.operators.transpose();
-  of_cells_ = said.operators * cells * said.operators.transpose();
+  spots_to_samples_ = observations.operators * spots_;
+  of_spots_ = spots_to_samples_ * observations.operators.transpose();
+  of_cells_ = observations.operators * cells * observations.operators.transpose();
 }
 
 void KrigedStiffness::find_contrasts(const MatrixXd& trend) {
@@ -176,10 +176,10 @@ void KrigedStiffness::predict(const StiffnessSample& middle) {
   stiffness_ = bend_ * (parabola * (values_ - best_of_spots_ * (of_spots_ * beyond) -
                                     best_of_cells_ * (of_cells_ * beyond)) +
                         best_of_spots_ * (spots_to_samples_.transpose() * beyond));
-  force_ = VectorXd::Zero(places_.size());
-  for (Index i = 0; i + 1 < places_.size(); ++i)
+  force_ = VectorXd::Zero(positions_.size());
+  for (Index i = 0; i + 1 < positions_.size(); ++i)
     force_(i + 1) =
-        force_(i) - (stiffness_(i) + stiffness_(i + 1)) / 2 * (places_(i) - places_(i + 1));
+        force_(i) - (stiffness_(i) + stiffness_(i + 1)) / 2 * (positions_(i) - positions_(i + 1));
   force_.array() += middle.force - force(middle.indentation);
 }
 
@@ -232,20 +232,20 @@ double KrigedStiffness::solver_error(const VectorXd& weights) const {
 }
 
 VectorXd KrigedStiffness::weights_at(double indentation) const {
-  const auto [i, share] = interval_of(places_, indentation);
-  VectorXd weights = VectorXd::Zero(places_.size());
+  const auto [i, share] = interval_of(positions_, indentation);
+  VectorXd weights = VectorXd::Zero(positions_.size());
   weights(i) = 1 - share;
   weights(i + 1) = share;
   return weights;
 }
 
 double KrigedStiffness::stiffness(double indentation) const {
-  const auto [i, share] = interval_of(places_, indentation);
+  const auto [i, share] = interval_of(positions_, indentation);
   return (1 - share) * stiffness_(i) + share * stiffness_(i + 1);
 }
 
 double KrigedStiffness::force(double indentation) const {
-  const auto [i, share] = interval_of(places_, indentation);
+  const auto [i, share] = interval_of(positions_, indentation);
   return (1 - share) * force_(i) + share * force_(i + 1);
 }
 

@@ -59,7 +59,7 @@ class KrigedStiffness {
  public:
   /// samples  from the highest indentation to the lowest, at least three
   /// places   indentations at which K is given, decreasing, with those of the samples among them
-  KrigedStiffness(const std::vector<StiffnessSample>& samples, Eigen::VectorXd places);
+  KrigedStiffness(const std::vector<StiffnessSample>& samples, Eigen::VectorXd positions);
 
   /// What VarianceScales::add() takes.
   const Eigen::ArrayXXd& log_likelihood() const { return log_likelihood_; }
@@ -79,15 +79,15 @@ class KrigedStiffness {
 
  private:
   /// What the samples say of K at the places, all in the units of K: F differs by the mean of K.
-  struct Said {
+  struct Observations {
     Eigen::MatrixXd operators;
     Eigen::VectorXd values;
     Eigen::VectorXd entered;  // cells that touch, at the places
   };
-  Said said_by(const std::vector<StiffnessSample>& samples) const;
+  Observations observations_of(const std::vector<StiffnessSample>& samples) const;
   // The steps of the constructor, in their order. x: places, from −1 to 1.
   void set_covariances(const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& x,
-                       const Said& said);
+                       const Observations& observations);
   void find_contrasts(const Eigen::MatrixXd& trend);  // powers at the samples
   void find_scales();
   void predict(const StiffnessSample& middle);
@@ -103,7 +103,7 @@ class KrigedStiffness {
 
   double bend_, half_;
   double best_of_spots_, best_of_cells_;
-  Eigen::VectorXd places_, stiffness_, force_, values_;
+  Eigen::VectorXd positions_, stiffness_, force_, values_;
   Eigen::VectorXd corrections_;          // of the forces of the samples
   Eigen::MatrixXd trend_;                // powers at the places
   Eigen::MatrixXd fit_;                  // coefficients of the parabola from the samples

@@ -26,20 +26,20 @@ SlidingLevels::SlidingLevels(double swing, double speed) : rise_(swing * mean_ri
   // + x in two cycles after a first. Later ones are greater by the way, and decide no minimum.
   constexpr std::size_t phases = 240;
   const double step = 2 * pi * speed / phases;
-  std::array<double, 2 * phases> place;
+  std::array<double, 2 * phases> position;
   double stretch = 0;
   for (std::size_t i = 0; i < 3 * phases; ++i) {
     stretch = std::min(swing * (1 - std::cos(2 * pi * double(i) / phases)), stretch + step);
-    if (i >= phases) place[i - phases] = stretch + double(i - phases) * step;
+    if (i >= phases) position[i - phases] = stretch + double(i - phases) * step;
   }
-  double least = place.back();
-  for (std::size_t i = place.size(); i-- > 0;) {
-    least = std::min(least, place[i]);
-    if (i < phases) back_ += (place[i] - least) / phases;
+  double least = position.back();
+  for (std::size_t i = position.size(); i-- > 0;) {
+    least = std::min(least, position[i]);
+    if (i < phases) back_ += (position[i] - least) / phases;
   }
 }
 
-double SlidingLevels::loss_of_way(double min_stretch, double excursion) const {
+double SlidingLevels::loss_over_distance(double min_stretch, double excursion) const {
   const double mean = min_stretch + rise_;
   return std::max(0.0,
                   mean * (excursion - 2 * mean) + (2 * min_stretch + 4.0 / 3 * rise_) * back_);
@@ -58,7 +58,7 @@ LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion
       excursion_(excursion) {
   if (const auto* drag = std::get_if<Drag>(&motion)) {
     const double speed = std::abs(drag->drag_velocity) / drag->angular_frequency;
-    way_ = drag->way_per_cycle();
+    distance_ = drag->distance_per_cycle();
     closed_.emplace(stretch * amplitude_, speed);
     depth_ = closed_->deepest(excursion) / stretch;
   } else {
@@ -94,7 +94,7 @@ double LevelLoss::operator()(double level) const {
     return closed_ ? loss * (1 - closed_->turning_share(excursion_) * half / pi) : loss;
   }
   if (!closed_) return followed(level, pi, 2);
-  return closed_->loss_of_way(stretch_ * (-amplitude_ - level), excursion_) * way_ / excursion_;
+  return closed_->loss_over_distance(stretch_ * (-amplitude_ - level), excursion_) * distance_ / excursion_;
 }
 
 // ∮s dx of a spring that touches from −half to half, in the last of the periods: exact for straight
@@ -111,15 +111,15 @@ double LevelLoss::followed(double level, double half, int periods) const {
     for (int i = 1; i <= steps; ++i) {
       const double angle = half * (2.0 * i / steps - 1);
       const double next_x = displacement(angle), next_limit = limit_at(angle);
-      const double way = next_x - x, stuck = stretch + way;
+      const double distance = next_x - x, stuck = stretch + distance;
       if (std::abs(stuck) <= next_limit) {
-        work += (stretch + stuck) / 2 * way;
+        work += (stretch + stuck) / 2 * distance;
         stretch = stuck;
       } else {
         const double side = stuck > 0 ? 1 : -1;
-        const double share = (limit - side * stretch) / (side * way - (next_limit - limit));
-        const double slips = stretch + share * way, end = side * next_limit;
-        work += way * (share * (stretch + slips) + (1 - share) * (slips + end)) / 2;
+        const double share = (limit - side * stretch) / (side * distance - (next_limit - limit));
+        const double slips = stretch + share * distance, end = side * next_limit;
+        work += distance * (share * (stretch + slips) + (1 - share) * (slips + end)) / 2;
         stretch = end;
       }
       x = next_x, limit = next_limit;

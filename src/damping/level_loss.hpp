@@ -25,7 +25,7 @@ class SlidingLevels {
   /// of a level that touches from −θ to θ, θ/π times it.
   double turning_share(double excursion) const { return (2 * rise_ - 4.0 / 3 * back_) / excursion; }
   /// W, m²; 0 where it is not above 0.
-  double loss_of_way(double min_stretch, double excursion) const;
+  double loss_over_distance(double min_stretch, double excursion) const;
   /// e of the deepest level that slips, where W is 0.
   double deepest(double excursion) const;
 
@@ -58,7 +58,7 @@ class LevelLoss {
 
   Oscillation motion_;
   double amplitude_, stretch_, excursion_;
-  double way_ = 0;                            // of a drag in a normal cycle, m
+  double distance_ = 0;                            // of a drag in a normal cycle, m
   std::optional<SlidingLevels> closed_ = {};  // of a drag
   double depth_ = 0, steepest_ = 0;
 };

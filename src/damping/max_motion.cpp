@@ -22,14 +22,14 @@ std::string in_words(double value, Dimension dimension) {
 
 // F/K of a law that is exponential from a place on, F F'' = K²; NaN of another one. A law may be
 // wrapped, hence its numbers are asked and not its type.
-double decay_length_of(const ContactLaw& law, double place) {
+double decay_length_of(const ContactLaw& law, double position) {
   if (std::isfinite(law.lowest_indentation())) return unknown;
   const auto is_exponential = [&](double at) {
     const double stiffness = law.normal_stiffness(at);
     return std::abs(law.force(at) * law.force_curvature(at) / (stiffness * stiffness) - 1) < 1e-12;
   };
-  const double length = law.force(place) / law.normal_stiffness(place);
-  return is_exponential(place) && is_exponential(place + length) ? length : unknown;
+  const double length = law.force(position) / law.normal_stiffness(position);
+  return is_exponential(position) && is_exponential(position + length) ? length : unknown;
 }
 
 double mean_pressure(const IndenterLaw& law, double indentation) {

@@ -428,14 +428,14 @@ double damping_error(const Case& at, const Slider& slider, double friction_coeff
 double first_reached(const std::function<double(double)>& excess, double low, double high) {
   constexpr double ratio = 1.05;
   constexpr int most = 2000;  // 42 decades
-  double before = low, place = low;
-  for (int k = 0; k < most && place < high; ++k) {
-    place = std::min(ratio * place, high);
-    if (excess(place) >= 0) {
+  double before = low, position = low;
+  for (int k = 0; k < most && position < high; ++k) {
+    position = std::min(ratio * position, high);
+    if (excess(position) >= 0) {
       if (before == low && !(excess(low) < 0)) break;
-      return detail::find_root(excess, before, place);
+      return detail::find_root(excess, before, position);
     }
-    before = place;
+    before = position;
   }
   return SliderThreshold::unknown;
 }
@@ -462,8 +462,8 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
   if (!(low < high)) return threshold;
   const auto estimate = [&](double errors) {
     return first_reached(
-        [&](double place) {
-          const Case at(law, point, normal_of(place), slider, friction_coefficient, options);
+        [&](double position) {
+          const Case at(law, point, normal_of(position), slider, friction_coefficient, options);
           const double error = errors != 0 ? damping_error(at, slider, friction_coefficient) : 0;
           // An unknown error bounds nothing: upwards all is possible, downwards nothing is sure.
           if (std::isnan(error)) return errors * needed;
@@ -477,9 +477,9 @@ SliderThreshold threshold(const SlidingPair& pair, double low, double high,
   threshold.linear_estimate_error =
       std::isnan(nearer) ? SliderThreshold::unknown : std::max(further, nearer);
   threshold.value = first_reached(
-      [&](double place) {
+      [&](double position) {
         const SliderStability one =
-            slider_stability(law, point, normal_of(place), slider, friction_coefficient, options);
+            slider_stability(law, point, normal_of(position), slider, friction_coefficient, options);
         return one.converged ? -one.growth_rate : -needed;
       },
       low, high);

@@ -169,14 +169,14 @@ class Load {
       contacts = std::move(finer);
       if (!levels.usable()) return {};
       // What one grid shows of the variances holds on the others.
-      const KrigedStiffness kriged(contacts, places(center));
+      const KrigedStiffness kriged(contacts, indices(center));
       VarianceScales scales = scales_;
       scales.add(kriged.log_likelihood());
       GridValue value = evaluate(kriged, center, scales);
       if (chooses) {
         levels_ = n;
         const GridValue by_half =
-            evaluate(KrigedStiffness(every_other(contacts), places(center)), center, scales);
+            evaluate(KrigedStiffness(every_other(contacts), indices(center)), center, scales);
         level_error_ = std::abs(value.work - by_half.work);
         if (options_.choose_levels && n < max_levels && level_error_ > value.deviation) continue;
       }
@@ -203,7 +203,7 @@ class Load {
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
       Eigen::VectorXd of_level =
-          weights_of_levels(at, least, [&](double place) { return (*slip_)(place - mean); });
+          weights_of_levels(at, least, [&](double index) { return (*slip_)(index - mean); });
       // w falls to 0 at once.
       if (shallow_) of_level(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
       const Eigen::VectorXd weights = tangential(of_level, at, between, ratio_);
@@ -222,7 +222,7 @@ class Load {
                                 const Eigen::VectorXd& at, const KrigedStiffness& between) {
       add(samples, at, between, scales_);
       const Eigen::VectorXd opening = weights_of_levels(
-          at, least, [&](double place) { return (*slip_)(std::max(place, least) - mean); });
+          at, least, [&](double index) { return (*slip_)(std::max(index, least) - mean); });
       value.relaxation_work = between
                                   .estimate(tangential(opening - lowest * between.weights_at(least),
                                                        at, between, ratio_),
@@ -241,7 +241,7 @@ class Load {
              (top - bottom);
       shallow_ = rest <= min_rest * std::abs(value.work);
     }
-    const Eigen::VectorXd window = places(center);
+    const Eigen::VectorXd window = indices(center);
     add_window(contacts, window, kriged);
     for (std::size_t piece = 0; top > bottom && !shallow_; ++piece) {
       if (first) {
@@ -296,33 +296,33 @@ class Load {
 
   /// −∫K w' dζ = Σ weights × K(places), for K linear between places. w bends at the least
   /// indentation and at the deepest level that slips, which may lie much closer than two places.
-  Eigen::VectorXd weights_of_levels(const Eigen::VectorXd& places, double least,
+  Eigen::VectorXd weights_of_levels(const Eigen::VectorXd& indices, double least,
                                     const auto& loss) const {
     const auto integral = [&](double from, double to) {
       return (to - from) * (loss(from) + 4 * loss((from + to) / 2) + loss(to)) / 6;
     };
-    Eigen::VectorXd weights = Eigen::VectorXd::Zero(places.size());
-    for (Index i = 0; i + 1 < places.size(); ++i) {
-      double sum = 0, from = places(i);
-      for (const double bend : {least, least - slip_->depth(), places(i + 1)}) {
-        if (bend >= from || bend < places(i + 1)) continue;
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(indices.size());
+    for (Index i = 0; i + 1 < indices.size(); ++i) {
+      double sum = 0, from = indices(i);
+      for (const double bend : {least, least - slip_->depth(), indices(i + 1)}) {
+        if (bend >= from || bend < indices(i + 1)) continue;
         sum += integral(from, bend);
         from = bend;
       }
-      const double mean = sum / (places(i + 1) - places(i));
-      weights(i) += mean - loss(places(i));
-      weights(i + 1) += loss(places(i + 1)) - mean;
+      const double mean = sum / (indices(i + 1) - indices(i));
+      weights(i) += mean - loss(indices(i));
+      weights(i + 1) += loss(indices(i + 1)) - mean;
     }
     return weights;
   }
 
   /// Weights of K from those of K_t. Below the contacts that ρ is known of it goes on as on the
   /// curve; flat: it does not.
-  Eigen::VectorXd tangential(const Eigen::VectorXd& weights, const Eigen::VectorXd& places,
+  Eigen::VectorXd tangential(const Eigen::VectorXd& weights, const Eigen::VectorXd& indices,
                              const KrigedStiffness& kriged, const StiffnessRatio& ratio,
                              bool follow_curve = true) const {
     return Eigen::VectorXd::NullaryExpr(weights.size(), [&](Index i) {
-      const double force = kriged.force(places(i)), lowest = ratio.lowest_force();
+      const double force = kriged.force(indices(i)), lowest = ratio.lowest_force();
       double value = ratio.at(force);
       if (follow_curve && force < lowest) value += ratio_of_curve(force) - ratio_of_curve(lowest);
       return material_.modulus_ratio() * value * weights(i);
@@ -343,7 +343,7 @@ class Load {
 
   /// Indentations at which K is kriged: at equal angles of the window and of the oscillation, which
   /// starts where K is most uncertain.
-  Eigen::VectorXd places(double center) const {
+  Eigen::VectorXd indices(double center) const {
     constexpr int parts = 64;
     std::vector<double> all;
     for (int k = 0; k <= parts; ++k) {

@@ -71,8 +71,8 @@ class StiffnessRatio {
   /// As at the lowest or the highest of the three beyond them: where the contact opens F' goes to
   /// zero with F, and ρ does not matter.
   double at(double force) const {
-    const double way = std::clamp(std::log(std::max(force, 0.0) / force_), low_, high_);
-    return value_ + way * (slope_ + way * bend_);
+    const double distance = std::clamp(std::log(std::max(force, 0.0) / force_), low_, high_);
+    return value_ + distance * (slope_ + distance * bend_);
   }
   double middle() const { return value_; }
   double lowest_force() const { return force_ * std::exp(low_); }

@@ -34,27 +34,27 @@ constexpr int linear_parts = 32;
 /// A contact whose K is linear between indentations, about a known force in their middle.
 class StiffnessLaw final : public ContactLaw {
  public:
-  StiffnessLaw(VectorXd places, VectorXd stiffness, double force, const StiffnessRatio& ratio,
+  StiffnessLaw(VectorXd positions, VectorXd stiffness, double force, const StiffnessRatio& ratio,
                double modulus_ratio)
       : ContactLaw(modulus_ratio),
-        places_(std::move(places)),
+        positions_(std::move(positions)),
         stiffness_(stiffness.cwiseMax(0)),
-        force_(VectorXd::Zero(places_.size())),
+        force_(VectorXd::Zero(positions_.size())),
         ratio_(ratio) {
-    for (Index i = 0; i + 1 < places_.size(); ++i)
+    for (Index i = 0; i + 1 < positions_.size(); ++i)
       force_(i + 1) =
-          force_(i) - (places_(i) - places_(i + 1)) * (stiffness_(i) + stiffness_(i + 1)) / 2;
-    force_.array() += force - force_(places_.size() / 2);
+          force_(i) - (positions_(i) - positions_(i + 1)) * (stiffness_(i) + stiffness_(i + 1)) / 2;
+    force_.array() += force - force_(positions_.size() / 2);
   }
 
   double force(double indentation) const override {
     const Index i = interval_of(indentation);
-    const double below = places_(i) - indentation;
+    const double below = positions_(i) - indentation;
     return std::max(0.0, force_(i) - below * (stiffness_(i) + normal_stiffness(indentation)) / 2);
   }
   double normal_stiffness(double indentation) const override {
     const Index i = interval_of(indentation);
-    return std::max(0.0, stiffness_(i) - (places_(i) - indentation) * slope(i));
+    return std::max(0.0, stiffness_(i) - (positions_(i) - indentation) * slope(i));
   }
   double force_curvature(double indentation) const override {
     return slope(interval_of(indentation));
@@ -69,7 +69,7 @@ class StiffnessLaw final : public ContactLaw {
     return modulus_ratio() * ratio_.at(force(indentation));
   }
   double indentation_of(double force) const override {
-    double low = places_(places_.size() - 1), high = places_(0);
+    double low = positions_(positions_.size() - 1), high = positions_(0);
     for (int halving = 0; halving < 60; ++halving) {
       const double middle = (low + high) / 2;
       (this->force(middle) < force ? low : high) = middle;
@@ -77,20 +77,20 @@ class StiffnessLaw final : public ContactLaw {
     return (low + high) / 2;
   }
   std::vector<double> break_points() const override {
-    return {places_.reverse().begin(), places_.reverse().end()};
+    return {positions_.reverse().begin(), positions_.reverse().end()};
   }
 
  private:
   Index interval_of(double indentation) const {
     const auto after =
-        std::upper_bound(places_.begin(), places_.end(), indentation, std::greater());
-    return std::clamp<Index>(after - places_.begin() - 1, 0, places_.size() - 2);
+        std::upper_bound(positions_.begin(), positions_.end(), indentation, std::greater());
+    return std::clamp<Index>(after - positions_.begin() - 1, 0, positions_.size() - 2);
   }
   double slope(Index i) const {
-    return (stiffness_(i) - stiffness_(i + 1)) / (places_(i) - places_(i + 1));
+    return (stiffness_(i) - stiffness_(i + 1)) / (positions_(i) - positions_(i + 1));
   }
 
-  VectorXd places_, stiffness_, force_;
+  VectorXd positions_, stiffness_, force_;
   StiffnessRatio ratio_;
 };
 
@@ -133,25 +133,25 @@ class SurfaceSlidingRun {
     for (int k = 0; k <= count; ++k)
       contacts.push_back(levels.at(center + half_ * std::cos(pi * k / count)));
     if (!levels.usable()) throw NotConverged("sliding: a contact of the surface did not converge");
-    const VectorXd places = center + half_ * ArrayXd::LinSpaced(linear_parts + 1, 0, pi).cos();
-    const KrigedStiffness kriged(contacts, places);
+    const VectorXd positions = center + half_ * ArrayXd::LinSpaced(linear_parts + 1, 0, pi).cos();
+    const KrigedStiffness kriged(contacts, positions);
     scales_.add(kriged.log_likelihood());
 
-    const VectorXd stiffness = stiffness_at(kriged, places);
+    const VectorXd stiffness = stiffness_at(kriged, positions);
     OnGrid grid;
-    grid.states = states_of(places, stiffness, ratio);
+    grid.states = states_of(positions, stiffness, ratio);
     grid.numbers = numbers_of(grid.states);
     const auto change = [&](const VectorXd& other, const StiffnessRatio& by) -> ArrayXd {
-      return numbers_of(states_of(places, other, by)) - grid.numbers;
+      return numbers_of(states_of(positions, other, by)) - grid.numbers;
     };
     grid.squares =
         change(stiffness, ratio.straight()).square() +
-        change(stiffness_at(KrigedStiffness(detail::every_other(contacts), places), places), ratio)
+        change(stiffness_at(KrigedStiffness(detail::every_other(contacts), positions), positions), ratio)
             .square();
     // The numbers are nearly linear in K, of which the kriging knows the variance.
     const double step = 1e-3 * stiffness.maxCoeff();
-    Eigen::MatrixXd weights(grid.numbers.size(), places.size());
-    for (Index i = 0; i < places.size(); ++i) {
+    Eigen::MatrixXd weights(grid.numbers.size(), positions.size());
+    for (Index i = 0; i < positions.size(); ++i) {
       VectorXd other = stiffness;
       other(i) += step;
       weights.col(i) = change(other, ratio) / step;
@@ -165,15 +165,15 @@ class SurfaceSlidingRun {
   }
 
  private:
-  static VectorXd stiffness_at(const KrigedStiffness& kriged, const VectorXd& places) {
-    return places.unaryExpr([&](double place) { return kriged.stiffness(place); });
+  static VectorXd stiffness_at(const KrigedStiffness& kriged, const VectorXd& positions) {
+    return positions.unaryExpr([&](double position) { return kriged.stiffness(position); });
   }
 
-  std::vector<SteadySliding> states_of(const VectorXd& places, const VectorXd& stiffness,
+  std::vector<SteadySliding> states_of(const VectorXd& positions, const VectorXd& stiffness,
                                        const StiffnessRatio& ratio) const {
-    const StiffnessLaw law(places, stiffness, load_.force, ratio, material_.modulus_ratio());
+    const StiffnessLaw law(positions, stiffness, load_.force, ratio, material_.modulus_ratio());
     const OperatingPoint point = motion_.hold == Hold::indentation
-                                     ? at_indentation(places(places.size() / 2))
+                                     ? at_indentation(positions(positions.size() / 2))
                                      : at_force(load_.force);
     return steady_sliding(law, point, motion_.normal, motion_.velocities,
                           motion_.friction_coefficient, {.hold = motion_.hold, .tolerance = 1e-7});

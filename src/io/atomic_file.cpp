@@ -20,7 +20,7 @@ namespace salebra {
 namespace {
 
 /// More than any result without fields takes.
-constexpr std::uint64_t min_room = 1 << 20;
+constexpr std::uint64_t min_free_bytes = 1 << 20;
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
@@ -60,9 +60,9 @@ auto without_interruption(const Call& call) {
 void require_output(const std::filesystem::path& file, const WriteOptions& options) {
   // Whether a file of that name can be made in that folder, only making it tells.
   detail::AtomicFile(file, options);
-  struct statvfs room = {};
-  if (statvfs(folder_of(file).c_str(), &room) != 0 || room.f_blocks == 0) return;
-  if (std::uint64_t{room.f_bavail} * room.f_frsize < min_room)
+  struct statvfs space = {};
+  if (statvfs(folder_of(file).c_str(), &space) != 0 || space.f_blocks == 0) return;
+  if (std::uint64_t{space.f_bavail} * space.f_frsize < min_free_bytes)
     throw IoError(file.string() +
                   ": less than 1 MB is free on its disk; make room or name a file on another disk");
 }
@@ -77,24 +77,24 @@ namespace {
 
 }  // namespace
 
-void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
               std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = without_interruption(
-        [&] { return pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place)); });
+        [&] { return pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(location)); });
     if (written < 0) fail_at(target, "be written", errno);
-    place += static_cast<std::uint64_t>(written);
+    location += static_cast<std::uint64_t>(written);
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
 }
 
-void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
              std::span<char> bytes) {
   while (!bytes.empty()) {
     const ssize_t got = without_interruption(
-        [&] { return pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place)); });
+        [&] { return pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(location)); });
     if (got <= 0) fail_at(target, "be read back", got < 0 ? errno : EIO);
-    place += static_cast<std::uint64_t>(got);
+    location += static_cast<std::uint64_t>(got);
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }
@@ -162,7 +162,7 @@ void AtomicFile::finish() {
   if (close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail("be closed", errno);
 }
 
-void AtomicFile::place() {
+void AtomicFile::location() {
   if (overwrite_) {
     if (rename(temporary_.c_str(), target_.c_str()) != 0) fail("be put in its place", errno);
   } else if (renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) !=

@@ -11,11 +11,11 @@ namespace salebra::detail {
 
 /// Writes bytes to an open file at a place. Throws IoError naming the target, under which the file
 /// will be known.
-void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+void write_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
               std::string_view bytes);
 
 /// Reads what was written there. Throws as write_at() does, also where the file is shorter.
-void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+void read_at(const std::filesystem::path& target, int descriptor, std::uint64_t location,
              std::span<char> bytes);
 
 /// Flushes an open file to the disk. Throws as write_at() does.
@@ -58,11 +58,11 @@ class AtomicFile {
   /// Flushes to the disk and closes: what can fail for want of space or by a fault of the disk.
   void finish();
   /// Renames the finished file.
-  void place();
+  void location();
   bool placed() const { return placed_; }
   void commit() {
     finish();
-    place();
+    location();
   }
 
  private:

@@ -94,9 +94,9 @@ DisplayAxis display_axis(const PlotAxis& axis, const std::vector<std::span<const
   if (axis.high) out.high = out.display(*axis.high);
   if (axis.logarithmic) {
     const double from = out.display(least), to = out.display(most);
-    const double room = to > from ? 0.03 * (to - from) : 0.5;
-    if (!out.low) out.low = from - room;
-    if (!out.high) out.high = to + room;
+    const double padding = to > from ? 0.03 * (to - from) : 0.5;
+    if (!out.low) out.low = from - padding;
+    if (!out.high) out.high = to + padding;
     out.tics = logarithmic_tics(*out.low, *out.high);
   }
   return out;

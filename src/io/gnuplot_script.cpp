@@ -158,10 +158,10 @@ class PanelScript {
         }
     // If all values are equal but for round-off, gnuplot makes a range.
     if (!(most - least > 1e-8 * std::max(std::abs(least), std::abs(most)))) return;
-    const double room = margin * (most - least);
+    const double padding = margin * (most - least);
     // An axis of values of one sign ends at zero rather than just beyond it.
-    if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - room) : least - room;
-    if (!axis.high) axis.high = most <= 0 ? std::min(0.0, most + room) : most + room;
+    if (!axis.low) axis.low = least >= 0 ? std::max(0.0, least - padding) : least - padding;
+    if (!axis.high) axis.high = most <= 0 ? std::min(0.0, most + padding) : most + padding;
   }
 
   static double part(const DisplayAxis& axis, double value) {

@@ -76,8 +76,8 @@ LoadedSurface read_gsf(const std::filesystem::path& file, std::string_view conte
   surface.heights = heights_of(file, nx, ny);
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {
-      const auto place = static_cast<std::size_t>(iy * nx + ix);
-      surface.heights(ix, iy) = stored_number<float>(content.data() + data + 4 * place);
+      const auto index = static_cast<std::size_t>(iy * nx + ix);
+      surface.heights(ix, iy) = stored_number<float>(content.data() + data + 4 * index);
     }
   }
   return surface;

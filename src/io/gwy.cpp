@@ -82,7 +82,7 @@ using Components = std::map<std::string_view, Component>;
 std::string_view value_of(const std::filesystem::path& file, char type, Bytes& bytes) {
   constexpr std::string_view letters = "bciqd";
   constexpr std::array<std::uint64_t, 5> sizes{1, 1, 4, 8, 8};
-  if (const auto place = letters.find(type); place != letters.npos) return bytes.take(sizes[place]);
+  if (const auto index = letters.find(type); index != letters.npos) return bytes.take(sizes[index]);
   if (type == 's') return bytes.text();
   const auto whole_object = [&bytes] {
     const auto [name, content] = Bytes(bytes).object();
@@ -93,8 +93,8 @@ std::string_view value_of(const std::filesystem::path& file, char type, Bytes& b
   if (arrays.find(type) == arrays.npos)
     refuse(file, "has a component of an unknown type; it is damaged");
   const std::uint64_t items = bytes.number<std::uint32_t>();
-  if (const auto place = arrays.find(type); place < sizes.size() - 1)
-    return bytes.take(items * sizes[place + 1]);
+  if (const auto index = arrays.find(type); index < sizes.size() - 1)
+    return bytes.take(items * sizes[index + 1]);
   // Nothing is needed of arrays of texts and objects but where they end.
   for (std::uint64_t item = 0; item < items; ++item) {
     if (type == 'S')
@@ -251,10 +251,10 @@ LoadedSurface read_gwy(const std::filesystem::path& file, std::string_view conte
   surface.heights = heights_of(file, nx, ny);
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {
-      const auto place = static_cast<std::size_t>(iy * nx + ix) * sizeof(double);
-      const bool undefined = mask && number_at<double>(marks.substr(place)) > 0;
+      const auto index = static_cast<std::size_t>(iy * nx + ix) * sizeof(double);
+      const bool undefined = mask && number_at<double>(marks.substr(index)) > 0;
       surface.heights(ix, iy) = undefined ? std::numeric_limits<double>::quiet_NaN()
-                                          : number_at<double>(values.substr(place));
+                                          : number_at<double>(values.substr(index));
     }
   }
   return surface;

@@ -19,7 +19,7 @@ std::atomic<Hdf5Runner> runner = nullptr;
 void run(const Hdf5Reading& reading) {
   if (const Hdf5Runner installed = runner) return installed(reading);
   reading.read([&](std::span<const std::byte> bytes) {
-    if (!bytes.empty()) std::memcpy(reading.place(bytes.size()).data(), bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(reading.location(bytes.size()).data(), bytes.data(), bytes.size());
   });
 }
 
@@ -74,7 +74,7 @@ bool is_sound(const Object& object, std::uint64_t file_size) {
   std::uint64_t doubles = sizeof(double);
   for (const std::uint64_t extent : object.shape)
     if (__builtin_mul_overflow(doubles, extent, &doubles)) return false;
-  if (object.place && (doubles > file_size || *object.place > file_size - doubles)) return false;
+  if (object.location && (doubles > file_size || *object.location > file_size - doubles)) return false;
   return doubles <= max_bytes(file_size) &&
          (!object.numbers || object.numbers->size() == object.count());
 }
@@ -108,7 +108,7 @@ Document::Document(InputFile file) : file_(std::move(file)) {
   std::string bytes;
   Hdf5Reading reading = reading_of(file_, 0);
   reading.read = [&](const HandOver& hand_over) { read_outline(file_, hand_over); };
-  reading.place = [&](std::size_t count) {
+  reading.location = [&](std::size_t count) {
     if (count > max_bytes(file_.size()) - bytes.size())
       refuse(path(), "has an outline larger than its content; it is damaged");
     bytes.resize(bytes.size() + count);
@@ -187,14 +187,14 @@ void Document::rows(const std::string& path, const RowPartition& partition, std:
 
 void Document::read(const std::string& path, const Object& object, std::uint64_t begin,
                     std::uint64_t end, std::span<double> values) const {
-  if (object.place && !values.empty()) {
+  if (object.location && !values.empty()) {
     const std::size_t row = values.size() / (end - begin);
     return parallel::for_slabs(
         static_cast<Index>(end - begin),
         [&](Index first, Index last) {
           const std::size_t before = static_cast<std::size_t>(first) * row;
           const auto part = values.subspan(before, static_cast<std::size_t>(last) * row - before);
-          file_.read(*object.place + (begin * row + before) * sizeof(double),
+          file_.read(*object.location + (begin * row + before) * sizeof(double),
                      std::as_writable_bytes(part));
         },
         static_cast<Index>(values.size()));
@@ -204,7 +204,7 @@ void Document::read(const std::string& path, const Object& object, std::uint64_t
     read_numbers(file_, normal(path), object.shape, begin, end, hand_over);
   };
   std::size_t filled = 0;
-  reading.place = [&](std::size_t count) {
+  reading.location = [&](std::size_t count) {
     if (count > values.size_bytes() - filled) wrong_answer(file_.path());
     filled += count;
     return std::as_writable_bytes(values).subspan(filled - count, count);

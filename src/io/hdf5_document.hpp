@@ -37,7 +37,7 @@ struct Object {
   std::vector<std::string> labels;                    ///< of a list of names
   std::optional<std::vector<double>> numbers;         ///< of a small dataset
   /// Where the file has the doubles of a dataset as memory has them, one behind the other.
-  std::optional<std::uint64_t> place;
+  std::optional<std::uint64_t> location;
 
   /// Product of the extents.
   std::uint64_t count() const;
@@ -48,7 +48,7 @@ struct Object {
 constexpr void describe(auto&& visit, std::type_identity<Object>) {
   using S = Object;
   keep(visit, &S::kind, &S::refusal, &S::attributes, &S::members, &S::shape, &S::coordinates,
-       &S::labels, &S::numbers, &S::place);
+       &S::labels, &S::numbers, &S::location);
 }
 
 /// The outline of a file with all attributes and small datasets; large datasets are read when they

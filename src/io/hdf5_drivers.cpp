@@ -194,36 +194,36 @@ File open_descriptor(int descriptor) {
   return {H5Fopen("/descriptor", H5F_ACC_RDONLY, access), "open it as HDF5"};
 }
 
-void PagedFile::write(std::uint64_t place, const char* bytes, std::size_t count) {
+void PagedFile::write(std::uint64_t location, const char* bytes, std::size_t count) {
   if (count >= page_size * max_pages) {
     write_pages();
     if (failure_) return;
     try {
-      write_at(file_.target(), file_.descriptor(), place, {bytes, count});
+      write_at(file_.target(), file_.descriptor(), location, {bytes, count});
     } catch (const IoError&) {
       failure_ = std::current_exception();
     }
-    end_on_disk_ = std::max(end_on_disk_, place + count);
+    end_on_disk_ = std::max(end_on_disk_, location + count);
     return;
   }
   while (count > 0) {
-    const std::size_t first = place % page_size, part = std::min(count, page_size - first);
-    std::memcpy(page(place - first).data() + first, bytes, part);
-    place += part;
+    const std::size_t first = location % page_size, part = std::min(count, page_size - first);
+    std::memcpy(page(location - first).data() + first, bytes, part);
+    location += part;
     bytes += part;
     count -= part;
   }
 }
 
-void PagedFile::read(std::uint64_t place, char* bytes, std::size_t count) {
+void PagedFile::read(std::uint64_t location, char* bytes, std::size_t count) {
   while (count > 0) {
-    const std::size_t first = place % page_size, part = std::min(count, page_size - first);
-    const auto page = pages_.find(place - first);
+    const std::size_t first = location % page_size, part = std::min(count, page_size - first);
+    const auto page = pages_.find(location - first);
     if (page == pages_.end())
-      read_back(place, bytes, part);
+      read_back(location, bytes, part);
     else
       std::memcpy(bytes, page->second.data() + first, part);
-    place += part;
+    location += part;
     bytes += part;
     count -= part;
   }
@@ -236,10 +236,10 @@ void PagedFile::require_written() const {
 void PagedFile::finish(std::uint64_t size) {
   require_written();
   file_.reserve(size);
-  for (const auto& [place, page] : pages_)
-    if (place < size)
-      write_at(file_.target(), file_.descriptor(), place,
-               {page.data(), std::min<std::uint64_t>(page.size(), size - place)});
+  for (const auto& [location, page] : pages_)
+    if (location < size)
+      write_at(file_.target(), file_.descriptor(), location,
+               {page.data(), std::min<std::uint64_t>(page.size(), size - location)});
 }
 
 std::vector<char>& PagedFile::page(std::uint64_t start) {
@@ -255,9 +255,9 @@ std::vector<char>& PagedFile::page(std::uint64_t start) {
 void PagedFile::write_pages() {
   if (failure_) return;
   try {
-    for (const auto& [place, page] : pages_) {
-      write_at(file_.target(), file_.descriptor(), place, {page.data(), page.size()});
-      end_on_disk_ = std::max(end_on_disk_, place + page.size());
+    for (const auto& [location, page] : pages_) {
+      write_at(file_.target(), file_.descriptor(), location, {page.data(), page.size()});
+      end_on_disk_ = std::max(end_on_disk_, location + page.size());
     }
     pages_.clear();
   } catch (const IoError&) {
@@ -265,12 +265,12 @@ void PagedFile::write_pages() {
   }
 }
 
-void PagedFile::read_back(std::uint64_t place, char* bytes, std::size_t count) {
-  const std::size_t there = place < end_on_disk_ ? std::min(count, end_on_disk_ - place) : 0;
+void PagedFile::read_back(std::uint64_t location, char* bytes, std::size_t count) {
+  const std::size_t there = location < end_on_disk_ ? std::min(count, end_on_disk_ - location) : 0;
   std::memset(bytes + there, 0, count - there);
   if (there == 0) return;
   try {
-    read_at(file_.target(), file_.descriptor(), place, {bytes, there});
+    read_at(file_.target(), file_.descriptor(), location, {bytes, there});
   } catch (const IoError&) {
     if (!failure_) failure_ = std::current_exception();
   }

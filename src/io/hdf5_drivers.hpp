@@ -31,9 +31,9 @@ class PagedFile {
 
   /// The file must outlive this.
   explicit PagedFile(AtomicFile& file) : file_(file) {}
-  void write(std::uint64_t place, const char* bytes, std::size_t count);
+  void write(std::uint64_t location, const char* bytes, std::size_t count);
   /// Holes are zeros.
-  void read(std::uint64_t place, char* bytes, std::size_t count);
+  void read(std::uint64_t location, char* bytes, std::size_t count);
   /// Throws the IoError of the first byte that the system did not take.
   void require_written() const;
   /// Writes what is still in memory to the file, which becomes so long. Throws as
@@ -43,7 +43,7 @@ class PagedFile {
  private:
   std::vector<char>& page(std::uint64_t start);
   void write_pages();
-  void read_back(std::uint64_t place, char* bytes, std::size_t count);
+  void read_back(std::uint64_t location, char* bytes, std::size_t count);
 
   AtomicFile& file_;
   std::map<std::uint64_t, std::vector<char>> pages_;  ///< by place

@@ -73,14 +73,14 @@ std::string_view bytes_of(const T* values, Index count) {
 }
 
 /// Writes a field as float, without a copy of all.
-void write_rounded(const std::filesystem::path& target, int descriptor, std::uint64_t place,
+void write_rounded(const std::filesystem::path& target, int descriptor, std::uint64_t location,
                    const Field& values) {
   constexpr Index most = 1 << 18;
   std::vector<float> rounded;
   for (Index first = 0; first < values.size(); first += most) {
     const Index count = std::min(most, values.size() - first);
     rounded.assign(values.data() + first, values.data() + first + count);
-    write_at(target, descriptor, place + static_cast<std::uint64_t>(first) * sizeof(float),
+    write_at(target, descriptor, location + static_cast<std::uint64_t>(first) * sizeof(float),
              bytes_of(rounded.data(), count));
   }
 }
@@ -228,9 +228,9 @@ Dataset Output::field(hid_t group, const std::string& name, const Field& values,
   Dataset result = single ? create(group, name, &first, scales.shape, label, true)
                           : create(group, name, values.data(), scales.shape, label, true);
   // A file of several processes has no block before its superblock, which this would count from.
-  const haddr_t place = H5Dget_offset(result);
-  check(place == HADDR_UNDEF ? -1 : 0, "place " + name);
-  spread_.push_back({place, static_cast<std::int64_t>(scales.shape[0]),
+  const haddr_t location = H5Dget_offset(result);
+  check(location == HADDR_UNDEF ? -1 : 0, "place " + name);
+  spread_.push_back({location, static_cast<std::int64_t>(scales.shape[0]),
                      static_cast<std::int64_t>(scales.shape[1])});
   return attached(scales, std::move(result), name);
 }
@@ -295,16 +295,16 @@ void Output::write_fields() {
             "fields are given by one process, and others by another");
     const OthersFile file(temporary, target_);
     for (std::size_t k = 0; k < spread_.size(); ++k) {
-      const auto& [place, rows, columns] = spread_[k];
+      const auto& [location, rows, columns] = spread_[k];
       const RowPartition share(communicator_, rows);
       const Field& mine = *fields_[k].values;
       require(mine.rows() == partition.count() && mine.cols() == columns, "field", mine.rows(),
               "rows are not those of this process");
       const auto begin = static_cast<std::uint64_t>(partition.begin() * columns);
       if (mine.size() > 0 && fields_[k].type == FieldType::float32)
-        write_rounded(target_, file.descriptor(), place + begin * sizeof(float), mine);
+        write_rounded(target_, file.descriptor(), location + begin * sizeof(float), mine);
       else if (mine.size() > 0)
-        write_at(target_, file.descriptor(), place + begin * sizeof(double),
+        write_at(target_, file.descriptor(), location + begin * sizeof(double),
                  bytes_of(mine.data(), mine.size()));
     }
     flush(target_, file.descriptor());

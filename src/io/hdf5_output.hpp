@@ -80,7 +80,7 @@ class Output {
 
   /// A field of which each process writes its rows.
   struct Spread {
-    std::uint64_t place = 0;  ///< in the file
+    std::uint64_t location = 0;  ///< in the file
     std::int64_t rows = 0, columns = 0;
   };
 

@@ -95,9 +95,9 @@ std::string name_of(hid_t scale) {
 
 std::vector<std::string> coordinates_of(hid_t dataset, std::size_t rank, ScaleNames& known) {
   std::vector<std::string> names;
-  std::pair<ScaleNames&, std::vector<std::string>&> places{known, names};
+  std::pair<ScaleNames&, std::vector<std::string>&> locations{known, names};
   const auto collect = [](hid_t, unsigned, hid_t scale, void* data) -> herr_t {
-    auto& [by_place, list] = *static_cast<decltype(places)*>(data);
+    auto& [by_place, list] = *static_cast<decltype(locations)*>(data);
     ObjectInfo info;
     if (H5Oget_info2(scale, &info, H5O_INFO_BASIC) < 0) return -1;
     const auto [found, is_new] = by_place.try_emplace(info.addr);
@@ -106,7 +106,7 @@ std::vector<std::string> coordinates_of(hid_t dataset, std::size_t rank, ScaleNa
     return 1;
   };
   for (unsigned i = 0; i < rank; ++i)
-    check(H5DSiterate_scales(dataset, i, nullptr, collect, &places), "read its axes");
+    check(H5DSiterate_scales(dataset, i, nullptr, collect, &locations), "read its axes");
   return names;
 }
 
@@ -180,16 +180,16 @@ std::optional<std::uint64_t> place_of(hid_t dataset, hid_t type, hid_t propertie
   if (H5Pget_layout(properties) != H5D_CONTIGUOUS || H5Tequal(type, H5T_NATIVE_DOUBLE) <= 0 ||
       H5Dget_storage_size(dataset) != count * sizeof(double))
     return {};
-  const haddr_t place = H5Dget_offset(dataset);
-  return place == HADDR_UNDEF ? std::nullopt : std::optional<std::uint64_t>(place);
+  const haddr_t location = H5Dget_offset(dataset);
+  return location == HADDR_UNDEF ? std::nullopt : std::optional<std::uint64_t>(location);
 }
 
 class Outline {
  public:
   explicit Outline(const InputFile& file)
       : file_(file),
-        room_(std::uint64_t{32 << 20} + 8 * file.size()),
-        room_for_numbers_(room_ / 4),
+        bytes_left_(std::uint64_t{32 << 20} + 8 * file.size()),
+        number_bytes_left_(bytes_left_ / 4),
         handle_(open_descriptor(file.descriptor())) {}
 
   Objects read() {
@@ -203,10 +203,10 @@ class Outline {
   /// What the outline takes of memory is counted: many links to one object would otherwise multiply
   /// it.
   void take(std::uint64_t bytes) {
-    if (bytes > room_)
+    if (bytes > bytes_left_)
       refuse(file_.path(),
              "has more groups, links and attributes than a file of its size should; it is damaged");
-    room_ -= bytes;
+    bytes_left_ -= bytes;
   }
 
   Object::Kind keep(const std::string& path, Object object) {
@@ -299,7 +299,7 @@ class Outline {
     } else {
       object.refusal = excess(file_, id, properties, shape);
       read_small(id, object);
-      if (object.refusal.empty()) object.place = place_of(id, type, properties, object.count());
+      if (object.refusal.empty()) object.location = place_of(id, type, properties, object.count());
     }
     return keep(path, std::move(object));
   }
@@ -324,9 +324,9 @@ class Outline {
 
   void read_small(hid_t id, Object& object) {
     if (!object.refusal.empty() || object.count() > small_dataset ||
-        object.count() * sizeof(double) > room_for_numbers_)
+        object.count() * sizeof(double) > number_bytes_left_)
       return;
-    room_for_numbers_ -= object.count() * sizeof(double);
+    number_bytes_left_ -= object.count() * sizeof(double);
     std::vector<double> values(object.count());
     if (!values.empty())
       check(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
@@ -335,7 +335,7 @@ class Outline {
   }
 
   const InputFile& file_;
-  std::uint64_t room_, room_for_numbers_;
+  std::uint64_t bytes_left_, number_bytes_left_;
   File handle_;
   Objects objects_;
   std::set<haddr_t> groups_;

@@ -21,7 +21,7 @@ struct Hdf5Reading {
   std::function<void(const std::function<void(std::span<const std::byte>)>& hand_over)> read;
   /// Where the next so many bytes of those belong. Throws InvalidInput for more than were
   /// requested.
-  std::function<std::span<std::byte>(std::size_t)> place;
+  std::function<std::span<std::byte>(std::size_t)> location;
   /// Calls its argument while no other thread of the process is inside HDF5, hence in a state that
   /// a child process can go on from.
   std::function<void(const std::function<void()>&)> alone;

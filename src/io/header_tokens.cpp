@@ -43,7 +43,7 @@ class Tokenizer {
   }
 
  private:
-  char at(std::size_t place) const { return place < line_.size() ? line_[place] : '\0'; }
+  char at(std::size_t index) const { return index < line_.size() ? line_[index] : '\0'; }
 
   void add(Kind kind, std::string_view text) {
     tokens_.push_back({kind, std::string(text), false, false});

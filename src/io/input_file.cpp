@@ -83,13 +83,13 @@ std::string InputFile::head(std::uint64_t bytes) const {
   return content;
 }
 
-void InputFile::read(std::uint64_t place, std::span<std::byte> bytes) const {
+void InputFile::read(std::uint64_t location, std::span<std::byte> bytes) const {
   while (!bytes.empty()) {
-    const ssize_t got = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    const ssize_t got = pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(location));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) refuse_unreadable(path_, errno);
     if (got == 0) refuse(path_, "ended while it was read; is another program writing it?");
-    place += static_cast<std::uint64_t>(got);
+    location += static_cast<std::uint64_t>(got);
     bytes = bytes.subspan(static_cast<std::size_t>(got));
   }
 }

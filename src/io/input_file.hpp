@@ -32,7 +32,7 @@ class InputFile {
   std::string head(std::uint64_t bytes) const;
   /// Fills bytes from a place on, by any number of threads at once. Throws InvalidInput where the
   /// file ends before, IoError where the disk does not give them.
-  void read(std::uint64_t place, std::span<std::byte> bytes) const;
+  void read(std::uint64_t location, std::span<std::byte> bytes) const;
   /// The whole file. Throws InvalidInput for an empty file, for one of more than `limit` bytes, and
   /// for one that does not fit in the memory that is free.
   std::string content(std::uint64_t limit = std::numeric_limits<std::uint64_t>::max()) const;

@@ -191,9 +191,9 @@ LoadedSurface read_npy(const std::filesystem::path& file, std::string_view conte
   surface.heights = heights_of(file, nx, ny);
   for (Index ix = 0; ix < nx; ++ix) {
     for (Index iy = 0; iy < ny; ++iy) {
-      const auto place =
+      const auto index =
           static_cast<std::size_t>(header.fortran_order ? iy * nx + ix : ix * ny + iy);
-      surface.heights(ix, iy) = type->read(data.data() + place * type->bytes(), endian);
+      surface.heights(ix, iy) = type->read(data.data() + index * type->bytes(), endian);
     }
   }
   read_sidecar(file, content, surface);

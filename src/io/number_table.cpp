@@ -92,7 +92,7 @@ using detail::refuse;
 
 /// How the columns of a file become those that are asked for.
 struct Titles {
-  std::vector<std::size_t> places;  ///< of the columns of the file
+  std::vector<std::size_t> positions;  ///< of the columns of the file
   std::vector<double> factors;
   bool has_units = false;
 };
@@ -115,17 +115,17 @@ Titles read_titles(const std::filesystem::path& file, std::string_view line,
   detail::UnitsOfTitles units(file);
   for (const std::string_view text : detail::titles_of(line)) {
     const detail::ColumnTitle title = detail::column_title(file, text);
-    const auto place = place_of(title.name, columns);
+    const auto position = place_of(title.name, columns);
     std::vector<std::string_view> names;
     for (const TableColumn& column : columns) names.push_back(column.name);
-    if (!place)
+    if (!position)
       refuse(file, fmt::format("has a column '{}', which is none of {}; correct its title", text,
                                fmt::join(names, ", ")));
-    if (std::ranges::find(titles.places, *place) != titles.places.end())
-      refuse(file, fmt::format("has two columns {}", columns[*place].name));
-    titles.places.push_back(*place);
-    titles.factors.push_back(detail::factor_of(file, title, columns[*place].dimension));
-    units.add(title, columns[*place].dimension);
+    if (std::ranges::find(titles.positions, *position) != titles.positions.end())
+      refuse(file, fmt::format("has two columns {}", columns[*position].name));
+    titles.positions.push_back(*position);
+    titles.factors.push_back(detail::factor_of(file, title, columns[*position].dimension));
+    units.add(title, columns[*position].dimension);
   }
   titles.has_units = units.has_units();
   return titles;
@@ -162,29 +162,29 @@ NumberTable read_number_table(const std::filesystem::path& file,
   for (std::string_view raw; lines.next(raw);) {
     std::string_view line = detail::trimmed(raw);
     if (line.empty()) continue;
-    const std::string place = file.string() + ", line " + std::to_string(lines.number());
+    const std::string position = file.string() + ", line " + std::to_string(lines.number());
     if (const bool comment = line.front() == '#'; comment || !detail::starts_with_number(line)) {
       if (comment) line = detail::trimmed(line.substr(1));
       if (comment && (titles || reader.started() || !names_columns(line, columns))) {
         require_no_units(file, line);
         continue;
       }
-      if (titles || reader.started()) throw InvalidInput(place, "holds no numbers; remove it");
+      if (titles || reader.started()) throw InvalidInput(position, "holds no numbers; remove it");
       titles = read_titles(file, line, columns);
       continue;
     }
     values.clear();
     reader.append(line, lines.number(), values);
     if (table.empty()) {
-      const std::size_t count = titles ? titles->places.size() : values.size();
+      const std::size_t count = titles ? titles->positions.size() : values.size();
       table.resize(std::clamp(count, least, columns.size()));
     }
-    if (values.size() != table.size() || (titles && titles->places.size() != table.size()))
-      throw InvalidInput(place, "holds " + std::to_string(values.size()) +
+    if (values.size() != table.size() || (titles && titles->positions.size() != table.size()))
+      throw InvalidInput(position, "holds " + std::to_string(values.size()) +
                                     " values; give the same " + std::to_string(table.size()) +
                                     " in each line" + (titles ? ", with a title each" : ""));
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::size_t column = titles ? titles->places[i] : i;
+      const std::size_t column = titles ? titles->positions[i] : i;
       if (column >= table.size())
         refuse(file, fmt::format("lacks the column {}", columns[table.size() - 1].name));
       table[column].push_back(titles ? values[i] * titles->factors[i] : values[i]);

@@ -88,16 +88,16 @@ std::string unzipped(const std::filesystem::path& file, std::string_view content
     }
     constexpr std::size_t longest = std::numeric_limits<uInt>::max();
     const auto given = static_cast<uInt>(std::min(content.size(), longest));
-    const auto room = static_cast<uInt>(std::min(out.size() - filled, longest));
+    const auto available = static_cast<uInt>(std::min(out.size() - filled, longest));
     // inflate does not write to its input.
     inflater->next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(content.data()));
     inflater->avail_in = given;
     inflater->next_out = reinterpret_cast<Bytef*>(out.data() + filled);
-    inflater->avail_out = room;
+    inflater->avail_out = available;
     status = inflate(inflater.get(), Z_NO_FLUSH);
     content.remove_prefix(given - inflater->avail_in);
     const std::size_t before = filled;
-    filled += room - inflater->avail_out;
+    filled += available - inflater->avail_out;
     doubles += doubles_of(std::string_view(out).substr(0, filled), before);
     if (filled > most || doubles > max_doubles) refuse_size();
     const bool stuck = status == Z_BUF_ERROR && content.empty();

@@ -141,9 +141,9 @@ Raster rasterise(const PlotImage& image, const DisplayAxis& x, const DisplayAxis
   if (!image.scale.high) out.scale.high = symmetric ? reach : most;
   // A field without contrast still needs a scale.
   if (!(*out.scale.high > *out.scale.low)) {
-    const double room = reach > 0 ? 0.1 * reach : 1;
-    *out.scale.low -= room;
-    *out.scale.high += room;
+    const double padding = reach > 0 ? 0.1 * reach : 1;
+    *out.scale.low -= padding;
+    *out.scale.high += padding;
   }
   return out;
 }

@@ -33,78 +33,78 @@ struct ResultGroup::Place {
 
 void ResultGroup::coordinate(const std::string& name, std::span<const double> values,
                              const std::string& units, const std::string& long_name) {
-  place_->open().scale(place_->group, name, values.data(), values.size(), {units, long_name});
+  location_->open().scale(location_->group, name, values.data(), values.size(), {units, long_name});
 }
 
 void ResultGroup::index(const std::string& name, std::size_t count, const std::string& long_name) {
   std::vector<std::int64_t> values(count);
   std::iota(values.begin(), values.end(), 0);
-  place_->open().scale(place_->group, name, values.data(), count, {"1", long_name});
+  location_->open().scale(location_->group, name, values.data(), count, {"1", long_name});
 }
 
 void ResultGroup::labels(const std::string& name, const std::vector<std::string>& values,
                          const std::string& long_name) {
-  place_->open().text_scale(place_->group, name, values, long_name);
+  location_->open().text_scale(location_->group, name, values, long_name);
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const double> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
-  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+  location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
                          {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const std::int64_t> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
-  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+  location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
                          {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const float> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
-  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+  location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
                          {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, std::span<const std::int16_t> values,
                           const std::vector<std::string>& coordinates, const std::string& units,
                           const std::string& long_name) {
-  place_->open().dataset(place_->group, name, values.data(), values.size(), coordinates,
+  location_->open().dataset(location_->group, name, values.data(), values.size(), coordinates,
                          {units, long_name});
 }
 
 void ResultGroup::dataset(const std::string& name, const Field& values, const std::string& x,
                           const std::string& y, const std::string& units,
                           const std::string& long_name, FieldType type) {
-  place_->open().field(place_->group, name, values, {x, y}, {units, long_name}, type);
+  location_->open().field(location_->group, name, values, {x, y}, {units, long_name}, type);
 }
 
 void ResultGroup::flags(const std::string& name, const std::vector<bool>& values,
                         const std::vector<std::string>& coordinates, const std::string& long_name) {
   const std::vector<std::int8_t> bytes(values.begin(), values.end());
-  Output& output = place_->open();
-  const auto dataset = output.dataset(place_->group, name, bytes.data(), bytes.size(), coordinates,
+  Output& output = location_->open();
+  const auto dataset = output.dataset(location_->group, name, bytes.data(), bytes.size(), coordinates,
                                       {"1", long_name});
   output.attribute(dataset, "dtype", std::string_view("bool"));
 }
 
 void ResultGroup::scalar(const std::string& name, double value, const std::string& units,
                          const std::string& long_name) {
-  place_->open().dataset(place_->group, name, &value, 1, {}, {units, long_name});
+  location_->open().dataset(location_->group, name, &value, 1, {}, {units, long_name});
 }
 
 void ResultGroup::attribute(const std::string& name, double value) {
-  place_->open().attribute(place_->group, name, value);
+  location_->open().attribute(location_->group, name, value);
 }
 
 void ResultGroup::attribute(const std::string& name, std::int64_t value) {
-  place_->open().attribute(place_->group, name, value);
+  location_->open().attribute(location_->group, name, value);
 }
 
 void ResultGroup::attribute(const std::string& name, std::string_view value) {
-  place_->open().attribute(place_->group, name, value);
+  location_->open().attribute(location_->group, name, value);
 }
 
 ResultFile::ResultFile(const std::filesystem::path& file, const Provenance& provenance,
@@ -119,18 +119,18 @@ ResultFile::~ResultFile() = default;
 
 ResultGroup ResultFile::group(const std::string& path) {
   require(state_->output != nullptr, "result file", path, "is asked for after commit");
-  auto place = std::make_shared<ResultGroup::Place>(
+  auto location = std::make_shared<ResultGroup::Place>(
       ResultGroup::Place{state_->output, state_->output->group(path)});
-  state_->groups.push_back(place);
-  return ResultGroup(std::move(place));
+  state_->groups.push_back(location);
+  return ResultGroup(std::move(location));
 }
 
 void ResultFile::commit() {
   require_that(state_->output != nullptr, "result file", "commit was done already");
   for (const auto& weak : state_->groups) {
-    if (const auto place = weak.lock()) {
-      place->group = {};
-      place->output.reset();
+    if (const auto location = weak.lock()) {
+      location->group = {};
+      location->output.reset();
     }
   }
   const auto output = std::move(state_->output);

@@ -96,8 +96,8 @@ LoadedSurface read_sur(const std::filesystem::path& file, std::string_view conte
   const SurHeader data(content.substr(begin));
   for (Index iy = 0; iy < ny; ++iy) {
     for (Index ix = 0; ix < nx; ++ix) {
-      const auto place = static_cast<std::size_t>(iy * nx + ix);
-      const std::int32_t value = bits == 16 ? data.int16(2 * place) : data.int32(4 * place);
+      const auto index = static_cast<std::size_t>(iy * nx + ix);
+      const std::int32_t value = bits == 16 ? data.int16(2 * index) : data.int32(4 * index);
       surface.heights(inversion == Inversion::along_x ? nx - 1 - ix : ix,
                       inversion == Inversion::along_y ? ny - 1 - iy : iy) =
           has_undefined && value == undefined ? std::numeric_limits<double>::quiet_NaN()

@@ -36,7 +36,7 @@ std::string_view without_mark(std::string_view content) {
 }
 
 // A vector that is full moves into one of twice its size, beside it.
-void require_room(const std::filesystem::path& file, std::size_t full) {
+void require_memory(const std::filesystem::path& file, std::size_t full) {
   const double bytes = 2. * sizeof(double) * static_cast<double>(full);
   if (!fits_into_memory(bytes))
     refuse(file, "holds more than " + std::to_string(full) + " values, which need " +
@@ -271,9 +271,9 @@ bool within_mark(std::string_view line, std::size_t blank) {
 bool Text::holds(char symbol) const {
   if (!input) return content.find(symbol) != std::string_view::npos;
   std::string piece;
-  for (std::uint64_t place = 0; place < input->size(); place += piece.size()) {
-    piece.resize(std::min<std::uint64_t>(piece_size, input->size() - place));
-    input->read(place, std::as_writable_bytes(std::span(piece)));
+  for (std::uint64_t index = 0; index < input->size(); index += piece.size()) {
+    piece.resize(std::min<std::uint64_t>(piece_size, input->size() - index));
+    input->read(index, std::as_writable_bytes(std::span(piece)));
     if (piece.find(symbol) != std::string::npos) return true;
   }
   return false;
@@ -295,26 +295,26 @@ bool Lines::next(std::string_view& line) {
 
 double Lines::share() const {
   if (!input_) return 1;
-  return static_cast<double>(place_ - rest_.size()) / static_cast<double>(input_->size());
+  return static_cast<double>(index_ - rest_.size()) / static_cast<double>(input_->size());
 }
 
 /// Puts the next piece of the file behind what is left of this one; false at the end of the file.
 bool Lines::read_on() {
-  if (!input_ || place_ == input_->size()) return false;
+  if (!input_ || index_ == input_->size()) return false;
   piece_.erase(0, piece_.size() - rest_.size());
   // As much again as the line has already: it is looked through twice at most.
   const std::size_t left = piece_.size(), wanted = std::max(piece_size, left);
   const auto count =
-      static_cast<std::size_t>(std::min<std::uint64_t>(wanted, input_->size() - place_));
+      static_cast<std::size_t>(std::min<std::uint64_t>(wanted, input_->size() - index_));
   if (left > 0 && !fits_into_memory(2. * static_cast<double>(left + count)))
     refuse(input_->path(), "has a line of more than " + std::to_string(left) +
                                " bytes, which does not fit into the memory that is free");
   piece_.resize(left + count);
-  input_->read(place_, std::as_writable_bytes(std::span(piece_).subspan(left)));
+  input_->read(index_, std::as_writable_bytes(std::span(piece_).subspan(left)));
   rest_ = piece_;
   if (rest_.find('\0', left) != std::string_view::npos) refuse_bytes(input_->path());
-  if (place_ == 0) rest_ = without_mark(rest_);
-  place_ += count;
+  if (index_ == 0) rest_ = without_mark(rest_);
+  index_ += count;
   return true;
 }
 
@@ -562,7 +562,7 @@ void NumberReader::append_plain(std::string_view line, int number, std::vector<d
       }
       at = after;
     }
-    if (values.size() == values.capacity()) require_room(file_, values.capacity());
+    if (values.size() == values.capacity()) require_memory(file_, values.capacity());
     values.push_back(value);
     if (at != end && between) at = skip(at + 1);
   }

@@ -38,7 +38,7 @@ class Lines {
   bool read_on();
 
   const InputFile* input_;
-  std::uint64_t place_ = 0;  ///< in the file, behind the piece
+  std::uint64_t index_ = 0;  ///< in the file, behind the piece
   std::string piece_;
   std::string_view rest_;
   char end_;

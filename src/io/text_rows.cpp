@@ -18,7 +18,7 @@ constexpr Index enough_rows = 1024;  // to say how long all are
 
 /// For all values, of which there is a share: a vector that grows copies them, each time into
 /// pages that the system has to clear.
-void make_room(TextRows& matrix, double share) {
+void reserve_rows(TextRows& matrix, double share) {
   constexpr double longer = 1.02;
   const double wanted = longer * static_cast<double>(matrix.values.size()) / share;
   if (fits_into_memory(wanted * sizeof(double)))
@@ -199,7 +199,7 @@ TextRows read_rows(const std::filesystem::path& file, const Text& text, bool tab
     if (matrix.rows < 4)
       first_rows.push_back({lines.number(), std::string(content.substr(0, 100))});
     ++matrix.rows;
-    if (matrix.rows == enough_rows) make_room(matrix, lines.partition());
+    if (matrix.rows == enough_rows) reserve_rows(matrix, lines.partition());
   }
   if (matrix.rows == 0)
     refuse_unknown(file, "holds no numbers and is in no format that is known; name a surface file");

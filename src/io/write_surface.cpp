@@ -74,9 +74,9 @@ void write_npy(const std::filesystem::path& file, const Surface& surface,
   // accept the new array.
   std::error_code ignored;
   const bool alone = !std::filesystem::exists(sidecar.target(), ignored);
-  sidecar.place();
+  sidecar.index();
   try {
-    array.place();
+    array.index();
   } catch (const IoError&) {
     if (alone && !array.placed()) std::filesystem::remove(sidecar.target(), ignored);
     throw;

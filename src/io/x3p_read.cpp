@@ -169,8 +169,8 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
     const Index iy = step_y > 0 ? row : ny - 1 - row;
     for (Index column = 0; column < nx; ++column) {
       const Index ix = step_x > 0 ? column : nx - 1 - column;
-      const auto place = static_cast<std::size_t>(row * nx + column);
-      const double stored = type.read(data->data() + type.bytes() * place, std::endian::little);
+      const auto index = static_cast<std::size_t>(row * nx + column);
+      const double stored = type.read(data->data() + type.bytes() * index, std::endian::little);
       // Some programs mark points without a height as infinite.
       infinite += std::isinf(stored);
       surface.heights(ix, iy) = std::isinf(stored) ? std::numeric_limits<double>::quiet_NaN()
@@ -187,8 +187,8 @@ LoadedSurface x3p_surface(const std::filesystem::path& file, const X3pMember& me
     if (!valid) refuse(file, "lacks its member " + mask_name + " of valid points; it is damaged");
     for (Index row = 0; row < ny; ++row) {
       for (Index column = 0; column < nx; ++column) {
-        const auto place = static_cast<std::size_t>(row * nx + column);
-        if ((static_cast<unsigned char>((*valid)[place / 8]) >> place % 8 & 1) == 0)
+        const auto index = static_cast<std::size_t>(row * nx + column);
+        if ((static_cast<unsigned char>((*valid)[index / 8]) >> index % 8 & 1) == 0)
           surface.heights(step_x > 0 ? column : nx - 1 - column, step_y > 0 ? row : ny - 1 - row) =
               std::numeric_limits<double>::quiet_NaN();
       }

@@ -25,8 +25,8 @@ struct XyzAxis {
 /// Coordinates are written with few digits: they may lie up to a tenth of a step from the grid.
 bool on_grid(const std::vector<double>& sorted, double step) {
   return std::ranges::all_of(sorted, [&](double value) {
-    const double place = (value - sorted.front()) / step;
-    return std::abs(place - std::round(place)) <= 0.1;
+    const double index = (value - sorted.front()) / step;
+    return std::abs(index - std::round(index)) <= 0.1;
   });
 }
 
@@ -34,7 +34,7 @@ bool on_grid(const std::vector<double>& sorted, double step) {
 /// order: a coordinate is mostly the one before, or follows it as it did before.
 std::vector<double> different(const std::filesystem::path& file, const std::vector<double>& xyz,
                               std::size_t first) {
-  constexpr std::size_t room = 65536;
+  constexpr std::size_t min_batch = 65536;
   std::vector<double> values;  // rising up to `sorted`
   std::size_t sorted = 0, at = 0;
   const auto sort = [&] {
@@ -44,15 +44,15 @@ std::vector<double> different(const std::filesystem::path& file, const std::vect
   };
   for (std::size_t k = first; k < xyz.size(); k += 3) {
     const double value = xyz[k];
-    const auto is_at = [&](std::size_t place) {
-      if (place >= values.size() || values[place] != value) return false;
-      at = place;
+    const auto is_at = [&](std::size_t index) {
+      if (index >= values.size() || values[index] != value) return false;
+      at = index;
       return true;
     };
     if (is_at(at) || is_at(at + 1) || is_at(0)) continue;
     if (std::isnan(value)) refuse(file, "has an XYZ point without coordinates; remove it");
     values.push_back(value);
-    if (values.size() - sorted >= std::max(room, sorted)) sort();
+    if (values.size() - sorted >= std::max(min_batch, sorted)) sort();
   }
   sort();
   return values;

@@ -90,16 +90,16 @@ class MpiTransport : public detail::Transport {
   }
 
   void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) override {
-    std::vector<std::int64_t> counts, places;
+    std::vector<std::int64_t> counts, offsets;
     std::int64_t end = 0;
     for (const std::size_t count : bytes) {
       counts.push_back(static_cast<std::int64_t>(count));
-      places.push_back(end);
+      offsets.push_back(end);
       end += counts.back();
     }
-    if (end > most) return gather_in_turn(mine, counts, places, static_cast<char*>(all));
+    if (end > most) return gather_in_turn(mine, counts, offsets, static_cast<char*>(all));
     const auto own = static_cast<int>(bytes[static_cast<std::size_t>(rank_)]);
-    check(MPI_Allgatherv(mine, own, MPI_BYTE, all, narrowed(counts).data(), narrowed(places).data(),
+    check(MPI_Allgatherv(mine, own, MPI_BYTE, all, narrowed(counts).data(), narrowed(offsets).data(),
                          MPI_BYTE, processes_),
           "MPI_Allgatherv");
   }
@@ -109,9 +109,9 @@ class MpiTransport : public detail::Transport {
     const auto count = static_cast<std::size_t>(ranks_);
     const Unit type(unit);
     check(MPI_Alltoallv(from, narrowed(sent.counts.first(count)).data(),
-                        narrowed(sent.places.first(count)).data(), type, to,
+                        narrowed(sent.offsets.first(count)).data(), type, to,
                         narrowed(received.counts.first(count)).data(),
-                        narrowed(received.places.first(count)).data(), type, processes_),
+                        narrowed(received.offsets.first(count)).data(), type, processes_),
           "MPI_Alltoallv");
   }
 
@@ -126,12 +126,12 @@ class MpiTransport : public detail::Transport {
  private:
   /// More bytes than MPI counts: each process sends its own to all others.
   void gather_in_turn(const void* mine, const std::vector<std::int64_t>& counts,
-                      const std::vector<std::int64_t>& places, char* all) {
+                      const std::vector<std::int64_t>& offsets, char* all) {
     for (std::size_t from = 0; from < counts.size(); ++from) {
       const auto count = static_cast<std::size_t>(counts[from]);
       if (static_cast<int>(from) == rank_ && count > 0)
-        std::memcpy(all + places[from], mine, count);
-      broadcast(all + places[from], count, static_cast<int>(from));
+        std::memcpy(all + offsets[from], mine, count);
+      broadcast(all + offsets[from], count, static_cast<int>(from));
     }
   }
 

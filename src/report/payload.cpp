@@ -193,8 +193,8 @@ class Point {
   }
 
   /// Numbers in place of lists.
-  Json single(const std::string& name, std::size_t place) const {
-    Json json = estimate(name, place, 1);
+  Json single(const std::string& name, std::size_t location) const {
+    Json json = estimate(name, location, 1);
     for (auto& [member, values] : json.items()) values = Json(values[0]);
     return json;
   }
@@ -404,16 +404,16 @@ class Point {
   Json assumptions() const {
     Json json;
     for (const AssumptionName& name : assumption_names()) {
-      const std::string place = "assumptions/" + std::string(name.name);
-      if (!has(place + "_verdict")) continue;
+      const std::string location = "assumptions/" + std::string(name.name);
+      if (!has(location + "_verdict")) continue;
       Json& assumption = json[std::string(name.name)];
       assumption = {{"assumption", std::string(name.assumption)},
                  {"here", std::string(name.here)},
                  {"remedy", std::string(name.remedy)},
                  {"unit", std::string(si_unit(name.value_dimension))},
-                 {"value", list(required(place))},
-                 {"verdict", list(required(place + "_verdict"))}};
-      if (has(place + "_onset")) assumption["onset"] = list(required(place + "_onset"));
+                 {"value", list(required(location))},
+                 {"verdict", list(required(location + "_verdict"))}};
+      if (has(location + "_onset")) assumption["onset"] = list(required(location + "_onset"));
     }
     return json;
   }
@@ -488,8 +488,8 @@ Json report_payload(const ResultReader& results) {
   }
   const auto side = Index(std::sqrt(map_budget / double(where.size())));
   json["points"] = Json::array();
-  for (const std::string& place : where)
-    json["points"].push_back(Point(results, place).payload(std::max<Index>(side, 32)));
+  for (const std::string& location : where)
+    json["points"].push_back(Point(results, location).payload(std::max<Index>(side, 32)));
   return json;
 }
 

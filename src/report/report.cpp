@@ -30,7 +30,7 @@ std::string script_text(const Json& json) {
 
 /// The template with its {{places}} filled, in one pass: what is put in is not searched again.
 std::string filled(std::string_view page,
-                   const std::vector<std::pair<std::string_view, std::string_view>>& places) {
+                   const std::vector<std::pair<std::string_view, std::string_view>>& locations) {
   std::string result;
   while (true) {
     const std::size_t begin = page.find("{{");
@@ -38,8 +38,8 @@ std::string filled(std::string_view page,
     if (begin == std::string_view::npos) return result;
     const std::size_t end = page.find("}}", begin);
     const std::string_view name = page.substr(begin + 2, end - begin - 2);
-    for (const auto& [place, content] : places)
-      if (place == name) result += content;
+    for (const auto& [location, content] : locations)
+      if (location == name) result += content;
     page.remove_prefix(end + 2);
   }
 }

@@ -15,12 +15,12 @@ namespace {
 
 /// The member at the end of a path of names; null where the payload does not go so far.
 const Json* find(const Json& object, const std::vector<std::string>& path) {
-  const Json* place = &object;
+  const Json* location = &object;
   for (const std::string& name : path) {
-    if (!place->is_object() || !place->contains(name)) return nullptr;
-    place = &(*place)[name];
+    if (!location->is_object() || !location->contains(name)) return nullptr;
+    location = &(*location)[name];
   }
-  return place;
+  return location;
 }
 
 double number(const Json* value) {

@@ -38,7 +38,7 @@ class CaseRun {
     if (result.configuration.target_precision <= 0) found_.reserve(seeds_.size());
   }
 
-  void go() {
+  void run() {
     restore();
     if (run_.missing) {
       talk();
@@ -77,7 +77,7 @@ class CaseRun {
   }
 
   struct Found {
-    std::size_t place = 0;
+    std::size_t location = 0;
     std::optional<Realisation> realisation = {};
   };
 
@@ -89,13 +89,13 @@ class CaseRun {
       if (mine.realisation) found.push_back(std::move(mine));
       return found;
     }
-    std::vector<std::size_t> places(std::size_t(all.size()));
-    all.gather_all(&mine.place, std::vector(places.size(), sizeof mine.place), places.data());
+    std::vector<std::size_t> locations(std::size_t(all.size()));
+    all.gather_all(&mine.location, std::vector(locations.size(), sizeof mine.location), locations.data());
     const std::vector<std::string> records =
         all.gather_all(mine.realisation ? encode({{}, *mine.realisation}, 0) : "");
     for (std::size_t rank = 0; rank < records.size(); ++rank)
       if (!records[rank].empty())
-        found.push_back({places[rank], decode(records[rank], 0).realisation});
+        found.push_back({locations[rank], decode(records[rank], 0).realisation});
     return found;
   }
 
@@ -109,15 +109,15 @@ class CaseRun {
     for (;;) {
       const auto start = Clock::now();
       std::size_t next = 0;
-      for (std::size_t& place : turn) {
+      for (std::size_t& location : turn) {
         while (next < seeds_.size() && is_there(next)) ++next;
-        place = next < seeds_.size() && !stop_ && is_wanted(next) ? next++ : none;
+        location = next < seeds_.size() && !stop_ && is_wanted(next) ? next++ : none;
       }
       all.broadcast(turn.data(), turn.size() * sizeof(std::size_t));
       if (turn.front() == none) break;
       std::erase(turn, none);
       Found mine;
-      if (const auto group = std::size_t(groups.place()); group < turn.size())
+      if (const auto group = std::size_t(groups.location()); group < turn.size())
         mine = {turn[group], analysed(turn[group], turn)};
       std::vector<Found> found = shared(std::move(mine));
       stop_ = !all.all_agree(!stop_);
@@ -145,7 +145,7 @@ class CaseRun {
       Realisation realisation = realise(
           result_.configuration, seeds_[i], result_.pressures,
           [&](const ProgressReport& report) {
-            for (const std::size_t place : turn) fractions_[place] = report.fraction;
+            for (const std::size_t location : turn) fractions_[location] = report.fraction;
             talk();
             return !stop_;
           },
@@ -308,7 +308,7 @@ bool PrecisionRule::met_with(const Realisation& realisation) {
 }
 
 void run_case(StudyResult& result, const StudyRun& run, const RealisationReport& start) {
-  CaseRun(result, run, start).go();
+  CaseRun(result, run, start).run();
 }
 
 }  // namespace salebra::detail

@@ -40,8 +40,8 @@ double required_positive(TomlTable& table, std::string_view key, Dimension dimen
 
 template <class Enum>
 std::optional<Enum> enumerated(TomlTable& table, std::string_view key) {
-  const auto place = table.choice(key, names_of<Enum>());
-  return place ? std::optional(EnumNames<Enum>::values[*place].first) : std::nullopt;
+  const auto index = table.choice(key, names_of<Enum>());
+  return index ? std::optional(EnumNames<Enum>::values[*index].first) : std::nullopt;
 }
 
 Grid2D read_grid(TomlTable& table) {
@@ -391,9 +391,9 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
 namespace {
 
 std::unique_ptr<const IsotropicSpectrum> spectrum_at(const GeneratedSurfaces& surfaces,
-                                                     std::size_t place) {
+                                                     std::size_t index) {
   if (surfaces.tables.empty()) return std::make_unique<SelfAffineSpectrum>(surfaces.spectrum);
-  const SpectrumTable& table = surfaces.tables[place];
+  const SpectrumTable& table = surfaces.tables[index];
   return std::make_unique<TabulatedSpectrum>(table.wavenumber, table.psd);
 }
 

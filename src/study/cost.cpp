@@ -126,10 +126,10 @@ ShardPlan plan_of(const StudyCost& cost, std::size_t shards) {
     double seconds = 0;
   };
   std::vector<Load> loads(shards);
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const PointCost& point : cost.points)
     for (std::size_t i = 0; i < point.surfaces; ++i) {
-      Load& load = loads[place++ % shards];
+      Load& load = loads[index++ % shards];
       ++load.surfaces;
       load.contacts += point.pressures.size();
       load.seconds += point.seconds / static_cast<double>(point.surfaces);

@@ -41,14 +41,14 @@ Moments moments_of(const std::vector<double>& values) {
 
 /// Linear between order statistics; sorts no more than it has to.
 double quantile(std::vector<double>& values, double probability) {
-  const double place = probability * (double(values.size()) - 1);
-  const auto below = static_cast<std::ptrdiff_t>(place);
+  const double position = probability * (double(values.size()) - 1);
+  const auto below = static_cast<std::ptrdiff_t>(position);
   std::nth_element(values.begin(), values.begin() + below, values.end());
   const double low = values[std::size_t(below)];
   const double high = below + 1 < std::ptrdiff_t(values.size())
                           ? *std::min_element(values.begin() + below + 1, values.end())
                           : low;
-  return low + (place - double(below)) * (high - low);
+  return low + (position - double(below)) * (high - low);
 }
 
 }  // namespace
@@ -105,12 +105,12 @@ EnsembleMean Bootstrap::mean(const std::vector<double>& values) const {
   const auto count = std::int32_t(kept.size());
   // Draws are computed where they are needed: a table of them would take 8 kB for each value.
   const auto resample_slab = [&](Index begin, Index end) {
-    std::vector<std::int32_t> places(kept.size());
+    std::vector<std::int32_t> positions(kept.size());
     std::vector<double> resample(kept.size());
     for (Index number = begin; number < end; ++number) {
-      fill_draws(seed_, std::int32_t(number), 0, count, places, bootstrap_stream);
-      std::ranges::transform(places, resample.begin(),
-                             [&](std::int32_t place) { return kept[std::size_t(place)]; });
+      fill_draws(seed_, std::int32_t(number), 0, count, positions, bootstrap_stream);
+      std::ranges::transform(positions, resample.begin(),
+                             [&](std::int32_t position) { return kept[std::size_t(position)]; });
       const Moments drawn = moments_of(resample);
       const double shift = drawn.mean - sample.mean;
       // A resample of one value over and over knows no scatter; it belongs to the tail on its side.

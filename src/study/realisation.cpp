@@ -35,14 +35,14 @@ double seam_step(const Surface& surface) {
     for (Index row = begin; row < end; ++row) sum += square(h(row, 0) - h(row, ny - 1));
     return sum;
   });
-  std::vector<std::byte> first_room, last_room;
-  const auto row = [&](Index at, std::vector<std::byte>& room) {
+  std::vector<std::byte> first_buffer, last_buffer;
+  const auto row = [&](Index at, std::vector<std::byte>& buffer) {
     const auto bytes = static_cast<std::size_t>(ny) * sizeof(double);
     const RowExchange to_all(
         rows, [at](int) { return RowExchange::Window{at, 1}; }, RowExchange::Edge::none);
-    return static_cast<const double*>(to_all.fetch(h.data(), bytes, bytes, room).front());
+    return static_cast<const double*>(to_all.fetch(h.data(), bytes, bytes, buffer).front());
   };
-  const double *first = row(0, first_room), *last = row(nx - 1, last_room);
+  const double *first = row(0, first_buffer), *last = row(nx - 1, last_buffer);
   double along_x = 0;
   for (Index iy = 0; iy < ny; ++iy) along_x += square(first[iy] - last[iy]);
   return std::sqrt((along_x / double(ny) + along_y / double(nx)) / 2);

@@ -59,14 +59,14 @@ class ShardRun {
  public:
   ShardRun(const std::vector<StudyConfiguration>& points, const Shard& shard, const StudyRun& run)
       : shard_(shard), run_(run), parts_(*run.parts) {
-    std::size_t place = 0;
+    std::size_t location = 0;
     for (const StudyConfiguration& configuration : points) {
       StudyLoads loads = study_loads(configuration);
       if (run.on_warning) std::ranges::for_each(loads.warnings, run.on_warning);
       Point& point = points_.emplace_back(configuration, std::move(loads.pressures));
       for (const std::uint64_t seed : detail::seeds_of(configuration)) {
         const std::uint64_t key = StudyParts::key(configuration, seed);
-        if (shard.holds(place++))
+        if (shard.holds(location++))
           pending_.push_back({points_.size() - 1, point.keys.size(), seed, key});
         point.keys.push_back(key);
       }
@@ -75,9 +75,9 @@ class ShardRun {
     fractions_ = std::vector<std::atomic<double>>(pending_.size());
   }
 
-  ShardOutcome go() {
+  ShardOutcome run() {
     drop_present();
-    require_room();
+    require_disk_space();
     // A claim that holds now may be void when a thread has ended its surface: each looks for
     // another until there is none.
     loop_.run(std::max(Index(pending_.size()), Index(1)), [this](Index) {
@@ -101,7 +101,7 @@ class ShardRun {
     });
   }
 
-  void require_room() const {
+  void require_disk_space() const {
     std::size_t checked = std::numeric_limits<std::size_t>::max();
     for (const Item& item : pending_) {
       const StudyConfiguration& point = points_[item.point].configuration;
@@ -230,7 +230,7 @@ ShardOutcome run_shard(const StudyConfiguration& configuration, const Shard& sha
   configuration.material.modulus_ratio();
   const std::vector<StudyConfiguration> points = parameter_combinations(configuration);
   if (run.parts->count() > 0) detail::require_some_of(*run.parts, points);
-  return ShardRun(points, shard, run).go();
+  return ShardRun(points, shard, run).run();
 }
 
 Shard parse_shard(std::string_view text) {

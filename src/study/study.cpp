@@ -86,7 +86,7 @@ void require_spreadable(const StudyConfiguration& point, const Groups& groups) {
 }
 
 /// Refuses a surface of generated ones that one process, or those of a group, cannot hold.
-void require_room(const StudyResult& result, const Groups& groups) {
+void require_disk_space(const StudyResult& result, const Groups& groups) {
   if (result.grid.nx == 0) return;
   const StudyConfiguration& point = result.configuration;
   if (groups.all().alone())
@@ -191,7 +191,7 @@ std::vector<StudyResult> run_ensembles(const StudyConfiguration& configuration,
     result.pressures = std::move(loads.pressures);
     result.warnings = std::move(loads.warnings);
     if (run.on_warning) std::ranges::for_each(result.warnings, run.on_warning);
-    if (!run.missing) require_room(result, run.groups);
+    if (!run.missing) require_disk_space(result, run.groups);
     report.point = results.size();
     detail::run_case(result, run, report);
     report.finished += detail::seeds_of(point).size();

@@ -168,14 +168,14 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
       file.has("twin") ? file.text_attribute("twin", "form") : std::nullopt;
   const std::optional<SpectrumForm> form = word ? parse_enum<SpectrumForm>(*word) : std::nullopt;
   if (!form) throw InvalidInput(path.string(), "is no surface twin, which `salebra twin` writes");
-  const std::string place = "twin/draws/";
+  const std::string position = "twin/draws/";
   const bool table = *form == SpectrumForm::table;
   // Extents come first: a packed file may hold more numbers than fit into the memory.
   const auto count_of = [&](const std::string& name) {
     std::size_t count = 1;
-    for (const Index extent : file.shape(place + name)) {
+    for (const Index extent : file.shape(position + name)) {
       require(extent <= max_draws, path.string(), extent,
-              fmt::format("values of {}{} along one dimension must be at most {}", place, name,
+              fmt::format("values of {}{} along one dimension must be at most {}", position, name,
                           max_draws));
       count *= static_cast<std::size_t>(extent);
     }
@@ -184,31 +184,31 @@ std::vector<TwinDraw> read_twin_draws(const std::filesystem::path& path) {
   const std::size_t knots_of_draw = count_of("knot"), values_of_draws = count_of("log_psd");
   require(table ? knots_of_draw >= 2 && knots_of_draw <= max_knots : knots_of_draw == 1,
           path.string(), knots_of_draw,
-          table ? fmt::format("knots in {}knot must be from 2 to {}", place, max_knots)
-                : fmt::format("knots in {}knot must be one for the form {}", place, *word));
+          table ? fmt::format("knots in {}knot must be from 2 to {}", position, max_knots)
+                : fmt::format("knots in {}knot must be one for the form {}", position, *word));
   const std::size_t count = values_of_draws / knots_of_draw;
   require(count > 0 && count * knots_of_draw == values_of_draws, path.string(), values_of_draws,
-          fmt::format("values of {}log_psd make no draws of {} knots", place, knots_of_draw));
+          fmt::format("values of {}log_psd make no draws of {} knots", position, knots_of_draw));
   for (const auto& [name, member] : numbers_of_draw)
     require(count_of(name) == count, path.string(), count_of(name),
             fmt::format("values of {} belong to {} draws", name, count));
   // Every number is in a range that holds all surfaces and no overflow.
   const auto within = [&](const std::string& name, double low, double high) {
-    std::vector<double> values = file.numbers(place + name);
+    std::vector<double> values = file.numbers(position + name);
     for (const double value : values)
       require(value >= low && value <= high, path.string(), value,
-              fmt::format("in {}{} must be from {:g} to {:g}", place, name, low, high));
+              fmt::format("in {}{} must be from {:g} to {:g}", position, name, low, high));
     return values;
   };
   const std::vector<double> knots = within("knot", 1e-6, 1e15),
                             log_psd = within("log_psd", -400, 400);
   require(std::ranges::is_sorted(knots, std::less_equal()), path.string(), "",
-          fmt::format("has knots in {}knot that do not rise", place));
+          fmt::format("has knots in {}knot that do not rise", position));
   std::vector<TwinDraw> draws(count);
   for (const auto& [name, member] : numbers_of_draw) {
     // A table has neither exponent nor roll-off.
     const bool unused = table && (member == &TwinDraw::hurst || member == &TwinDraw::rolloff);
-    const std::vector<double> values = unused                           ? file.numbers(place + name)
+    const std::vector<double> values = unused                           ? file.numbers(position + name)
                                        : member == &TwinDraw::hurst     ? within(name, -1, 3)
                                        : member == &TwinDraw::rms_slope ? within(name, 0, 1e6)
                                                                         : within(name, 1e-15, 1e6);

@@ -39,7 +39,7 @@ Line fit_line(const std::vector<double>& heights, std::size_t first, std::size_t
   };
   const double mean =
       heights[first] + sum([&](double, double z) { return z - heights[first]; }) / n;
-  const double moment = sum([&](double place, double z) { return place * (z - mean); });
+  const double moment = sum([&](double position, double z) { return position * (z - mean); });
   const double slope = count > 1 ? moment / (n * (n * n - 1) / 12) * points : 0;
   const double centre = middle / points;
   return {mean - slope * centre, mean + slope * (1 - centre)};
@@ -63,7 +63,7 @@ struct Places {
 
 /// Sorts falling numbers by their place between the greatest and the least, then those of nearly
 /// one place again, which takes a third of the time of a sort by comparisons.
-void sort_falling(std::span<double> values, std::vector<double>& room, int depth = 0) {
+void sort_falling(std::span<double> values, std::vector<double>& buffer, int depth = 0) {
   constexpr std::size_t few = 32, max_places = 2048;
   constexpr int deepest = 4;  // beyond, some numbers are far greater than all others
   const auto [least, greatest] = std::ranges::minmax(values);
@@ -72,51 +72,51 @@ void sort_falling(std::span<double> values, std::vector<double>& room, int depth
     std::ranges::sort(values, std::greater{});
     return;
   }
-  const Places places(least, greatest, std::min(max_places, values.size() / 4));
-  std::vector<std::size_t> ends(places.count + 1, 0);
-  for (const double value : values) ++ends[places.of(value) + 1];
+  const Places positions(least, greatest, std::min(max_places, values.size() / 4));
+  std::vector<std::size_t> ends(positions.count + 1, 0);
+  for (const double value : values) ++ends[positions.of(value) + 1];
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
-  room.assign(values.begin(), values.end());
-  for (const double value : room) values[ends[places.of(value)]++] = value;
+  buffer.assign(values.begin(), values.end());
+  for (const double value : buffer) values[ends[positions.of(value)]++] = value;
   std::size_t begin = 0;
-  for (std::size_t place = 0; place < places.count; begin = ends[place++])
-    if (ends[place] - begin > 1)
-      sort_falling(values.subspan(begin, ends[place] - begin), room, depth + 1);
+  for (std::size_t position = 0; position < positions.count; begin = ends[position++])
+    if (ends[position] - begin > 1)
+      sort_falling(values.subspan(begin, ends[position] - begin), buffer, depth + 1);
 }
 
 /// The defined heights, falling. 0 stands for −0 too.
 std::vector<double> heights_from_the_highest(const Surface& surface,
                                              const HeightStatistics& statistics) {
   const auto defined = static_cast<std::size_t>(statistics.defined_points);
-  const Places places(statistics.minimum, statistics.maximum,
+  const Places positions(statistics.minimum, statistics.maximum,
                       std::clamp<std::size_t>(defined / 4, 1, 4096));
   // Where the next height of each place goes, for each block of rows.
   const Index rows = surface.grid.nx, size = (rows + 63) / 64;
   auto next = parallel::map_blocks_of<std::vector<std::size_t>>(size, rows, [&](Index a, Index b) {
-    std::vector<std::size_t> count(places.count, 0);
+    std::vector<std::size_t> count(positions.count, 0);
     for (Index k = a * surface.grid.ny; k < b * surface.grid.ny; ++k)
       if (const double height = surface.heights.data()[k]; !std::isnan(height))
-        ++count[places.of(height)];
+        ++count[positions.of(height)];
     return count;
   });
   std::size_t sum = 0;
-  for (std::size_t place = 0; place < places.count; ++place)
-    for (auto& of_block : next) sum += std::exchange(of_block[place], sum);
+  for (std::size_t position = 0; position < positions.count; ++position)
+    for (auto& of_block : next) sum += std::exchange(of_block[position], sum);
   std::vector<double> heights(defined);
   parallel::map_blocks_of<int>(size, rows, [&](Index a, Index b) {
     std::vector<std::size_t>& to = next[static_cast<std::size_t>(a / size)];
     for (Index k = a * surface.grid.ny; k < b * surface.grid.ny; ++k)
       if (const double height = surface.heights.data()[k]; !std::isnan(height))
-        heights[to[places.of(height)]++] = height + 0.0;
+        heights[to[positions.of(height)]++] = height + 0.0;
     return 0;
   });
   const std::vector<std::size_t>& ends = next.back();
-  parallel::for_slabs(static_cast<Index>(places.count), [&](Index a, Index b) {
-    std::vector<double> room;
-    for (auto place = static_cast<std::size_t>(a); place < static_cast<std::size_t>(b); ++place) {
-      const std::size_t begin = place == 0 ? 0 : ends[place - 1];
-      if (ends[place] > begin)
-        sort_falling(std::span(heights).subspan(begin, ends[place] - begin), room);
+  parallel::for_slabs(static_cast<Index>(positions.count), [&](Index a, Index b) {
+    std::vector<double> buffer;
+    for (auto position = static_cast<std::size_t>(a); position < static_cast<std::size_t>(b); ++position) {
+      const std::size_t begin = position == 0 ? 0 : ends[position - 1];
+      if (ends[position] > begin)
+        sort_falling(std::span(heights).subspan(begin, ends[position] - begin), buffer);
     }
   });
   return heights;
@@ -147,10 +147,10 @@ double BearingCurve::height(double area_fraction) const {
   require(area_fraction >= 0 && area_fraction <= 1, "area_fraction", area_fraction,
           "must be from 0 to 1");
   const double last = static_cast<double>(heights_.size() - 1);
-  const double place =
+  const double position =
       std::clamp(area_fraction * static_cast<double>(heights_.size()) - 0.5, 0.0, last);
-  const auto below = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(below);
+  const auto below = static_cast<std::size_t>(position);
+  const double part = position - static_cast<double>(below);
   if (part == 0) return heights_[below];
   return heights_[below] + part * (heights_[below + 1] - heights_[below]);
 }
@@ -176,10 +176,10 @@ double BearingCurve::integral(double from, double to) const {
   const double points = static_cast<double>(heights_.size());
   // Up to p, counted from the highest point: whole steps, less or more of the pieces that p cuts.
   const auto up_to = [&](double p) {
-    const double place = p * points - 0.5;
-    const double low = std::clamp(std::floor(place), -1.0, points - 1);
+    const double position = p * points - 0.5;
+    const double low = std::clamp(std::floor(position), -1.0, points - 1);
     const auto steps = static_cast<std::size_t>(low + 1);
-    const double part = place - low;
+    const double part = position - low;
     const double left = heights_[steps == 0 ? 0 : steps - 1] - heights_.front();
     const double right = height(p) - heights_.front();
     const auto count = static_cast<Index>(steps), stored = count / stride;

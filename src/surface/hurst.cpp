@@ -252,14 +252,14 @@ HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
   constexpr double forgiven = 0.02;
   const double strongest = radial.psd.empty() ? 0 : std::ranges::max(radial.psd);
   std::vector<detail::SpectrumBin> bins;
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> positions;
   for (std::size_t k = 0; k < radial.modes.size(); ++k) {
     const double q = radial.wavenumber[k];
     if (q < lowest || q > highest) continue;
     if (!(radial.psd[k] > 1e-24 * strongest)) break;
     const double independent = static_cast<double>(radial.modes[k]) / 2 / spectrum.correlated_modes;
     bins.push_back({q, radial.psd[k], 1 / (1 / independent + forgiven * forgiven)});
-    places.push_back(k);
+    positions.push_back(k);
   }
   const detail::PowerLawRange law =
       detail::fit_power_law_range(bins, windowed_density(grid), min_span);
@@ -267,7 +267,7 @@ HurstEstimate of_windowed(const PowerSpectrum& spectrum, double highest) {
   const auto limit = [&](std::size_t ring, std::size_t next) {
     return std::sqrt(radial.wavenumber[ring] * radial.wavenumber[next]);
   };
-  const std::size_t first = places[law.begin], last = places[law.end - 1];
+  const std::size_t first = positions[law.begin], last = positions[law.end - 1];
   const ModesWithin modes(
       spectrum,
       {first > 0 ? limit(first - 1, first) : 0,

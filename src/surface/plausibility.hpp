@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// Input that is allowed and most likely a slip of the user's hand, in words for a warning.
+/// Input that is allowed and most likely a mistake, in words for a warning.
 namespace salebra {
 
 /// A root mean square slope h' above 1, and thus E*h' above E*: surfaces of machines and

@@ -122,10 +122,10 @@ class LawInRange {
   Fit fit(bool plateau, std::optional<double> value = {}) const {
     const Held held{value.has_value(), !plateau, false, false};
     Fit best;
-    for (const double place : {0.0, 0.3, 0.6}) {
-      if (!plateau && place > 0) continue;
+    for (const double position : {0.0, 0.3, 0.6}) {
+      if (!plateau && position > 0) continue;
       Numbers from = start(value.value_or(0.6));
-      if (place > 0) from[rolloff] = first_ + place * (last_ - first_);
+      if (position > 0) from[rolloff] = first_ + position * (last_ - first_);
       const Fit found = descend(from, held);
       if (found.deviance < best.deviance) best = found;
       // As low as chance has it: no other start need be tried.
@@ -203,13 +203,13 @@ PowerLawRange fit_power_law_range(std::span<const SpectrumBin> bins,
     double span;
   };
   // Ends a third of an octave apart, the longest range first.
-  std::vector<std::size_t> places{0};
+  std::vector<std::size_t> positions{0};
   for (std::size_t k = 1; k < bins.size(); ++k)
-    if (bins[k].wavenumber > 1.25 * bins[places.back()].wavenumber) places.push_back(k);
-  places.push_back(bins.size());
+    if (bins[k].wavenumber > 1.25 * bins[positions.back()].wavenumber) positions.push_back(k);
+  positions.push_back(bins.size());
   std::vector<Candidate> candidates;
-  for (const std::size_t begin : places)
-    for (const std::size_t end : places)
+  for (const std::size_t begin : positions)
+    for (const std::size_t end : positions)
       if (end >= begin + fewest)
         if (const double span = bins[end - 1].wavenumber / bins[begin].wavenumber;
             span >= min_span)

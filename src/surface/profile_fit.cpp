@@ -51,7 +51,7 @@ detail::SelfAffineDensity windowed_density(double step, double q_short) {
   return [=](double q, double hurst, double q_rolloff) {
     // Without a plateau the power law begins beyond the profile.
     const double begin = q_rolloff > 0 ? q_rolloff : 1e-3 * step;
-    const auto at = [&](double place) { return profile_density(place, hurst, begin, q_short); };
+    const auto at = [&](double index) { return profile_density(index, hurst, begin, q_short); };
     // Beyond some waves it makes less of a difference than the bins can show.
     if (q > 24 * step) return at(q);
     return (at(q - step) + 4 * at(q) + at(q + step)) / 6;

@@ -40,11 +40,11 @@ std::vector<Value> map_profiles(const Surface& surface, Axis axis, const Value& 
   }
   collectively(surface.communicator, [&] {
     parallel::for_slabs(number, [&](Index begin, Index end) {
-      const auto room = large_array<double>(static_cast<std::size_t>(ny));
+      const auto buffer = large_array<double>(static_cast<std::size_t>(ny));
       for (Index row = begin * size; row < std::min(profiles.count(), end * size); ++row) {
-        std::copy_n(surface.heights.data() + row * ny, ny, room.get());
+        std::copy_n(surface.heights.data() + row * ny, ny, buffer.get());
         add(blocks[static_cast<std::size_t>(row / size)],
-            std::span(room.get(), static_cast<std::size_t>(ny)));
+            std::span(buffer.get(), static_cast<std::size_t>(ny)));
       }
     });
   });

@@ -135,9 +135,9 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
   for (Index i = 0; i < nx; ++i)
     tapered.row(i) = level.row(i) * along_y * wx[static_cast<std::size_t>(i)];
   RealFft2D<double> transform(nx, ny);
-  const auto room = large_array<std::complex<double>>(static_cast<std::size_t>(nx) *
+  const auto buffer = large_array<std::complex<double>>(static_cast<std::size_t>(nx) *
                                                       static_cast<std::size_t>(columns));
-  transform.forward(tapered.data(), room.get());
+  transform.forward(tapered.data(), buffer.get());
   for (Index i = 0; i < nx; ++i) {
     const Index k = 2 * i <= nx ? i : i - nx;
     if (drifts && std::abs(k) <= drift_modes) continue;
@@ -149,7 +149,7 @@ void add_hann(const Field& level, const ScanModes& modes, bool drifts, std::size
       bin = sums.bin_of(square, bin);
       if (bin == sums.power.size()) break;
       const double count = j == 0 || 2 * j == ny ? 1 : 2;
-      sums.power[bin] += count * scale * std::norm(room[static_cast<std::size_t>(i * columns + j)]);
+      sums.power[bin] += count * scale * std::norm(buffer[static_cast<std::size_t>(i * columns + j)]);
       sums.modes[bin] += count;
     }
   }

@@ -125,16 +125,16 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   const double first = rings.front().x, last = rings.back().x;
   // ±: a kink below the first ring is no plateau at all, and one near the last leaves no law.
   constexpr int steps = 200;
-  const auto place = [&](int k) { return first + (last - first) * k / steps; };
+  const auto position = [&](int k) { return first + (last - first) * k / steps; };
   std::vector<double> values;
-  for (int k = 0; k <= steps; ++k) values.push_back(deviance(rings, place(k)));
+  for (int k = 0; k <= steps; ++k) values.push_back(deviance(rings, position(k)));
   const auto least = std::ranges::min_element(values);
   const auto best = static_cast<int>(least - values.begin());
   const double limit = gsl_cdf_chisq_Pinv(0.95, 1) * spectrum.correlated_modes;
 
   // The least deviance between the places, by golden section.
   constexpr double golden = 0.6180339887498949;
-  double left = place(std::max(best - 1, 0)), right = place(std::min(best + 1, steps));
+  double left = position(std::max(best - 1, 0)), right = position(std::min(best + 1, steps));
   for (int k = 0; k < 30; ++k) {
     const double a = right - golden * (right - left), b = left + golden * (right - left);
     if (deviance(rings, a) < deviance(rings, b))
@@ -149,7 +149,7 @@ IntervalEstimate fit_rolloff(const PowerSpectrum& spectrum, const HurstEstimate&
   const auto crossing = [&](int from, int direction) {
     int k = from;
     while (values[static_cast<std::size_t>(k)] >= threshold && k != best) k += direction;
-    double outside = place(k - direction), inside = k == best ? kink : place(k);
+    double outside = position(k - direction), inside = k == best ? kink : position(k);
     for (int halving = 0; halving < 40; ++halving) {
       const double middle = (outside + inside) / 2;
       (deviance(rings, middle) >= threshold ? outside : inside) = middle;

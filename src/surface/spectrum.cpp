@@ -29,8 +29,8 @@ Window chosen(Window window, const Surface& surface) {
 /// Weights along one axis, normalised to ⟨w²⟩ = 1.
 Eigen::ArrayXd profile_weights(Window window, Index points) {
   if (window == Window::none) return Eigen::ArrayXd::Ones(points);
-  const auto place = Eigen::ArrayXd::LinSpaced(points, 0.5, static_cast<double>(points) - 0.5);
-  const Eigen::ArrayXd turn = 2 * pi / static_cast<double>(points) * place;
+  const auto index = Eigen::ArrayXd::LinSpaced(points, 0.5, static_cast<double>(points) - 0.5);
+  const Eigen::ArrayXd turn = 2 * pi / static_cast<double>(points) * index;
   const Eigen::ArrayXd weights = window == Window::blackman
                                      ? (0.42 - 0.5 * turn.cos() + 0.08 * (2 * turn).cos()).eval()
                                  : window == Window::welch ? (1 - (turn / pi - 1).square()).eval()

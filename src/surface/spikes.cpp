@@ -34,7 +34,7 @@ using Points = Eigen::Array<double, 4, 1>;
 /// Medians of the eight neighbours of points, whose heights begin in the middle one of three rows.
 /// NaN where a neighbour is undefined.
 Points medians_of_neighbours(const std::array<const double*, 3>& rows) {
-  const auto at = [](const double* place) { return Points(Eigen::Map<const Points>(place)); };
+  const auto at = [](const double* index) { return Points(Eigen::Map<const Points>(index)); };
   const auto [before, here, behind] = rows;
   std::array<Points, 8> sorted{at(before - 1), at(before),     at(before + 1), at(here - 1),
                                at(here + 1),   at(behind - 1), at(behind),     at(behind + 1)};
@@ -88,11 +88,11 @@ class Neighbourhoods {
   };
   /// NaN where fewer than three neighbours are defined.
   Surroundings surroundings(GridPoint at, bool with_deviation) const {
-    std::array<double, 8> room;
+    std::array<double, 8> buffer;
     std::size_t count = 0;
-    around(at, [&](GridPoint point) { room[count++] = height(point); });
+    around(at, [&](GridPoint point) { buffer[count++] = height(point); });
     if (count < 3) return {undefined, undefined};
-    const std::span<double> values(room.data(), count);
+    const std::span<double> values(buffer.data(), count);
     const double middle = middle_of(values);
     if (!with_deviation) return {middle, undefined};
     for (double& value : values) value = std::abs(value - middle);

@@ -266,18 +266,18 @@ Eigen::MatrixXd ensemble(const Candidate& one, const Ends& ends, std::uint64_t s
     Eigen::VectorXd z(size);
     for (Index p = 0; p < size; ++p)
       z[p] = gaussian_pair(seed, number, static_cast<std::int32_t>(p), 111).first;
-    const RandomPair place = uniform_pair(seed, number, 0, 112),
+    const RandomPair position = uniform_pair(seed, number, 0, 112),
                      shift = uniform_pair(seed, number, 1, 112);
     const auto chosen = [](const std::vector<const TwinFit*>& fits, double at) {
       return fits[std::min(fits.size() - 1,
                            static_cast<std::size_t>(at * static_cast<double>(fits.size())))];
     };
     Eigen::VectorXd at = one.fit.parameters;
-    if (!long_ends.empty()) at = chosen(long_ends, place.first)->parameters;
+    if (!long_ends.empty()) at = chosen(long_ends, position.first)->parameters;
     Eigen::VectorXd moved = about_fit.lazyProduct(z);
     if (!long_ends.empty()) moved[TwinLaw::rolloff] = 0.2 * (shift.first - 0.5);
     if (!short_ends.empty()) {
-      at[model.law().cutoff()] = chosen(short_ends, place.second)->parameters[model.law().cutoff()];
+      at[model.law().cutoff()] = chosen(short_ends, position.second)->parameters[model.law().cutoff()];
       moved[model.law().cutoff()] = 0.2 * (shift.second - 0.5);
     }
     at += moved;
@@ -298,10 +298,10 @@ std::vector<double> of_draws(const std::vector<TwinDraw>& draws, const Function&
 
 double quantile(const std::vector<double>& sorted, double part) {
   if (sorted.empty()) return unknown;
-  const double place = part * static_cast<double>(sorted.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), sorted.size() - 1);
+  const double position = part * static_cast<double>(sorted.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(position), sorted.size() - 1);
   const auto above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 TwinParameter interval(const std::vector<double>& sorted, bool seen) {
@@ -330,7 +330,7 @@ TwinSpectrum band_of(const std::vector<TwinDraw>& draws, const TwinLaw& law, dou
   TwinSpectrum band;
   for (int k = 0; k < points; ++k)
     band.wavenumber.push_back(lowest * std::pow(highest / lowest, k / (points - 1.0)));
-  const LawPoints places(law, band.wavenumber);
+  const LawPoints positions(law, band.wavenumber);
   std::vector<std::vector<double>> values(points);
   for (const TwinDraw& draw : draws) {
     for (std::size_t k = 0; k < points; ++k) {
@@ -341,7 +341,7 @@ TwinSpectrum band_of(const std::vector<TwinDraw>& draws, const TwinLaw& law, dou
       } else if (q <= 2 * pi / draw.short_cutoff) {
         const Eigen::Map<const Eigen::VectorXd> heights(draw.log_psd.data(),
                                                         static_cast<Index>(draw.log_psd.size()));
-        density = std::exp(places.basis.row(static_cast<Index>(k)).dot(heights));
+        density = std::exp(positions.basis.row(static_cast<Index>(k)).dot(heights));
       }
       values[k].push_back(density);
     }
@@ -445,7 +445,7 @@ class TwinRun {
         left_out_(scans.size(), false),
         forms_(forms_of(data_of_all(), options.form)) {}
 
-  SurfaceTwin go() {
+  SurfaceTwin run() {
     judge();
     if (options_.leave_one_out) leave_out_each();
     replace_by_table();
@@ -619,7 +619,7 @@ class TwinRun {
 SurfaceTwin twin_of(const std::vector<ScanSpectrum>& scans, const TwinOptions& options) {
   require_that(!scans.empty(), "scans", "are none; give one or more");
   require(options.draws >= 100, "draws", options.draws, "must be >= 100");
-  return TwinRun(scans, options).go();
+  return TwinRun(scans, options).run();
 }
 
 }  // namespace

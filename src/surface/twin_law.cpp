@@ -190,14 +190,14 @@ namespace {
 /// C of a table at wave numbers below its end. The curvatures, whose cost is the third power of the
 /// number of knots, are found once for all of them.
 std::vector<double> table_density(const TwinDraw& draw, const std::vector<double>& wavenumbers) {
-  std::vector<double> places, densities;
-  for (const double knot : draw.knots) places.push_back(std::log(knot));
+  std::vector<double> positions, densities;
+  for (const double knot : draw.knots) positions.push_back(std::log(knot));
   const Eigen::Map<const Eigen::VectorXd> heights(draw.log_psd.data(),
                                                   static_cast<Index>(draw.log_psd.size()));
-  const Eigen::MatrixXd curvatures = twin_detail::spline_curvatures(places);
+  const Eigen::MatrixXd curvatures = twin_detail::spline_curvatures(positions);
   for (const double q : wavenumbers)
     densities.push_back(
-        std::exp(twin_detail::spline_row(places, curvatures, std::log(q)).dot(heights)));
+        std::exp(twin_detail::spline_row(positions, curvatures, std::log(q)).dot(heights)));
   return densities;
 }
 

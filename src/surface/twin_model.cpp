@@ -260,10 +260,10 @@ void TwinModel::residuals(const Eigen::VectorXd& parameters, Work& work, Eigen::
       if (own.tail < 0) continue;
       (*slopes)(row, own.tail) = factor * tail(parameters, group, bin);
       // ∂/∂ln λ_s of the weight of the tail: its place q/q_s moves.
-      const double place = data.wavenumber[bin] / (2 * pi) * std::exp(parameters[law_.cutoff()]);
-      if (place > 0.90 && place < 0.96)
+      const double position = data.wavenumber[bin] / (2 * pi) * std::exp(parameters[law_.cutoff()]);
+      if (position > 0.90 && position < 0.96)
         (*slopes)(row, law_.cutoff()) +=
-            factor * data.noise * place / 0.06 *
+            factor * data.noise * position / 0.06 *
             std::exp(parameters[own.tail] -
                      5 * std::log(data.wavenumber[bin] / data.tail_reference));
     }

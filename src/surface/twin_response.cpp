@@ -240,12 +240,12 @@ double hann_below(double modes) {
     for (double& sum : sums) sum /= sums.back();
     return sums;
   }();
-  const double place = (modes + reach_of_table) / spacing;
-  if (place <= 0) return 0;
-  if (place >= static_cast<double>(table.size() - 1)) return 1;
-  const auto before = static_cast<std::size_t>(place);
+  const double position = (modes + reach_of_table) / spacing;
+  if (position <= 0) return 0;
+  if (position >= static_cast<double>(table.size() - 1)) return 1;
+  const auto before = static_cast<std::size_t>(position);
   return table[before] +
-         (place - static_cast<double>(before)) * (table[before + 1] - table[before]);
+         (position - static_cast<double>(before)) * (table[before + 1] - table[before]);
 }
 
 /// Mean of C over the bin, with limits as sharp as the window has them, and over the waves that the
@@ -317,12 +317,12 @@ void add_profile(const ScanModes& modes, const std::vector<double>& limits, Resp
   for (const Taper taper : {Taper::first_sine, Taper::second_sine, Taper::hann})
     sides.emplace_back(taper, 1, last);
   // Fine where the plane takes most of a wave, and its share is as κ_x⁴.
-  std::vector<double> places{0};
-  while (places.back() < max_hann)
-    places.push_back(places.back() + std::clamp(places.back() / 20, 0.002, 0.04));
-  for (std::size_t step = 0; step + 1 < places.size(); ++step) {
-    const double middle = (places[step] + places[step + 1]) / 2;
-    const std::vector<double> areas = strips(response, places[step], places[step + 1]);
+  std::vector<double> positions{0};
+  while (positions.back() < max_hann)
+    positions.push_back(positions.back() + std::clamp(positions.back() / 20, 0.002, 0.04));
+  for (std::size_t step = 0; step + 1 < positions.size(); ++step) {
+    const double middle = (positions[step] + positions[step + 1]) / 2;
+    const std::vector<double> areas = strips(response, positions[step], positions[step + 1]);
     std::vector<double> shares(full);
     for (const double kappa_x : {middle, -middle})
       for (SideModes& side : sides) {

@@ -163,7 +163,7 @@ TEST_CASE("A convolution of rows that are made and taken one by one is that of t
     convolution.apply({fields[0].data(), fields[1].data()}, {whole[0].data(), whole[1].data()});
   Eigen::ArrayXXi asked = Eigen::ArrayXXi::Zero(components, shape.nx), taken = asked;
   convolution.apply(
-      [&](int component, Index row, double* room) -> const double* {
+      [&](int component, Index row, double* buffer) -> const double* {
         const double* values = fields[std::size_t(component)].data() + row * shape.ny;
         ++asked(component, row);
         if (empty(component, row)) {
@@ -173,7 +173,7 @@ TEST_CASE("A convolution of rows that are made and taken one by one is that of t
         }
         if (row % 3 == 0) return values;
         std::copy_n(values, shape.ny, room);
-        return room;
+        return buffer;
       },
       [&](int component, Index row, const double* values) {
         ++taken(component, row);

@@ -526,7 +526,7 @@ TEST_CASE("A law with a K_t of its own slips at its K_t/K, and a way in sliding 
   // 1.3 x_c = 1.3 (μ/g)l of way at μF, twice in 2X.
   const Drag fast{2e-9, 10 * critical, omega};
   const double excursion = 1e-4, stored = 1.3 * friction / ratio * length / excursion;
-  CHECK(same(fast, excursion) / (friction * own.force(0) * fast.way_per_cycle()) ==
+  CHECK(same(fast, excursion) / (friction * own.force(0) * fast.distance_per_cycle()) ==
         Approx(1).margin(2 * stored + 1e-3));
   // A joint carries μF where all of it slips, (1 − e^{−20}) of it at twenty depths.
   const JointLoss joint =

@@ -26,7 +26,7 @@ class Transport {
   virtual void gather_all(const void* mine, std::span<const std::size_t> bytes, void* all) = 0;
   /// counts and offsets of a process, in units of `unit` bytes.
   struct Parts {
-    std::span<const std::int64_t> counts, places;
+    std::span<const std::int64_t> counts, offsets;
   };
   virtual void exchange(std::size_t unit, const void* from, const Parts& sent, void* to,
                         const Parts& received) = 0;
@@ -44,18 +44,18 @@ class Exchange {
   /// order of the processes.
   Exchange(std::size_t unit, std::vector<std::int64_t> sent, std::vector<std::int64_t> received);
 
-  std::int64_t sent_units() const { return sent_places_.back(); }
-  std::int64_t received_units() const { return received_places_.back(); }
-  std::int64_t sent_place(int rank) const { return sent_places_[static_cast<std::size_t>(rank)]; }
-  std::int64_t received_place(int rank) const {
-    return received_places_[static_cast<std::size_t>(rank)];
+  std::int64_t sent_units() const { return sent_offsets_.back(); }
+  std::int64_t received_units() const { return received_offsets_.back(); }
+  std::int64_t sent_offset(int rank) const { return sent_offsets_[static_cast<std::size_t>(rank)]; }
+  std::int64_t received_offset(int rank) const {
+    return received_offsets_[static_cast<std::size_t>(rank)];
   }
 
  private:
   friend class Communicator;
   std::size_t unit_;
   std::vector<std::int64_t> sent_, received_;
-  std::vector<std::int64_t> sent_places_, received_places_;  // and behind the last
+  std::vector<std::int64_t> sent_offsets_, received_offsets_;  // and behind the last
 };
 
 /// Processes that compute one surface together; a copy refers to the same processes. Every call
@@ -102,11 +102,11 @@ class Groups {
   const Communicator& all() const { return all_; }
   const Communicator& own() const { return own_; }  ///< the group of this process
   int count() const { return count_; }
-  int place() const { return place_; }  ///< index of that group, from 0
+  int offset() const { return offset_; }  ///< index of that group, from 0
 
  private:
   Communicator all_, own_;
-  int count_ = 1, place_ = 0;
+  int count_ = 1, offset_ = 0;
 };
 
 /// Runs body on every process and throws the failure of the first process that failed on all of

@@ -63,7 +63,7 @@ class RowExchange {
   /// Returns a pointer to each row of the window: into the rows of this process, into the buffer
   /// `room`, or nullptr for a row that is left unchanged.
   std::vector<const void*> fetch(const void* rows, std::size_t row_stride, std::size_t row_bytes,
-                                 std::vector<std::byte>& room) const;
+                                 std::vector<std::byte>& buffer) const;
 
  private:
   struct Move {

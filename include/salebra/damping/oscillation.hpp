@@ -37,7 +37,7 @@ struct Drag {
   double angular_frequency = 0;  ///< ω > 0, rad/s
 
   /// w = |v|/f, m. The motion is slow if it reverses after many of these distances.
-  double way_per_cycle() const {
+  double distance_per_cycle() const {
     return 2 * std::numbers::pi * std::abs(drag_velocity) / angular_frequency;
   }
 };

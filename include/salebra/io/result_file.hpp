@@ -71,8 +71,8 @@ class ResultGroup {
  private:
   friend class ResultFile;
   struct Place;
-  explicit ResultGroup(std::shared_ptr<Place> place) : place_(std::move(place)) {}
-  std::shared_ptr<Place> place_;
+  explicit ResultGroup(std::shared_ptr<Place> location) : location_(std::move(location)) {}
+  std::shared_ptr<Place> location_;
 };
 
 /// HDF5 file of results: a group for each stage (`surface`, `curve`, `fit`, `damping`, …), with

@@ -23,7 +23,7 @@ struct Shard {
   bool any() const { return count == 0; }
   /// Whether the shard has the surface with index `place`, counted from 0. The i-th surface,
   /// counted from 1, belongs to the shard where i mod count = number mod count.
-  bool holds(std::size_t place) const { return any() || (place + 1) % count == number % count; }
+  bool holds(std::size_t location) const { return any() || (location + 1) % count == number % count; }
 };
 
 /// Parses "3/8", with the number from 1 to 8 or, for schedulers that count from 0, from 0 to 7; or

@@ -163,25 +163,25 @@ double HeightDensity::density(double height) const {
 }
 
 std::vector<double> HeightDensity::support(double from) const {
-  std::vector<double> places;
+  std::vector<double> positions;
   const double h = std::max(0.0, from / sigma_);
   if (distribution_ == SummitDistribution::gaussian) {
     // Beyond h the density falls over 1/h.
     const double reach = std::sqrt(2 * negligible_exponent + h * h);
-    places = {-reach, -3, 0, h > 0 ? h + 3 / (1 + h) : 3, reach};
-    for (double& place : places) place *= sigma_;
+    positions = {-reach, -3, 0, h > 0 ? h + 3 / (1 + h) : 3, reach};
+    for (double& position : positions) position *= sigma_;
   } else if (distribution_ == SummitDistribution::exponential) {
-    places = {0, (h + 3) * sigma_, (h + negligible_exponent) * sigma_};
+    positions = {0, (h + 3) * sigma_, (h + negligible_exponent) * sigma_};
   } else {
-    places = breaks();
+    positions = breaks();
   }
-  std::ranges::sort(places);
-  if (!(from < places.back())) return {};
-  const auto first = std::ranges::upper_bound(places, from);
-  if (first == places.begin()) return places;
-  places.erase(places.begin(), first);
-  places.insert(places.begin(), from);
-  return places;
+  std::ranges::sort(positions);
+  if (!(from < positions.back())) return {};
+  const auto first = std::ranges::upper_bound(positions, from);
+  if (first == positions.begin()) return positions;
+  positions.erase(positions.begin(), first);
+  positions.insert(positions.begin(), from);
+  return positions;
 }
 
 double HeightDensity::scale() const {

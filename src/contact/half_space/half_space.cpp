@@ -60,24 +60,24 @@ class KernelTransform {
   }
 
   // These are NormalSymbol::columns.
-  Field columns(const RowPartition& places, const std::function<Index(Index place)>& column_at) const {
+  Field columns(const RowPartition& positions, const std::function<Index(Index position)>& column_at) const {
     RealFft2D<double> along_x(1, period_x_);
     Field symbol;
-    collectively(places.communicator(),
-                 [&] { symbol = uninitialised_field(places.count(), along_x.modes_y()); });
+    collectively(positions.communicator(),
+                 [&] { symbol = uninitialised_field(positions.count(), along_x.modes_y()); });
     visit_columns<double>(
-        rows_, places,
+        rows_, positions,
         [&](Index row, Index first, Index count, double* to) {
           for (Index k = 0; k < count; ++k) to[k] = transformed_(row, column_at(first + k));
         },
-        [&](Index place, std::span<double> half) {
+        [&](Index position, std::span<double> half) {
           std::vector<double> line(static_cast<std::size_t>(period_x_));
           Modes modes(static_cast<std::size_t>(along_x.modes_y()));
           fill(line, period_x_ / 2 + 1, [&](Index a) { return half[static_cast<std::size_t>(a)]; });
           along_x.forward(line.data(), modes.data());
           for (Index i = 0; i < along_x.modes_y(); ++i) {
             const std::complex<double>& mode = modes[static_cast<std::size_t>(i)];
-            symbol(place - places.begin(), i) = odd_ ? -mode.imag() : mode.real();
+            symbol(position - positions.begin(), i) = odd_ ? -mode.imag() : mode.real();
           }
         });
     return symbol;
@@ -107,7 +107,7 @@ std::function<double(Index, Index)> symbol_of(const KernelTransform& kernel, con
                                               Index period_y) {
   const RowPartition columns = detail::spectrum_columns(rows, period_y);
   const auto symbol =
-      std::make_shared<Field>(kernel.columns(columns, [](Index place) { return place; }));
+      std::make_shared<Field>(kernel.columns(columns, [](Index position) { return position; }));
   return [symbol, first = columns.begin()](Index i, Index j) { return (*symbol)(j - first, i); };
 }
 
@@ -129,12 +129,12 @@ namespace {
 constexpr double far_cells = 32;
 
 CellIntegrals far_cell_integrals(double x, double y, double dx, double dy) {
-  constexpr std::array<double, 3> places{-0.7745966692414834, 0, 0.7745966692414834};
+  constexpr std::array<double, 3> positions{-0.7745966692414834, 0, 0.7745966692414834};
   constexpr std::array<double, 3> weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
   CellIntegrals sum;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) {
-      const double xi = x + places[i] * dx / 2, eta = y + places[j] * dy / 2;
+      const double xi = x + positions[i] * dx / 2, eta = y + positions[j] * dy / 2;
       const double square = xi * xi + eta * eta;
       const double inverse = weights[i] * weights[j] * dx * dy / std::sqrt(square);
       sum.inverse_distance += inverse;
@@ -187,8 +187,8 @@ NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary 
                  (pi * contact_modulus);
         });
     symbol.value = symbol_of(*kernel, rows, shape.period_y);
-    symbol.columns = [kernel](const RowPartition& places, const auto& column_at) {
-      return kernel->columns(places, column_at);
+    symbol.columns = [kernel](const RowPartition& positions, const auto& column_at) {
+      return kernel->columns(positions, column_at);
     };
   }
   return symbol;

@@ -77,8 +77,8 @@ struct FoldedSymbol {
 };
 Sample sample(const FoldedSymbol& symbol, Index i, Index j) {
   const Index half = symbol.period_y / 2;
-  const Index place = 2 * j <= half ? 2 * j : 2 * (half - j) + 1;
-  const double value = symbol.values(place - 2 * symbol.first, i);
+  const Index position = 2 * j <= half ? 2 * j : 2 * (half - j) + 1;
+  const double value = symbol.values(position - 2 * symbol.first, i);
   return {value, value != 0 ? 1 / std::abs(value) : 0};
 }
 
@@ -251,8 +251,8 @@ std::vector<MultilevelRung> multilevel_design(double dx_over_dy, Boundary bounda
   static std::mutex mutex;
   static std::map<std::pair<double, Boundary>, Design> designs;
   const std::lock_guard lock(mutex);
-  const auto [place, is_new] = designs.try_emplace({dx_over_dy, boundary});
-  Design& design = place->second;
+  const auto [position, is_new] = designs.try_emplace({dx_over_dy, boundary});
+  Design& design = position->second;
   if (is_new) design = begun(dx_over_dy, boundary);
   while (static_cast<int>(design.levels.size()) < depth) {
     design.levels.push_back(
@@ -272,8 +272,8 @@ QuarterSymbol coarse_symbol(const NormalSymbol& fine, const MultilevelStencil& s
   if (fine.columns) {
     const Index half = fine.period_y / 2;
     const FoldedSymbol folded{fine.period_x, fine.period_y, columns.begin(),
-                              fine.columns(RowPartition(communicator, begins), [half](Index place) {
-                                return place % 2 == 0 ? place / 2 : half - place / 2;
+                              fine.columns(RowPartition(communicator, begins), [half](Index position) {
+                                return position % 2 == 0 ? position / 2 : half - position / 2;
                               })};
     coarse = coarsened(folded, stencil, columns);
   } else {

@@ -18,18 +18,18 @@ SALEBRA_INLINE const float* cell(const HaloView& field, Length row, Length colum
   return field.first + row * field.stride + column;
 }
 
-SALEBRA_INLINE Floats load(const float* place) {
+SALEBRA_INLINE Floats load(const float* index) {
   Floats numbers;
-  __builtin_memcpy(&numbers, place, sizeof(numbers));
+  __builtin_memcpy(&numbers, index, sizeof(numbers));
   return numbers;
 }
 
 // Stores the part of 16 numbers that lies within the row.
-SALEBRA_INLINE void store(const float* numbers, Length width, float* place) {
+SALEBRA_INLINE void store(const float* numbers, Length width, float* index) {
   if (width >= tile_width) {
-    __builtin_memcpy(place, numbers, tile_width * sizeof(float));
+    __builtin_memcpy(index, numbers, tile_width * sizeof(float));
   } else {
-    for (Length k = 0; k < width; ++k) place[k] = numbers[k];
+    for (Length k = 0; k < width; ++k) index[k] = numbers[k];
   }
 }
 
@@ -105,11 +105,11 @@ SALEBRA_INLINE void interpolated(const HaloView& coarse, const Shift& shift, con
   }
   const Floats after_weight = 1.0f - before_weight - weight;
   for (int k = 0; k < registers_of_tile; ++k) {
-    const float* place = centre + k * (lane_count / 2);
-    const Floats here = load(place), after = load(place + coarse.stride);
+    const float* index = centre + k * (lane_count / 2);
+    const Floats here = load(index), after = load(index + coarse.stride);
     const Floats sum = x % 2 != 0
                            ? 0.5f * (here + after)
-                           : 0.125f * (load(place - coarse.stride) + after) + 0.75f * here;
+                           : 0.125f * (load(index - coarse.stride) + after) + 0.75f * here;
     const Floats numbers = before_weight * twice<0>(sum, EachLane{}) +
                            weight * twice<1>(sum, EachLane{}) +
                            after_weight * twice<2>(sum, EachLane{});

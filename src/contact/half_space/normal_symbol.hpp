@@ -17,7 +17,7 @@ struct NormalSymbol {
   Convolution2D<double>::Symbol value;
   // Any columns of a free contact, collectively: (places.count(), period_x/2 + 1), column_at(place)
   // for each place of this process. Empty for a periodic one, which has its value in every column.
-  std::function<Field(const RowPartition& places, const std::function<Index(Index place)>& column_at)>
+  std::function<Field(const RowPartition& indices, const std::function<Index(Index index)>& column_at)>
       columns;
 };
 NormalSymbol normal_symbol(const Grid2D& grid, double contact_modulus, Boundary boundary,

@@ -78,7 +78,7 @@ PeriodicPointLoads::PeriodicPointLoads(std::vector<PlanePoint> points, double lx
 }
 
 void PeriodicPointLoads::place_windows(const std::vector<PlanePoint>& points) {
-  const auto place = [&](double position, Index nodes) {
+  const auto index = [&](double position, Index nodes) {
     const Index first = static_cast<Index>(std::ceil(position - double(width) / 2));
     for (Index k = 0; k < width; ++k) weights_.push_back(window(double(first + k) - position));
     return (first % nodes + nodes) % nodes;
@@ -86,8 +86,8 @@ void PeriodicPointLoads::place_windows(const std::vector<PlanePoint>& points) {
   windows_.reserve(count_);
   weights_.reserve(2 * std::size_t(width) * count_);
   for (const PlanePoint& point : points) {
-    const Index row = place(point.x / lx_ * double(nx_), nx_);
-    windows_.push_back({row, place(point.y / ly_ * double(ny_), ny_)});
+    const Index row = index(point.x / lx_ * double(nx_), nx_);
+    windows_.push_back({row, index(point.y / ly_ * double(ny_), ny_)});
   }
 }
 

@@ -57,11 +57,11 @@ struct StencilLoop {
     for (int i = 0; i <= radius; ++i) {
       Vector row[registers + 2];
       for (int k = 0; k < registers + 2; ++k) {
-        const Real* place = centre + (k - 1) * lanes;
-        __builtin_memcpy(&row[k], place + i * stride, sizeof(Vector));
+        const Real* index = centre + (k - 1) * lanes;
+        __builtin_memcpy(&row[k], index + i * stride, sizeof(Vector));
         if (i > 0) {
           Vector other;
-          __builtin_memcpy(&other, place - i * stride, sizeof(Vector));
+          __builtin_memcpy(&other, index - i * stride, sizeof(Vector));
           row[k] += other;
         }
       }

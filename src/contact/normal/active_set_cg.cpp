@@ -132,24 +132,24 @@ CurvatureSums ActiveSetCg<Real>::take_direction(double z_mean, double beta, doub
 // before there are any, all are.
 template <class Real>
 template <class Number>
-const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* room) const {
+const Number* ActiveSetCg<Real>::pressure_of(const Run& run, Index row, Number* buffer) const {
   const double* p = run.p + row * grid_.ny;
   const auto copy = [&](Index begin, Index end) {
-    std::transform(p + begin, p + end, room + begin,
+    std::transform(p + begin, p + end, buffer + begin,
                    [](double value) { return static_cast<Number>(value); });
   };
   if (tiles_.empty()) {
     copy(0, grid_.ny);
-    return room;
+    return buffer;
   }
   const Index begin = first_tile(row), end = first_tile(row + 1);
   if (begin == end) return nullptr;
-  std::fill_n(room, grid_.ny, Number(0));
+  std::fill_n(buffer, grid_.ny, Number(0));
   for (Index k = begin; k < end; ++k) {
     const Index column = tiles_[static_cast<std::size_t>(k)].column;
     copy(column, std::min<Index>(column + tile_width, grid_.ny));
   }
-  return room;
+  return buffer;
 }
 
 // g = Gp − h, and what follows from it; g is kept near the plane only unless `whole`.
@@ -182,11 +182,11 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
     const Stopwatch stopwatch(seconds);
     if (exact || std::is_same_v<Real, double>) {
       exact_compliance().apply(
-          [&](int, Index row, double* room) { return pressure_of(run, row, room); },
+          [&](int, Index row, double* buffer) { return pressure_of(run, row, buffer); },
           [&](int, Index row, const double* values) { take(kernels_.exact_gap, row, values); });
     } else {
       dense_compliance().apply(
-          [&](int, Index row, Real* room) { return pressure_of(run, row, room); },
+          [&](int, Index row, Real* buffer) { return pressure_of(run, row, buffer); },
           [&](int, Index row, const Real* values) { take(kernels_.gap, row, values); });
     }
   }
@@ -371,10 +371,10 @@ void ActiveSetCg<Real>::go_on(Run& run) {
         run.estimate < 0.7 * limits.tolerance || run.interrupted() ||
         run.outcome.iterations >= limits.max_iterations ||
         (std::is_same_v<Real, float> && run.estimate < factor * run.at_refresh);
-    const bool gives_way = stalled || !progressed;
-    if (fresh_needed || gives_way) refresh(run, gives_way);
+    const bool falls_back = stalled || !progressed;
+    if (fresh_needed || falls_back) refresh(run, falls_back);
     if (run.finished) break;
-    if (gives_way) {
+    if (falls_back) {
       // Where no cell is free, or the set flutters, a slower method finishes; a coarse level is
       // left as it is.
       if (limits.exact)

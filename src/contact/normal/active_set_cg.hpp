@@ -145,10 +145,10 @@ class ActiveSetCg {
             [&](Index row, Index begin, Index end) { spread(begin, end, r_.row(row)); });
         multilevel_->descend(r_);
         for_rows_in_use([&](Index row, Index begin, Index end) {
-          thread_local std::vector<float> room;
-          room.resize(static_cast<std::size_t>(grid_.ny));
-          multilevel_->collect(tiles_.data(), begin, end, room.data());
-          sums[static_cast<std::size_t>(row)] = collect(begin, end, room.data());
+          thread_local std::vector<float> buffer;
+          buffer.resize(static_cast<std::size_t>(grid_.ny));
+          multilevel_->collect(tiles_.data(), begin, end, buffer.data());
+          sums[static_cast<std::size_t>(row)] = collect(begin, end, buffer.data());
         });
         return sums;
       }
@@ -158,12 +158,12 @@ class ActiveSetCg {
       spectrum_in_pool_ = false;
     }
     compliance_.apply(
-        [&](int, Index row, Real* room) -> const Real* {
+        [&](int, Index row, Real* buffer) -> const Real* {
           const Index begin = first_tile(row), end = first_tile(row + 1);
           if (begin == end) return nullptr;
-          std::fill_n(room, grid_.ny, Real(0));
-          spread(begin, end, room);
-          return room;
+          std::fill_n(buffer, grid_.ny, Real(0));
+          spread(begin, end, buffer);
+          return buffer;
         },
         [&](int, Index row, const Real* values) {
           const Index begin = first_tile(row), end = first_tile(row + 1);
@@ -206,7 +206,7 @@ class ActiveSetCg {
   Convolution2D<Real>& dense_compliance();
   ContactResidual dense_gap(Run& run, bool exact, bool whole);
   template <class Number>
-  const Number* pressure_of(const Run& run, Index row, Number* room) const;
+  const Number* pressure_of(const Run& run, Index row, Number* buffer) const;
   void choose_tiles(Run& run, double margin);
   void list_tiles();
   void choose_operator();
@@ -253,7 +253,7 @@ class ActiveSetCg {
   std::vector<Index> row_begins_;      // the first tile of each row, and the number of tiles
   std::vector<unsigned char> in_use_;  // (rows, tiles_per_row)
   std::vector<double> nearest_;  // the same, of the last dense_gap(): least g, −∞ under load
-  std::vector<Index> places_;    // of the cells of hold(), in packed fields
+  std::vector<Index> indices_;    // of the cells of hold(), in packed fields
   // See TileArrays. Between two refreshes p and g are up to date only on the tiles.
   HaloField<Real> r_;
   double *p_ = nullptr, *g_ = nullptr;

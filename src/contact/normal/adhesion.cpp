@@ -139,11 +139,11 @@ class AdhesiveSolve {
     highest_ = height_sums(rows_, surface.heights, 0).highest;
     mean_depth_ = -height_sums(rows_, surface.heights, highest_).first / cells_;
     point_ = checked(point);
-    require_room();
+    require_wide_grid();
     reference_ = detail::adhesion_reference(surface, contact_modulus, adhesion);
   }
 
-  AdhesiveContactState go() {
+  AdhesiveContactState run() {
     start();
     detail::Anderson anderson(rows_, memory_of_steps);
     Field safe;  // the plain step from the last tension that was accepted
@@ -250,7 +250,7 @@ class AdhesiveSolve {
   }
 
   // An isolated surface whose edge is held is cut off there.
-  void require_room() const {
+  void require_wide_grid() const {
     if (periodic_) return;
     const double approach = point_.load_given() ? 0.0 : std::max(0.0, point_.value);
     double held = 0;
@@ -578,7 +578,7 @@ AdhesiveContactState press_adhesive(const Surface& surface, double contact_modul
                                     const OperatingPoint& point, const Adhesion& adhesion,
                                     const AdhesiveContactOptions& options) {
   collectively(surface.communicator, [&] { check_adhesion(surface, contact_modulus, adhesion, options); });
-  return AdhesiveSolve(surface, contact_modulus, adhesion, options, point).go();
+  return AdhesiveSolve(surface, contact_modulus, adhesion, options, point).run();
 }
 
 }  // namespace salebra

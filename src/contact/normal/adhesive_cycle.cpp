@@ -23,7 +23,7 @@ class CycleRun {
   }
 
   /// False where the run ends here.
-  bool go_to(const OperatingPoint& point, bool unloading,
+  bool press_at(const OperatingPoint& point, bool unloading,
              std::vector<AdhesiveContactState>& branch) {
     AdhesiveContactState state = solve(point);
     const bool converged = state.converged();
@@ -123,7 +123,7 @@ void measure(AdhesiveCycle& cycle, double force_of_residual) {
   double largest = force(std::ranges::max(cycle.loading, {}, force));
   largest = std::max(largest, force(std::ranges::max(cycle.unloading, {}, force)));
   const std::size_t last = cycle.loading.size() - 1;
-  const auto way_to = [&](std::size_t k) {
+  const auto distance_to = [&](std::size_t k) {
     return (cycle.loading[last].indentation - cycle.loading[k].indentation) / 2;
   };
   // Far in, the load is many times the pull: what pulls decides what is seen.
@@ -131,8 +131,8 @@ void measure(AdhesiveCycle& cycle, double force_of_residual) {
   const double seen = meets * (pull > 0 ? pull : largest);
   for (std::size_t k = last; k-- > 0;)
     if (std::abs(cycle.loading[k].force - cycle.unloading[last - k].force) > seen) {
-      cycle.reversible_amplitude = way_to(k + 1);
-      cycle.reversible_amplitude_error = way_to(k) - way_to(k + 1);
+      cycle.reversible_amplitude = distance_to(k + 1);
+      cycle.reversible_amplitude_error = distance_to(k) - distance_to(k + 1);
       break;
     }
   const double open = cycle.loading.front().force - cycle.unloading.back().force;
@@ -167,11 +167,11 @@ AdhesiveCycle adhesive_cycle(const Surface& surface, double contact_modulus,
   AdhesiveCycle cycle;
   CycleRun run(surface, contact_modulus, adhesion, options);
   for (const OperatingPoint& point : points)
-    if (!run.go_to(point, false, cycle.loading)) return cycle;
+    if (!run.press_at(point, false, cycle.loading)) return cycle;
   if (!options.unload) return cycle;
   cycle.unloading.push_back(cycle.loading.back());
   for (auto point = points.rbegin() + 1; point != points.rend(); ++point)
-    if (!run.go_to(*point, true, cycle.unloading)) return cycle;
+    if (!run.press_at(*point, true, cycle.unloading)) return cycle;
   const OperatingPoint& loosest = points.front();
   if (loosest.load_given()) {
     const bool by_force = loosest.control == ControlQuantity::normal_force;

@@ -54,12 +54,12 @@ class OpenParts {
     for (Index row = 0; row < opening.rows(); ++row)
       meet(at(row, columns_ - 1), at(row, 0), {0, 1});
     for (std::int32_t part = 0; part < static_cast<std::int32_t>(parts_.size()); ++part)
-      parts_[place(part)].leads_round = parts_[place(root_of(part).part)].leads_round;
+      parts_[index(part)].leads_round = parts_[index(root_of(part).part)].leads_round;
   }
 
   Directions leads_round(Index cell) const {
     const std::int32_t part = part_of_[static_cast<std::size_t>(cell)];
-    return part == none ? Directions{} : parts_[place(part)].leads_round;
+    return part == none ? Directions{} : parts_[index(part)].leads_round;
   }
 
  private:
@@ -77,7 +77,7 @@ class OpenParts {
     Shift shift;
   };
 
-  static std::size_t place(std::int32_t part) { return static_cast<std::size_t>(part); }
+  static std::size_t index(std::int32_t part) { return static_cast<std::size_t>(part); }
   std::int32_t& at(Index row, Index column) {
     return part_of_[static_cast<std::size_t>(row * columns_ + column)];
   }
@@ -88,9 +88,9 @@ class OpenParts {
   Root root_of(std::int32_t part) {
     Root root{part, {}};
     for (;;) {
-      Part& here = parts_[place(root.part)];
+      Part& here = parts_[index(root.part)];
       if (here.parent == root.part) return root;
-      const Part& above = parts_[place(here.parent)];
+      const Part& above = parts_[index(here.parent)];
       // The way to the grandparent becomes the way up, which halves the path. A root has no shift.
       here.shift = {here.shift.x + above.shift.x, here.shift.y + above.shift.y};
       here.parent = above.parent;
@@ -103,15 +103,15 @@ class OpenParts {
     const Shift between{a.shift.x - b.shift.x - shift.x, a.shift.y - b.shift.y - shift.y};
     const std::int32_t root = std::min(a.part, b.part), child = std::max(a.part, b.part);
     if (root == child) {
-      Directions& round = parts_[place(root)].leads_round;
+      Directions& round = parts_[index(root)].leads_round;
       round = {round.x || between.x != 0, round.y || between.y != 0};
       return;
     }
     const std::int32_t sign = child == b.part ? 1 : -1;
-    parts_[place(child)].parent = root;
-    parts_[place(child)].shift = {sign * between.x, sign * between.y};
-    const Directions of_child = parts_[place(child)].leads_round;
-    Directions& round = parts_[place(root)].leads_round;
+    parts_[index(child)].parent = root;
+    parts_[index(child)].shift = {sign * between.x, sign * between.y};
+    const Directions of_child = parts_[index(child)].leads_round;
+    Directions& round = parts_[index(root)].leads_round;
     round = {round.x || of_child.x, round.y || of_child.y};
   }
 

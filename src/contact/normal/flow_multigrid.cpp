@@ -110,11 +110,11 @@ class BlockGroups {
     ++count_;
   }
   std::span<const std::int32_t> unknowns() const { return unknowns_; }
-  std::size_t group(std::size_t place) const { return group_[place]; }
-  void connect(std::size_t place, std::int32_t neighbour, double conductance) {
+  std::size_t group(std::size_t index) const { return group_[index]; }
+  void connect(std::size_t index, std::int32_t neighbour, double conductance) {
     const auto found = std::ranges::find(unknowns_, neighbour);
     if (found != unknowns_.end())
-      between_[place][static_cast<std::size_t>(found - unknowns_.begin())] += conductance;
+      between_[index][static_cast<std::size_t>(found - unknowns_.begin())] += conductance;
   }
 
   void join() {
@@ -157,7 +157,7 @@ class BlockGroups {
 // body(neighbour, conductance)
 template <class Body>
 void FlowMultigrid::for_neighbours(const Level& level, Index k, const Body& body) {
-  const auto at = [](Index place) { return static_cast<std::size_t>(place); };
+  const auto at = [](Index index) { return static_cast<std::size_t>(index); };
   if (level.is_finest()) {
     const Index row = k / level.columns, column = k % level.columns;
     const auto [here, above, below] = rows_around(row, level.rows(), level.columns);
@@ -176,7 +176,7 @@ void FlowMultigrid::for_neighbours(const Level& level, Index k, const Body& body
     body(Index{level.neighbours[at(e)]}, level.conductances[at(e)]);
 }
 
-void FlowMultigrid::make_room(Level& level) {
+void FlowMultigrid::allocate(Level& level) {
   const auto count = static_cast<std::size_t>(level.unknowns());
   level.r.resize(count);
   if (!level.is_finest())
@@ -203,28 +203,28 @@ FlowMultigrid::Level FlowMultigrid::finest_level(const FaceConductances& faces) 
     level.row_begins.push_back(static_cast<Node>(row * level.columns));
   level.to_next_x = faces.x.data();
   level.to_next_y = faces.y.data();
-  make_room(level);
+  allocate(level);
   return level;
 }
 
 FlowMultigrid::Level FlowMultigrid::coarser(Level& fine) {
   Level level;
   connect(fine, group(fine, level), level);
-  make_room(level);
+  allocate(level);
   return level;
 }
 
 std::vector<FlowMultigrid::Node> FlowMultigrid::group(Level& fine, Level& level) {
-  const auto at = [](Index place) { return static_cast<std::size_t>(place); };
+  const auto at = [](Index index) { return static_cast<std::size_t>(index); };
   const auto column_of = [&](Index k) {
     return fine.is_finest() ? static_cast<Node>(k % fine.columns) : fine.block_column[at(k)];
   };
   std::vector<Node> coarse_of(at(fine.unknowns()), -1);
   BlockGroups groups;
   const auto close = [&](Node block) {
-    for (std::size_t place = 0; place < groups.unknowns().size(); ++place)
-      for_neighbours(fine, groups.unknowns()[place], [&](Index neighbour, double conductance) {
-        groups.connect(place, static_cast<Node>(neighbour), conductance);
+    for (std::size_t index = 0; index < groups.unknowns().size(); ++index)
+      for_neighbours(fine, groups.unknowns()[index], [&](Index neighbour, double conductance) {
+        groups.connect(index, static_cast<Node>(neighbour), conductance);
       });
     groups.join();
     for (std::size_t first = 0; first < groups.unknowns().size(); ++first) {
@@ -232,10 +232,10 @@ std::vector<FlowMultigrid::Node> FlowMultigrid::group(Level& fine, Level& level)
       const auto coarse = static_cast<Node>(level.block_column.size());
       level.block_column.push_back(block);
       fine.member_begins.push_back(static_cast<Node>(fine.members.size()));
-      for (std::size_t place = first; place < groups.unknowns().size(); ++place) {
-        if (groups.group(place) != first) continue;
-        fine.members.push_back(groups.unknowns()[place]);
-        coarse_of[at(groups.unknowns()[place])] = coarse;
+      for (std::size_t index = first; index < groups.unknowns().size(); ++index) {
+        if (groups.group(index) != first) continue;
+        fine.members.push_back(groups.unknowns()[index]);
+        coarse_of[at(groups.unknowns()[index])] = coarse;
       }
     }
     groups.start();
@@ -266,7 +266,7 @@ std::vector<FlowMultigrid::Node> FlowMultigrid::group(Level& fine, Level& level)
 }
 
 void FlowMultigrid::connect(const Level& fine, const std::vector<Node>& coarse_of, Level& level) {
-  const auto at = [](Index place) { return static_cast<std::size_t>(place); };
+  const auto at = [](Index index) { return static_cast<std::size_t>(index); };
   level.begins.push_back(0);
   std::vector<Node> place_of(level.block_column.size(), -1);
   for (Index k = 0; k < level.unknowns(); ++k) {
@@ -275,13 +275,13 @@ void FlowMultigrid::connect(const Level& fine, const std::vector<Node>& coarse_o
       for_neighbours(fine, fine.members[at(m)], [&](Index neighbour, double conductance) {
         const Node coarse = coarse_of[at(neighbour)];
         if (coarse == k) return;
-        Node& place = place_of[at(coarse)];
-        if (place < first) {
-          place = static_cast<Node>(level.neighbours.size());
+        Node& index = place_of[at(coarse)];
+        if (index < first) {
+          index = static_cast<Node>(level.neighbours.size());
           level.neighbours.push_back(coarse);
           level.conductances.push_back(0);
         }
-        level.conductances[at(place)] += conductance;
+        level.conductances[at(index)] += conductance;
       });
     level.begins.push_back(static_cast<Node>(level.neighbours.size()));
   }

@@ -64,7 +64,7 @@ class FlowMultigrid {
   // to fine. Of each unknown of fine the one that it belongs to, −1: none.
   static std::vector<Node> group(Level& fine, Level& level);
   static void connect(const Level& fine, const std::vector<Node>& coarse_of, Level& level);
-  static void make_room(Level& level);
+  static void allocate(Level& level);
   template <bool forward>
   static void smooth(const Level& level, const double* b, double* x);
   static void multiply(const Level& level, const double* x, double* y);

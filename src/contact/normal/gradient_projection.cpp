@@ -91,8 +91,8 @@ class Descent {
       if (!(curvature > 0)) return;
       const double step = descent / curvature;
       ++outcome_.iterations;
-      const double room = room_along(direction);
-      if (step <= room) {
+      const double max_step = max_step_along(direction);
+      if (step <= max_step) {
         take_multiple(direction, -step);
       } else {
         // Beyond the first bound the projected step is taken if it descends, or else the step as
@@ -105,7 +105,7 @@ class Descent {
           take(change);
         } else {
           image_ = old_image;
-          take_multiple(direction, -room);
+          take_multiple(direction, -max_step);
         }
         return;
       }
@@ -162,14 +162,14 @@ class Descent {
   // trials.
   double first_step() const { return inverse_.weight(0, 0); }
 
-  double room_along(const Field& direction) const {
-    double room = std::numeric_limits<double>::infinity();
+  double max_step_along(const Field& direction) const {
+    double max_step = std::numeric_limits<double>::infinity();
     for (Index k = 0; k < p_.size(); ++k) {
       const double t = direction.data()[k], p = p_.data()[k];
-      if (t > 0) room = std::min(room, p / t);
-      if (t < 0) room = std::min(room, (p - target_.bound) / t);
+      if (t > 0) max_step = std::min(max_step, p / t);
+      if (t < 0) max_step = std::min(max_step, (p - target_.bound) / t);
     }
-    return rows_.communicator().min_of(room);
+    return rows_.communicator().min_of(max_step);
   }
 
   // The nearest point within the bounds, and at the load where that is given: clamp(x + shift) with

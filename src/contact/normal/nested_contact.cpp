@@ -36,7 +36,7 @@ struct Place {
   Index base;       // the point at or before
   double fraction;  // of the way to the next
 };
-Place place(Index k, Index from, Index to) {
+Place index(Index k, Index from, Index to) {
   const Index position = k * to;
   return {position / from, static_cast<double>(position % from) / static_cast<double>(from)};
 }
@@ -51,7 +51,7 @@ struct Weights {
 std::vector<Weights> interpolation(Index coarse, Index fine, Boundary boundary) {
   std::vector<Weights> weights(static_cast<std::size_t>(fine));
   for (Index k = 0; k < fine; ++k) {
-    const auto [base, f] = place(k, fine, coarse);
+    const auto [base, f] = index(k, fine, coarse);
     Weights& w = weights[static_cast<std::size_t>(k)];
     w.base = base;
     for (Index i = 0; i < 4; ++i)
@@ -71,22 +71,22 @@ Field sampled(const MultigridLevel& fine, const RowPartition& rows, Index ny, Bo
   const auto wanted = [&](int rank) {
     const Index begin = rows.begin_of(rank), end = rows.end_of(rank);
     if (begin == end) return RowExchange::Window{};
-    const Index first = place(begin, rows.rows(), fine.grid.nx).base;
-    return RowExchange::Window{first, place(end - 1, rows.rows(), fine.grid.nx).base + 2 - first};
+    const Index first = index(begin, rows.rows(), fine.grid.nx).base;
+    return RowExchange::Window{first, index(end - 1, rows.rows(), fine.grid.nx).base + 2 - first};
   };
   const Index first = wanted(rows.communicator().rank()).first;
   const std::size_t row_bytes = static_cast<std::size_t>(fine_ny) * sizeof(double);
-  std::vector<std::byte> room;
+  std::vector<std::byte> buffer;
   const auto fetched = RowExchange(fine.rows, wanted, edge_of(boundary))
-                           .fetch(fine.heights.values, row_bytes, row_bytes, room);
+                           .fetch(fine.heights.values, row_bytes, row_bytes, buffer);
   Field coarse(rows.count(), ny);
   std::vector<Place> along_y;
-  for (Index j = 0; j < ny; ++j) along_y.push_back(place(j, ny, fine_ny));
+  for (Index j = 0; j < ny; ++j) along_y.push_back(index(j, ny, fine_ny));
   parallel::for_slabs(
       rows.count(),
       [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-          const auto [a, x] = place(rows.begin() + i, rows.rows(), fine.grid.nx);
+          const auto [a, x] = index(rows.begin() + i, rows.rows(), fine.grid.nx);
           const auto* row =
               static_cast<const double*>(fetched[static_cast<std::size_t>(a - first)]);
           const auto* next =
@@ -237,9 +237,9 @@ void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary 
   const RowExchange neighbours(coarse_rows, wanted, edge_of(boundary));
   const Index first = wanted(fine.rows.communicator().rank()).first;
   const std::size_t row_bytes = static_cast<std::size_t>(ny) * sizeof(float);
-  std::vector<std::byte> p_room, u_room;
-  const auto p_places = neighbours.fetch(p_rows.get(), row_bytes, row_bytes, p_room);
-  const auto u_places = neighbours.fetch(u_rows.get(), row_bytes, row_bytes, u_room);
+  std::vector<std::byte> p_buffer, u_buffer;
+  const auto p_places = neighbours.fetch(p_rows.get(), row_bytes, row_bytes, p_buffer);
+  const auto u_places = neighbours.fetch(u_rows.get(), row_bytes, row_bytes, u_buffer);
   parallel::for_slabs(
       fine.rows.count(),
       [&](Index begin, Index end) {
@@ -247,9 +247,9 @@ void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary 
           const Weights& w = along_x[static_cast<std::size_t>(fine.rows.begin() + i)];
           std::array<const float*, 4> p{}, u{};
           for (std::size_t k = 0; k < 4; ++k) {
-            const auto place = static_cast<std::size_t>(w.base - 1 - first) + k;
-            p[k] = static_cast<const float*>(p_places[place]);
-            u[k] = static_cast<const float*>(u_places[place]);
+            const auto index = static_cast<std::size_t>(w.base - 1 - first) + k;
+            p[k] = static_cast<const float*>(p_places[index]);
+            u[k] = static_cast<const float*>(u_places[index]);
           }
           predict_row({w, p, u}, fine, i, step, pressure + i * ny);
         }

@@ -178,7 +178,7 @@ class NestedSolve {
             problem.options.initial_pressure ? 1 : std::numeric_limits<int>::max())) {}
 
   template <class Real>
-  Solution go() {
+  Solution run() {
     const auto& [scaled, rows, heights, rms_height, mean_depth, target, options] = problem_;
     for (std::size_t k = levels_.size(); k-- > 0;) {
       const MultigridLevel& level = levels_[k];
@@ -359,7 +359,7 @@ NormalContactState contact_of(const Surface& surface, double contact_modulus, co
   const RowPartition rows = surface.partition();
   const auto solve = [&]<class Real>(Real) {  // the coarse grids go when it returns
     return NestedSolve({scaled, rows, heights, length, depths.mean, scaled_point, options})
-        .go<Real>();
+        .run<Real>();
   };
   auto solution = options.precision == Precision::mixed ? solve(0.0f) : solve(0.0);
   return state_of(std::move(solution), scaled_point, scaled, surface, heights, options.hardness);

@@ -69,13 +69,13 @@ bool ActiveSetCg<Real>::hold(const std::vector<Index>& cells) {
   list_tiles();
   std::fill_n(m_, tile_points(), Real(0));
   std::fill_n(g_, tile_points(), 0.0);
-  places_.clear();
+  indices_.clear();
   std::size_t tiles = 0, last = 0;  // tiles passed, the last of them among all of the grid
   for (const Index cell : cells) {
     if (tiles == 0 || tile_of(cell) != last) ++tiles;
     last = tile_of(cell);
-    places_.push_back(static_cast<Index>((tiles - 1) * tile_width) + cell % grid_.ny % tile_width);
-    m_[places_.back()] = Real(1);
+    indices_.push_back(static_cast<Index>((tiles - 1) * tile_width) + cell % grid_.ny % tile_width);
+    m_[indices_.back()] = Real(1);
   }
   return on_multilevel_;
 }
@@ -83,7 +83,7 @@ bool ActiveSetCg<Real>::hold(const std::vector<Index>& cells) {
 template <class Real>
 void ActiveSetCg<Real>::invert(const double* u, double step_ends, double* q,
                                PunchOutcome& outcome) {
-  for (std::size_t k = 0; k < places_.size(); ++k) g_[places_[k]] = -u[k];
+  for (std::size_t k = 0; k < indices_.size(); ++k) g_[indices_[k]] = -u[k];
   begin_punch();
   outcome.iterations = 0;
   double curvature = 1, gained = 0, gain = 0;
@@ -91,7 +91,7 @@ void ActiveSetCg<Real>::invert(const double* u, double step_ends, double* q,
     gain = punch_step(curvature, outcome);
     gained += gain;
   } while (gain > step_ends * gained && outcome.iterations < max_inner_steps);
-  for (std::size_t k = 0; k < places_.size(); ++k) q[k] = p_[places_[k]];
+  for (std::size_t k = 0; k < indices_.size(); ++k) q[k] = p_[indices_[k]];
 }
 
 // CG as in solve(), on a set of cells that does not change: minimises ½q·Gq − Σq. The load is then
@@ -189,11 +189,11 @@ void ActiveSetCg<Real>::measure_punch(PunchOutcome& outcome, Field* pressure) {
   };
   std::vector<PunchSums> sums(static_cast<std::size_t>(rows_.count()));
   exact_compliance().apply(
-      [&](int, Index row, double* room) -> const double* {
+      [&](int, Index row, double* buffer) -> const double* {
         if (first_tile(row) == first_tile(row + 1)) return nullptr;
-        std::fill_n(room, grid_.ny, 0.0);
-        spread(row, room);
-        return room;
+        std::fill_n(buffer, grid_.ny, 0.0);
+        spread(row, buffer);
+        return buffer;
       },
       [&](int, Index row, const double* image) {
         on_row(row, [&](Index k, Index column, Index width) {

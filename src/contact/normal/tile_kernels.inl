@@ -59,20 +59,20 @@ SALEBRA_INLINE void for_tiles(const TileArrays<Real>& a, Size begin, Size end, c
                               const QuietBody& quiet_body) {
   for (Size k = begin; k < end; ++k) {
     const Size row = a.tiles[k].row, column = a.tiles[k].column;
-    const Place place = {k * tile_width, (row + halo) * a.halo_stride + column + side_halo,
+    const Place index = {k * tile_width, (row + halo) * a.halo_stride + column + side_halo,
                          column};
     const bool whole = a.ny - column >= tile_width;
     if (k + ahead < a.tile_count) fetch<reads>(a, a.tiles[k + ahead]);
     if (a.quiet[k]) {
       if (whole) {
-        quiet_body(place, FullWidth{});
+        quiet_body(index, FullWidth{});
       } else {
-        quiet_body(place, a.ny - column);
+        quiet_body(index, a.ny - column);
       }
     } else if (whole) {
-      body(place, FullWidth{});
+      body(index, FullWidth{});
     } else {
-      body(place, a.ny - column);
+      body(index, a.ny - column);
     }
   }
 }
@@ -102,10 +102,10 @@ SALEBRA_INLINE bool any(const Number* tile, Width width) {
 
 // Lets a tile rest whose cells are all held and without load.
 template <class Real, class Width>
-SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& place, Width width) {
-  if (any(a.m + place.packed, width) || any(a.p + place.packed, width)) return;
-  a.quiet[place.packed / tile_width] = 1;
-  for (Size i = 0; i < width; ++i) a.t[place.packed + i] = 0;
+SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& index, Width width) {
+  if (any(a.m + index.packed, width) || any(a.p + index.packed, width)) return;
+  a.quiet[index.packed / tile_width] = 1;
+  for (Size i = 0; i < width; ++i) a.t[index.packed + i] = 0;
 }
 
 // Whether a cell without load is below the plane.
@@ -120,14 +120,14 @@ template <class Real>
 void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
   for_tiles<Reads::residual>(
       a, begin, end,
-      [&](const Place& place, auto width) {
-        const double* g = a.g + place.packed;
-        const Real* m = a.m + place.packed;
-        Real* r = a.r + place.with_halo;
+      [&](const Place& index, auto width) {
+        const double* g = a.g + index.packed;
+        const Real* m = a.m + index.packed;
+        Real* r = a.r + index.with_halo;
         for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
       },
-      [&](const Place& place, auto width) {
-        for (Size i = 0; i < width; ++i) a.r[place.with_halo + i] = 0;
+      [&](const Place& index, auto width) {
+        for (Size i = 0; i < width; ++i) a.r[index.with_halo + i] = 0;
       });
 }
 
@@ -151,11 +151,11 @@ SALEBRA_INLINE void apply_stencil(const TileArrays<Real>& a, Size with_halo, Siz
 template <class Real>
 PreconditionSums precondition(const TileArrays<Real>& a, Size begin, Size end) {
   Lanes sum_z, sum_zw, sum_zz, sum_t, sum_w, sum_r, sum_zr, sum_tr;
-  for_active_tiles<Reads::halo>(a, begin, end, [&](const Place& place, auto width) {
-    const Real *m = a.m + place.packed, *t = a.t + place.packed, *w = a.w + place.packed,
-               *r = a.r + place.with_halo;
-    Real* z = a.z + place.packed;
-    apply_stencil(a, place.with_halo, width, z);
+  for_active_tiles<Reads::halo>(a, begin, end, [&](const Place& index, auto width) {
+    const Real *m = a.m + index.packed, *t = a.t + index.packed, *w = a.w + index.packed,
+               *r = a.r + index.with_halo;
+    Real* z = a.z + index.packed;
+    apply_stencil(a, index.with_halo, width, z);
     for (Size i = 0; i < width; ++i) {
       const Real free = z[i] * m[i];
       z[i] = free;
@@ -180,9 +180,9 @@ void direct(const TileArrays<Real>& a, Size begin, Size end, const NewDirection&
             Real* row) {
   // Not read again behind each store.
   const double z_mean = direction.z_mean, beta = direction.beta, t_mean = direction.t_mean;
-  for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& place, auto width) {
-    const Real *m = a.m + place.packed, *z = a.z + place.packed;
-    Real *t = a.t + place.packed, *cells = row + place.column;
+  for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& index, auto width) {
+    const Real *m = a.m + index.packed, *z = a.z + index.packed;
+    Real *t = a.t + index.packed, *cells = row + index.column;
     for (Size i = 0; i < width; ++i) {
       const double x =
           static_cast<double>(m[i]) *
@@ -198,9 +198,9 @@ CurvatureSums take_image(const TileArrays<Real>& a, Size begin, Size end, const 
   Lanes sum_tw, sum_w;
   for_tiles<Reads::packed>(
       a, begin, end,
-      [&](const Place& place, auto width) {
-        const Real *m = a.m + place.packed, *t = a.t + place.packed, *cells = row + place.column;
-        Real* w = a.w + place.packed;
+      [&](const Place& index, auto width) {
+        const Real *m = a.m + index.packed, *t = a.t + index.packed, *cells = row + index.column;
+        Real* w = a.w + index.packed;
         for (Size i = 0; i < width; ++i) {
           const double y = static_cast<double>(cells[i]);
           w[i] = cells[i];
@@ -208,8 +208,8 @@ CurvatureSums take_image(const TileArrays<Real>& a, Size begin, Size end, const 
           sum_w.value[i] += static_cast<double>(m[i]) * y;
         }
       },
-      [&](const Place& place, auto width) {
-        for (Size i = 0; i < width; ++i) a.w[place.packed + i] = row[place.column + i];
+      [&](const Place& index, auto width) {
+        for (Size i = 0; i < width; ++i) a.w[index.packed + i] = row[index.column + i];
       });
   return {sum_tw.sum(), sum_w.sum()};
 }
@@ -221,10 +221,10 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
   const double bound = a.bound;
   for_tiles<Reads::residual>(
       a, begin, end,
-      [&](const Place& place, auto width) {
-        const Real *m = a.m + place.packed, *t = a.t + place.packed, *w = a.w + place.packed;
-        double *p = a.p + place.packed, *g = a.g + place.packed;
-        Real* r = a.r + place.with_halo;
+      [&](const Place& index, auto width) {
+        const Real *m = a.m + index.packed, *t = a.t + index.packed, *w = a.w + index.packed;
+        double *p = a.p + index.packed, *g = a.g + index.packed;
+        Real* r = a.r + index.with_halo;
         for (Size i = 0; i < width; ++i) {
           const double x = p[i] - alpha * static_cast<double>(t[i]);
           const double y = g[i] - alpha * static_cast<double>(w[i]);
@@ -251,9 +251,9 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           least.value[i] = candidate < least.value[i] ? candidate : least.value[i];
         }
       },
-      [&](const Place& place, auto width) {
-        const Real* w = a.w + place.packed;
-        double* g = a.g + place.packed;
+      [&](const Place& index, auto width) {
+        const Real* w = a.w + index.packed;
+        double* g = a.g + index.packed;
         for (Size i = 0; i < width; ++i) {
           const double y = g[i] - alpha * static_cast<double>(w[i]);
           g[i] = y;
@@ -280,21 +280,21 @@ template <class Real>
 SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level) {
   Lanes count, sum;
   const double bound = a.bound;
-  const auto change = [&](const Place& place, auto width) {
-    Real* m = a.m + place.packed;
-    const double *p = a.p + place.packed, *g = a.g + place.packed;
+  const auto change = [&](const Place& index, auto width) {
+    Real* m = a.m + index.packed;
+    const double *p = a.p + index.packed, *g = a.g + index.packed;
     for (Size i = 0; i < width; ++i) {
       const double free = freed(static_cast<double>(m[i]), p[i], g[i], level, bound);
       m[i] = static_cast<Real>(free);
       count.value[i] += free;
       sum.value[i] += free * g[i];
     }
-    rest(a, place, width);
+    rest(a, index, width);
   };
-  for_tiles<Reads::packed>(a, begin, end, change, [&](const Place& place, auto width) {
-    if (!any_below(a.g + place.packed, level, width)) return;
-    a.quiet[place.packed / tile_width] = 0;
-    change(place, width);
+  for_tiles<Reads::packed>(a, begin, end, change, [&](const Place& index, auto width) {
+    if (!any_below(a.g + index.packed, level, width)) return;
+    a.quiet[index.packed / tile_width] = 0;
+    change(index, width);
   });
   return {count.sum(), sum.sum()};
 }
@@ -304,10 +304,10 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
               const Truncation& correction) {
   const double scale = correction.scale, shift = correction.shift, full_from = correction.full_from;
   const double bound = a.bound;
-  const auto cut = [&](const Place& place, auto width) {
-    Real *z = a.z + place.packed, *m = a.m + place.packed;
-    double* p = a.p + place.packed;
-    const double* g = a.g + place.packed;
+  const auto cut = [&](const Place& index, auto width) {
+    Real *z = a.z + index.packed, *m = a.m + index.packed;
+    double* p = a.p + index.packed;
+    const double* g = a.g + index.packed;
     for (Size i = 0; i < width; ++i) {
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double within = above < bound ? above : bound;
@@ -320,17 +320,17 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
       p[i] = kept;
     }
   };
-  for_tiles<Reads::packed>(a, begin, end, cut, [&](const Place& place, auto width) {
-    if (shift == 0 && !any_below(a.g + place.packed, level, width)) return;
-    a.quiet[place.packed / tile_width] = 0;
-    cut(place, width);
+  for_tiles<Reads::packed>(a, begin, end, cut, [&](const Place& index, auto width) {
+    if (shift == 0 && !any_below(a.g + index.packed, level, width)) return;
+    a.quiet[index.packed / tile_width] = 0;
+    cut(index, width);
   });
 }
 
 template <class Real>
 void spread_change(const TileArrays<Real>& a, Size begin, Size end, Real* row) {
-  for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& place, auto width) {
-    for (Size i = 0; i < width; ++i) row[place.column + i] = a.z[place.packed + i];
+  for_active_tiles<Reads::packed>(a, begin, end, [&](const Place& index, auto width) {
+    for (Size i = 0; i < width; ++i) row[index.column + i] = a.z[index.packed + i];
   });
 }
 
@@ -339,19 +339,19 @@ SetSums add_displacement(const TileArrays<Real>& a, Size begin, Size end, const 
   Lanes count, sum;
   for_tiles<Reads::packed>(
       a, begin, end,
-      [&](const Place& place, auto width) {
-        double* g = a.g + place.packed;
-        const Real *m = a.m + place.packed, *cells = row + place.column;
+      [&](const Place& index, auto width) {
+        double* g = a.g + index.packed;
+        const Real *m = a.m + index.packed, *cells = row + index.column;
         for (Size i = 0; i < width; ++i) {
           g[i] += static_cast<double>(cells[i]);
           count.value[i] += static_cast<double>(m[i]);
           sum.value[i] += static_cast<double>(m[i]) * g[i];
         }
-        rest(a, place, width);
+        rest(a, index, width);
       },
-      [&](const Place& place, auto width) {
-        double* g = a.g + place.packed;
-        for (Size i = 0; i < width; ++i) g[i] += static_cast<double>(row[place.column + i]);
+      [&](const Place& index, auto width) {
+        double* g = a.g + index.packed;
+        for (Size i = 0; i < width; ++i) g[i] += static_cast<double>(row[index.column + i]);
       });
   return {count.sum(), sum.sum()};
 }

@@ -104,14 +104,14 @@ void SurfaceResponse::through(Convolution2D<Real>& compliance, const Units& unit
     return (component - first) * points.size();
   };
   compliance.apply(
-      [&](int component, Index row, Real* room) -> const Real* {
+      [&](int component, Index row, Real* buffer) -> const Real* {
         const auto [begin, end] = points_of(loaded, component, row);
         if (begin == end) return nullptr;
-        std::fill_n(room, window_.ny, Real(0));
+        std::fill_n(buffer, window_.ny, Real(0));
         for (Index k = begin; k < end; ++k)
-          room[column_of(loaded, row, k)] =
+          buffer[column_of(loaded, row, k)] =
               static_cast<Real>(units.in * tractions[offset(loaded, component) + k]);
-        return room;
+        return buffer;
       },
       [&](int component, Index row, const Real* values) {
         const auto [begin, end] = points_of(read, component, row);
