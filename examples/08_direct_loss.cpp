@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
   options.steps = steps;
   options.stick.boundary = Boundary::free;
   const CycleResult cycle =
-      simulate_cycle(boundary_element_levels(surface, material.contact_modulus,
+      simulate_cycle(boundary_element_contact_sets(surface, material.contact_modulus,
                                              {.tolerance = 1e-8, .boundary = Boundary::free}),
                      grid, material, trajectory_of(motion, indentation), options);
   if (!cycle.converged()) return 1;

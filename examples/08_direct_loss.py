@@ -24,7 +24,7 @@ material = salebra.Material(1e9, poisson=0.3)
 motion = salebra.EqualFrequency(normal_amplitude=0.3 * indentation, tangential_amplitude=1e-6, phase=math.pi / 4)
 
 # 3. A normal contact at each step, a stick solve on it; cells that leave release what they hold.
-levels = salebra.boundary_element_levels(surface, material, tolerance=1e-8, boundary="free")
+levels = salebra.boundary_element_contact_sets(surface, material, tolerance=1e-8, boundary="free")
 cycle = salebra.simulate_cycle(levels, material, motion, indentation, steps=steps, boundary="free")
 if not cycle.converged:
     sys.exit(1)

@@ -24,8 +24,8 @@ int main(int argc, char** argv) try {
   const double load = 10, decay_length = 100e-9, mass = 1, spring = 1e7;  // N, m, kg, N/m
   const ExponentialLaw law(load, decay_length,
                            Material::of_contact_modulus(115e9, 0.3).modulus_ratio());
-  const auto levels = std::make_shared<const LawLevels>(
-      law, -50e-9, 50e-9, LawLevelsOptions{.friction_coefficient = 0.3});
+  const auto levels = std::make_shared<const LawSprings>(
+      law, -50e-9, 50e-9, LawSpringsOptions{.friction_coefficient = 0.3});
   ContactElement contact(levels);
   contact.start(0, 0, 0);
 

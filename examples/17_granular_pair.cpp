@@ -48,9 +48,9 @@ int main(int argc, char** argv) try {
       law_of_rough_spheres(radius / 2, Material::of_contact_modulus(35e9, 0.2), 1e-6, 30e-9, 1e3);
 
   // One table of levels for all pairs of one kind; an element for each pair that touches.
-  const auto levels = std::make_shared<const LawLevels>(
+  const auto levels = std::make_shared<const LawSprings>(
       law, law.lowest_indentation(), law.highest_indentation(),
-      LawLevelsOptions{.friction_coefficient = 0.3, .levels = 256});
+      LawSpringsOptions{.friction_coefficient = 0.3, .intervals = 256});
   ContactElement history(levels);
 
   double overlap = history.state()[0], normal = normal_speed, shear = 0,

@@ -136,7 +136,7 @@ std::string AssumptionReport::text() const {
   std::string text;
   const std::string largest = motion_without_slip(cases);
   const bool judged = std::ranges::any_of(verdicts, [](const AssumptionVerdict& one) {
-    return one.name == "slip_of_opening_levels" && one.verdict != Verdict::unknown;
+    return one.name == "slip_of_opening_springs" && one.verdict != Verdict::unknown;
   });
   if (!slip_followed && !judged && !largest.empty())
     text = wrapped("Without slip up to " + largest + "\n", text_width());

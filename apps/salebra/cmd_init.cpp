@@ -106,7 +106,7 @@ frequency = "20kHz"          # of the normal oscillation
 hold = "indentation"         # of the mean indentation; "force" for a dead weight
 # amplitude = "small"        # the limit u_z -> 0, to compare with Eq. (16); else "finite"
 # relative_error = "5%"      # of each damping constant: halves the cells until it is met
-# levels = 4                 # intervals between contacts inside the oscillation: 4, 8, 16 or 32; 0: none, the loss from the curve between loads
+# intervals = 4                 # intervals between contacts inside the oscillation: 4, 8, 16 or 32; 0: none, the loss from the curve between loads
 # seam_error = "window"      # adds the error of the seam of a scan that is continued; or "free"
 )";
 

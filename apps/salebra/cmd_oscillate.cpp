@@ -34,7 +34,7 @@ struct OscillateArguments {
   MaterialOptions material;
   MotionOptions motion;
   std::optional<int> points;
-  int steps = 64, levels = 0;
+  int steps = 64, intervals = 0;
   std::optional<double> direction, relative_error, decay_length;
   RecordOptions record;
   FrictionOptions friction;
@@ -103,7 +103,7 @@ Oscillation motion_of(MotionOptions motion, const OscillatingBody& body, double 
 
 void check(const OscillateArguments& arguments, Session& session) {
   require_one(!arguments.shapes.empty(), "--shape", arguments.surface.given(), "--surface");
-  const bool simulate = arguments.method != "levels";
+  const bool simulate = arguments.method != "intervals";
   arguments.record.check(arguments.steps, arguments.friction.cycles(), session);
   require(simulate || (arguments.record.checkpoint.empty() && arguments.record.fields.empty()),
           "--method", arguments.method,
@@ -121,7 +121,7 @@ void check(const OscillateArguments& arguments, Session& session) {
                                      {"--fields", &arguments.record.fields}})
     require(file->empty() || arguments.shapes.size() < 2, option, *file,
             "is of one simulation; give one --shape");
-  require(!arguments.relative_error || arguments.levels == 0, "--levels", arguments.levels,
+  require(!arguments.relative_error || arguments.intervals == 0, "--intervals", arguments.intervals,
           "cannot be combined with --relative-error, which chooses them; give one");
 }
 
@@ -152,17 +152,17 @@ OscillationCase case_of(const OscillateArguments& arguments, const std::string& 
 OscillationRoutes routes_of(const OscillateArguments& arguments, const OscillationCase& contact,
                             const std::string& shape, const Progress& progress) {
   OscillationRoutes routes;
-  routes.levels.levels = arguments.levels;
-  routes.levels.direction = arguments.direction.value_or(0);
-  routes.levels.stick.boundary = contact.body.boundary;
-  routes.levels.stick.hold_lateral = arguments.lateral == "held";
-  routes.levels.on_progress = progress;
+  routes.intervals.intervals = arguments.intervals;
+  routes.intervals.direction = arguments.direction.value_or(0);
+  routes.intervals.stick.boundary = contact.body.boundary;
+  routes.intervals.stick.hold_lateral = arguments.lateral == "held";
+  routes.intervals.on_progress = progress;
   routes.relative_error = arguments.relative_error;
   routes.shape = shape;
   routes.cycle.steps = arguments.steps;
-  routes.cycle.direction = routes.levels.direction;
+  routes.cycle.direction = routes.intervals.direction;
   routes.cycle.stick.boundary = contact.body.boundary;
-  routes.cycle.stick.hold_lateral = routes.levels.stick.hold_lateral;
+  routes.cycle.stick.hold_lateral = routes.intervals.stick.hold_lateral;
   routes.cycle.on_progress = progress;
   arguments.friction.apply(routes.cycle, arguments.material, contact.material);
   routes.frictional = arguments.friction.given();
@@ -228,7 +228,7 @@ std::string table_of(const std::vector<OscillationOutcome>& outcomes,
       return ratio ? fmt::format("{:.4f}", *ratio) : std::string("no loss");
     };
     rows.push_back({shapes[k], format_quantity(outcome.work_per_cycle(), Dimension::energy),
-                    text(outcome.levels.small_amplitude_work), text(outcome.levels.work_by_force),
+                    text(outcome.intervals.small_amplitude_work), text(outcome.intervals.work_by_force),
                     fmt::format("{:.1e}", outcome.work_per_cycle() / outcome.elastic_energy())});
   }
   return to_table(rows, 2, true);
@@ -284,8 +284,8 @@ void run(const OscillateArguments& arguments, Session& session) {
     const OscillationRoutes routes = routes_of(
         arguments, contact, shape, part_of(session.progress(), outcomes.size(), shapes.size()));
     OscillationOutcome& outcome =
-        outcomes.emplace_back(oscillation_by_levels(std::move(contact), routes));
-    if (arguments.method == "levels") continue;
+        outcomes.emplace_back(oscillation_by_intervals(std::move(contact), routes));
+    if (arguments.method == "intervals") continue;
     stops.reset();
     recorder.emplace(recorder_of(arguments, outcome.run, routes.cycle, session));
     simulate_cycles(outcome, routes, [&](const CycleOptions& cycle, const auto& simulate) {
@@ -332,12 +332,12 @@ void add_oscillate_command(Program& program) {
   add_choice(command, "--lateral", arguments->lateral, {"held", "free"},
              "displacement across the motion: held at 0, or free of traction; default held");
   add_choice<Boundary>(command, "--boundary", arguments->boundary, "default: as the surface is");
-  add_choice(command, "--method", arguments->method, {"levels", "both"},
+  add_choice(command, "--method", arguments->method, {"intervals", "both"},
              "levels: contact sets at a few indentations; both: also step through the cycle; "
              "default both");
   add_steps(command, arguments->steps, "changes of the contact in a cycle; default 64")
       ->range(4, 10000000);
-  command.add_option("--levels", arguments->levels, "contact levels; default 16, 32 for drag")
+  command.add_option("--intervals", arguments->intervals, "contacts in the oscillation; default 16, 32 for drag")
       ->range(0, 4096);
   add_quantity(command, "--relative-error", arguments->relative_error, Dimension::dimensionless,
                "of the levels' loss, such as 1%: chooses levels and, for a shape, cells");

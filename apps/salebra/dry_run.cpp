@@ -46,10 +46,10 @@ std::string describe(const PointCost& point) {
 }
 
 /// What the damping constants cost beside the sweep.
-std::string describe_levels(const StudyConfiguration& configuration, const StudyCost& cost) {
+std::string describe_intervals(const StudyConfiguration& configuration, const StudyCost& cost) {
   double contacts = 0;
   for (const PointCost& point : cost.points)
-    contacts += point.levels * double(point.surfaces * point.pressures.size());
+    contacts += point.intervals * double(point.surfaces * point.pressures.size());
   return fmt::format("contacts inside the oscillation, as dear as {:.0f} solves{}", contacts,
                      configuration.relative_error > 0
                          ? fmt::format("; for an error of {:.3g} % the cells of some loads are "
@@ -114,7 +114,7 @@ void answer_dry_run(const StudyConfiguration& configuration, const StudyProcesse
       "threads {}, give or take a factor of {}\nmemory    about {}{}{}\n",
       cost.contacts(),
       stick_solves(configuration) ? " and K_t by a stick solve" : "; K_t = (G*/E*)K",
-      describe_levels(configuration, cost), models,
+      describe_intervals(configuration, cost), models,
       together ? "processes " + describe(processes) + "\n" : "",
       configuration.target_precision > 0 ? "at most " : "", about(cost.seconds), cost.threads,
       together ? "each on idle machines like this one" : "on an idle machine",

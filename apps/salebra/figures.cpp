@@ -367,7 +367,7 @@ Figure friction_figure(const FrictionMap& map) {
   const Index j = columns.back();
   parts.title = fmt::format("(c) parts of the loss at φ_0 = {:.0f}°",
                             map.phase[static_cast<std::size_t>(j)] * degrees);
-  PlotCurve relaxation{.name = "levels that open", .x = map.friction_number};
+  PlotCurve relaxation{.name = "springs that open", .x = map.friction_number};
   PlotCurve slip{.name = "slip in permanent contact", .x = map.friction_number};
   PlotCurve sum{.name = "sum", .x = map.friction_number, .style = PlotStyle::dashed, .color = 6};
   for (Index i = 0; i < map.loss_ratio.rows(); ++i) {

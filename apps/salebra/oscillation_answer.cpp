@@ -92,7 +92,7 @@ void warn_of_cycle(const char* which, const CycleResult& cycle, double uncertain
 }  // namespace
 
 Json to_json(const OscillationOutcome& outcome) {
-  const LevelQuadratureResult& levels = outcome.levels;
+  const IntervalQuadratureResult& intervals = outcome.intervals;
   const Grid2D& grid = outcome.run.body.surface.grid;
   Json object = json_of(loss_of(outcome));
   object["error_contains"] = outcome.error_contains();
@@ -117,11 +117,11 @@ Json to_json(const OscillationOutcome& outcome) {
                          : std::numeric_limits<double>::quiet_NaN();
     object["time"] = time;
   } else {
-    const auto& samples = levels.curve.samples;
+    const auto& samples = intervals.curve.samples;
     object["contact_area_min"] = samples.front().contact_area_fraction * grid.area();
     object["contact_area_max"] = samples.back().contact_area_fraction * grid.area();
   }
-  object["fft_count"] = levels.fft_count + (outcome.cycle ? outcome.cycle->fft_count : 0);
+  object["fft_count"] = intervals.fft_count + (outcome.cycle ? outcome.cycle->fft_count : 0);
   add_first_loading(object, outcome.run.first_loading);
   add_friction(object, outcome);
   return object;
@@ -133,8 +133,8 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
     write_cycle(group, *outcome.cycle, outcome.run.body.surface.grid);
     group.dataset("heights", outcome.run.body.surface.heights);
     group.attribute("error_estimate", outcome.cycle->step_error);
-    group.attribute("small_amplitude_work", outcome.levels.small_amplitude_work);
-    group.attribute("work_by_force", outcome.levels.work_by_force);
+    group.attribute("small_amplitude_work", outcome.intervals.small_amplitude_work);
+    group.attribute("work_by_force", outcome.intervals.work_by_force);
   }
   if (outcome.frictional) {
     QuantityGroup friction(file.group(prefix + "friction"));
@@ -147,19 +147,19 @@ void write_outcome(ResultFile& file, const std::string& prefix, const Oscillatio
     coupling.attribute("normal_work", outcome.coupled->normal_work);
     write_cycle(coupling, *outcome.coupled, outcome.run.body.surface.grid);
   }
-  QuantityGroup group(file.group(prefix + "levels"));
-  const ForceCurve& curve = outcome.levels.curve;
+  QuantityGroup group(file.group(prefix + "intervals"));
+  const ForceCurve& curve = outcome.intervals.curve;
   group.coordinate("indentation", curve.column(&ForceSample::indentation));
   for (const char* name :
        {"force", "normal_stiffness", "tangential_stiffness", "contact_area_fraction"}) {
     std::vector<double> values;
     std::ranges::transform(curve.samples, std::back_inserter(values),
-                           number_of<ForceSample>(name, "levels"));
+                           number_of<ForceSample>(name, "intervals"));
     group.dataset(name, values, {"indentation"});
   }
-  group.attribute("work_per_cycle", outcome.levels.work_per_cycle);
-  group.attribute("error_estimate", outcome.levels.error_estimate);
-  group.attribute("work_by_whole_cells", outcome.levels.work_by_levels);
+  group.attribute("work_per_cycle", outcome.intervals.work_per_cycle);
+  group.attribute("error_estimate", outcome.intervals.error_estimate);
+  group.attribute("work_by_whole_cells", outcome.intervals.work_by_intervals);
 }
 
 PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& title) {
@@ -181,7 +181,7 @@ PlotPanel contact_panel(const OscillationOutcome& outcome, const std::string& ti
 PlotPanel work_panel(const OscillationOutcome& outcome, const std::string& title) {
   const bool drag = std::holds_alternative<Drag>(outcome.run.motion);
   const CycleResult& cycle = *outcome.cycle;
-  const double predicted = outcome.levels.small_amplitude_work;
+  const double predicted = outcome.intervals.small_amplitude_work;
   const bool lossless = !outcome.over(predicted);
   std::vector<double> values = column(cycle, drag ? &CycleSample::dissipated : &CycleSample::work);
   const double reference = lossless ? outcome.elastic_energy() : predicted;
@@ -224,9 +224,9 @@ void warn_of(const OscillationOutcome& outcome, Session& session) {
   if (outcome.choice && !outcome.choice->reached)
     session.warn(
         fmt::format("the relative error asked for was not reached: {:.2g} is left at {} x {} cells "
-                    "and {} levels",
-                    outcome.choice->error_estimate / std::abs(outcome.levels.work_per_cycle),
-                    outcome.choice->grid.nx, outcome.choice->grid.ny, outcome.choice->levels));
+                    "and {} intervals",
+                    outcome.choice->error_estimate / std::abs(outcome.intervals.work_per_cycle),
+                    outcome.choice->grid.nx, outcome.choice->grid.ny, outcome.choice->intervals));
 }
 
 }  // namespace salebra::cli

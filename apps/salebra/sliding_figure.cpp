@@ -13,7 +13,7 @@ namespace salebra::cli {
 Figure sliding_figure(const std::vector<SlidingPoint>& points, double friction) {
   PlotCurve mean{.name = "computed"}, slow{.name = "static friction and Γv"};
   slow.style = PlotStyle::dashed;
-  PlotCurve total{.name = "whole"}, opening{.name = "levels that open"};
+  PlotCurve total{.name = "whole"}, opening{.name = "springs that open"};
   for (const SlidingPoint& point : points) {
     const double velocity = point.velocity;
     const SteadySliding& state = point.state;

@@ -79,7 +79,7 @@ void StudyArguments::add_to(Command& command, bool over_processes) {
   add_quantity(command, "--relative-error", relative_error, Dimension::dimensionless,
                "of each damping constant, such as 5%: halves the cells until it is met");
   command.add_option(
-      "--levels", levels,
+      "--intervals", intervals,
       "intervals between contacts inside the oscillation, 4, 8, 16 or 32, half as "
       "many on finer grids and for each of several surfaces; default 4; 0: none, the "
       "loss from the curve between loads, faster and without an error");
@@ -271,10 +271,10 @@ StudyConfiguration StudyArguments::study() const {
             "must be between 0 and 1, such as 5%");
     study.relative_error = *relative_error;
   }
-  if (levels) {
-    require(*levels == 0 || allowed_levels(*levels), "--levels", *levels,
+  if (intervals) {
+    require(*intervals == 0 || allowed_intervals(*intervals), "--intervals", *intervals,
             "must be 0, 4, 8, 16 or 32");
-    study.levels = levels;
+    study.intervals = intervals;
   }
   if (const auto seam = parse_enum<SeamCheck>(seam_error)) study.seam = seam;
   if (no_stick) study.stick = false;
@@ -284,7 +284,7 @@ StudyConfiguration StudyArguments::study() const {
   if (!conduction.resistivity.empty()) study.conduction.resistivity = conduction.resistivity;
   if (study.adhesion)
     for (const auto& [given, option] : {std::pair(motion.given(), "--normal-amplitude"),
-                                        {levels.has_value(), "--levels"},
+                                        {intervals.has_value(), "--intervals"},
                                         {relative_error.has_value(), "--relative-error"},
                                         {!seam_error.empty(), "--seam-error"}})
       require_that(!given, option, std::string(no_damping_with_adhesion));

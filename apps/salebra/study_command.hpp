@@ -27,7 +27,7 @@ struct StudyArguments {
   AssumptionOptions assumptions;
   std::vector<double> pressures;
   std::optional<double> precision, relative_error;
-  std::optional<int> levels;
+  std::optional<int> intervals;
   std::string seam_error;
   bool no_stick = false, flow_factors = false;
   bool resume = false;

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <salebra/damping/closed_form.hpp>
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 #include <salebra/io/read_surface.hpp>
 #include <salebra/surface/detrend.hpp>
 
@@ -65,15 +65,15 @@ int main(int count, char** words) {
       refined(detrended(read_surface(words[1]), Detrend::plane), std::atoi(words[2]));
   const Material material = Material::of_contact_modulus(115e9, 0.3);
   const Drag motion{1e-9, 1e-6, 2 * std::numbers::pi * 20e3};
-  LevelQuadratureOptions options;
+  IntervalQuadratureOptions options;
   options.levels = std::atoi(words[3]);
   WarmLevels warm(surface, material.contact_modulus);
   for (int k = 4; k < count; ++k) {
     const double pressure = std::atof(words[k]);
     const auto start = std::chrono::steady_clock::now();
     const double indentation = warm.indentation_at(pressure);
-    const LevelQuadratureResult result =
-        level_quadrature([&](double at) { return warm.at(at); }, surface.grid, material, motion,
+    const IntervalQuadratureResult result =
+        interval_quadrature([&](double at) { return warm.at(at); }, surface.grid, material, motion,
                          indentation, options);
     const auto constant = [&](double work) { return closed_form::damping_constant(work, motion); };
     std::printf("%.5g %.6g %.3g %.5g %.6g %.0f %.0f%s\n", pressure, constant(result.work_per_cycle),

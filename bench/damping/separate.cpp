@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
                     pressures[k] / slope / material.contact_modulus, relative, w,
                     damping.work_per_cycle / w, damping.work_per_cycle_error() / w,
                     damping.error.cells / w, damping.error.noise / w, damping.error.solver / w,
-                    truth.error / w, ratio, damping.levels, half / motion.normal_amplitude,
+                    truth.error / w, ratio, damping.intervals, half / motion.normal_amplitude,
                     damping.converged ? "" : "not converged");
         std::fflush(stdout);
         ++cases;

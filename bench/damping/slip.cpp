@@ -7,7 +7,7 @@
 // slip; gamma and part by slip of the simulation; gamma of springs by 150 contacts on the cells of
 // the simulation, twice as wide as the study's finest, and how far it is off the simulation. The
 // simulation turns back a quarter of a normal cycle after the least indentation, which costs what
-// the mean over all phases does (src/damping/level_loss.hpp).
+// the mean over all phases does (src/damping/spring_loss.hpp).
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -43,7 +43,7 @@ StudyResult ensemble(std::vector<SpectrumTable> tables, double slope, int surfac
           "[contact]\npressures = \"{}:{}:4\"\ntolerance = 1e-6\n"
           "tangential_stiffness = \"proportional\"\n"
           "[damping]\nmode = \"drag\"\nnormal_amplitude = \"1nm\"\n"
-          "drag_velocity = \"1um/s\"\nfrequency = \"20kHz\"\nlevels = 0\n",
+          "drag_velocity = \"1um/s\"\nfrequency = \"20kHz\"\nintervals = 0\n",
           points, size, first_seed, surfaces, modulus, first_pressure(slope), last_pressure(slope)),
       "bench");
   std::get<GeneratedSurfaces>(configuration.surfaces).tables = std::move(tables);

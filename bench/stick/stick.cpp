@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <salebra/base/parallel.hpp>
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <string>
 #include <vector>
@@ -61,22 +61,22 @@ void solve(Index n) {
 struct RoughContact {
   Surface surface;
   Material material = Material::of_contact_modulus(1.0, 0.3);
-  ContactLevels levels;
+  ContactSets levels;
   double indentation = 0, amplitude = 0;
 
   explicit RoughContact(Index n) : surface(rough(n)) {
     indentation = press(surface, 1.0, at_pressure(0.02 * slope)).indentation;
     amplitude = 0.2 * std::sqrt(surface.heights.square().mean());
-    levels = boundary_element_levels(surface, 1.0);
+    levels = boundary_element_contact_sets(surface, 1.0);
   }
 };
 
 void levels(Index n, int count) {
   const RoughContact contact(n);
-  LevelQuadratureOptions options;
+  IntervalQuadratureOptions options;
   options.levels = count;
   const Stopwatch watch;
-  const LevelQuadratureResult result = level_quadrature(
+  const IntervalQuadratureResult result = interval_quadrature(
       contact.levels, contact.surface.grid, contact.material,
       EqualFrequency{contact.amplitude, contact.amplitude, 1.0}, contact.indentation, options);
   std::printf(
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
     for (const int n :
          numbers.empty() || what == "all" ? std::vector<int>{256, 512, 1024} : numbers)
       solve(n);
-  if (what == "levels" || what == "all")
+  if (what == "intervals" || what == "all")
     levels(numbers.empty() ? 512 : numbers[0], numbers.size() < 2 ? 32 : numbers[1]);
   if (what == "cycle" || what == "all")
     cycle(numbers.empty() ? 256 : numbers[0], numbers.size() < 2 ? 64 : numbers[1]);

@@ -42,7 +42,7 @@ _COMMON = (
     "IndenterLaw", "GreenwoodWilliamsonLaw", "ContactParameters", "StudyConfiguration", "ResultReader",
     "read_surface", "write_surface", "random_phase", "filtered_noise", "exact_rms", "paraboloid_surface", "off_grid_center",
     "power_spectrum", "scan_spectrum", "SurfaceTwin", "after_first_loading", "press", "sweep_pressures",
-    "boundary_element_levels", "fit_exponential", "test_exponential", "window_sensitivity",
+    "boundary_element_contact_sets", "fit_exponential", "test_exponential", "window_sensitivity",
     "surface_damping", "relaxation_damping", "damping_curve", "simulate_cycle", "simulate_frictional_cycle", "simulate_coupled_cycle",
     "read_study_configuration", "parse_study_configuration", "run_study", "run_ensembles", "write_ensembles", "is_result_of",
     "can_report", "write_report", "citations", "set_threads", "threads", "ProgressReport", "version",

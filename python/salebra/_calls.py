@@ -563,7 +563,7 @@ def _hash_of_call(self: Any) -> int:
 
 _REMADE: tuple[type, ...] = (
     _core.ContactLaw, _core.AsperityModel, _core.Spectrum, _core.ProfileSpectrum, _core.HeightDistribution, _core.IndenterProfile,
-    _core.PerssonTheory, _core.BearingCurve, _core.ContactLevels, _core.ResultReader,
+    _core.PerssonTheory, _core.BearingCurve, _core.ContactSets, _core.ResultReader,
 )  # fmt: skip
 
 

@@ -19,12 +19,12 @@ void bind_closed_form(nb::module_& parent) {
         "Eq. (6): slope c = 2E*/F'' of the one-dimensional profile at the edge of the contact.");
   m.def(
       "released_distance",
-      [](double level, const Oscillation& motion) {
-        return std::visit([&](const auto& one) { return cf::released_distance(level, one); },
+      [](double spring_depth, const Oscillation& motion) {
+        return std::visit([&](const auto& one) { return cf::released_distance(spring_depth, one); },
                           motion);
       },
-      nb::arg("level"), nb::arg("motion"),
-      R"(How far a spring at `level` (m) is released, m; valid at any amplitude.
+      nb::arg("spring_depth"), nb::arg("motion"),
+      R"(How far a spring at `spring_depth` (m) is released, m; valid at any amplitude.
 
 .. math:: s = 2u_x\sqrt{1-(z_0/u_z)^2}\,\sin\varphi_0 \;\text{Eq. (7)}, \qquad s = 2(v/\omega)\arccos(z_0/u_z) \;\text{Eq. (13)}
 )");
@@ -32,7 +32,7 @@ void bind_closed_form(nb::module_& parent) {
         nb::arg("released_distance"), nb::arg("spring_width"),
         "Eq. (8): energy ½G*s²Δx of one spring, J.");
   m.def(
-      "intermittent_contact", &cf::intermittent_contact, nb::arg("level"),
+      "intermittent_contact", &cf::intermittent_contact, nb::arg("spring_depth"),
       nb::arg("normal_amplitude"),
       "Eq. (9): ``−|u_z| < z0 < |u_z|``, the points that are in contact during a part of the cycle "
       "only.");

@@ -15,7 +15,7 @@
 #include <salebra/damping/adaptive_quadrature.hpp>
 #include <salebra/damping/cycle.hpp>
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 
 #include "bindings.hpp"
 #include "interop/choice.hpp"
@@ -23,7 +23,7 @@
 #include "interop/contact.hpp"
 #include "interop/cycle_motion.hpp"
 #include "interop/described.hpp"
-#include "interop/levels.hpp"
+#include "interop/contact_sets.hpp"
 #include "interop/path.hpp"
 #include "interop/running.hpp"
 #include "interop/surface.hpp"
@@ -41,11 +41,11 @@ NormalContactOptions contact_options(double tolerance, int max_iterations,
           .boundary = boundary.value("boundary")};
 }
 
-void bind_levels(nb::module_& m) {
+void bind_contact_sets(nb::module_& m) {
   described_class<ContactSetAt>(m, "ContactSetAt",
                                 "The cells of the frictionless normal contact at one indentation.");
-  nb::class_<BoundLevels>(
-      m, "ContactLevels", nb::dynamic_attr(),
+  nb::class_<BoundContactSets>(
+      m, "ContactSets", nb::dynamic_attr(),
       R"(The normal contact as a function of the indentation, for the direct simulation.
 
 Parameters
@@ -56,18 +56,18 @@ grid : Grid2D
 
 See Also
 --------
-boundary_element_levels : the levels of a surface.
+boundary_element_contact_sets : the contact_sets of a surface.
 )")
       .def(
           "__init__",
-          [](BoundLevels* self, const LevelFunction& given, const Grid2D& grid) {
+          [](BoundContactSets* self, const ContactSetFunction& given, const Grid2D& grid) {
             // The function may be dropped by a thread without the interpreter's lock.
             const std::shared_ptr<nb::object> held(new nb::object(given.function),
                                                    [](nb::object* object) {
                                                      const nb::gil_scoped_acquire locked;
                                                      delete object;
                                                    });
-            new (self) BoundLevels{
+            new (self) BoundContactSets{
                 [held](double indentation) {
                   const nb::gil_scoped_acquire locked;
                   const nb::object answer = (*held)(indentation);
@@ -88,20 +88,20 @@ boundary_element_levels : the levels of a surface.
           nb::arg("function"), nb::arg("grid"))
       .def(
           "__call__",
-          [](const BoundLevels& self, double indentation) {
-            return unlocked([&] { return self.levels(indentation); });
+          [](const BoundContactSets& self, double indentation) {
+            return unlocked([&] { return self.contact_sets(indentation); });
           },
           nb::arg("indentation"), "The contact at an indentation, m.")
-      .def_ro("grid", &BoundLevels::grid);
+      .def_ro("grid", &BoundContactSets::grid);
   m.def(
-      "boundary_element_levels",
+      "boundary_element_contact_sets",
       [](const BoundSurface& surface, const MaterialArgument& material, double tolerance,
          int max_iterations, const Choice<Boundary>& boundary) {
         const double contact_modulus = material.material().contact_modulus;
         cite({"polonsky_keer1999", "stanley_kato1997"});
         const NormalContactOptions options = contact_options(tolerance, max_iterations, boundary);
-        return BoundLevels{
-            boundary_element_levels(Surface(surface.surface), contact_modulus, options),
+        return BoundContactSets{
+            boundary_element_contact_sets(Surface(surface.surface), contact_modulus, options),
             surface.surface.grid,
             fmt::format("surface {}, {} Pa, {} boundary to {} in {} iterations",
                         fingerprint(surface.surface.heights), contact_modulus, boundary.text,
@@ -148,7 +148,7 @@ StickOptions stick_options(double tolerance, int max_iterations, const Choice<Bo
 void bind_simulations(nb::module_& m) {
   m.def(
       "simulate_cycle",
-      [](const BoundLevels& levels, const Material& material,
+      [](const BoundContactSets& contact_sets, const Material& material,
          const std::variant<EqualFrequency, Drag>& motion, double mean_indentation, int steps,
          int max_periods, double direction, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const std::optional<std::filesystem::path>& checkpoint,
@@ -159,15 +159,15 @@ void bind_simulations(nb::module_& m) {
                                    .direction = direction,
                                    .stick = stick_options(tolerance, max_iterations, boundary)};
         CycleSettings settings =
-            cycle_settings(levels.grid, material, oscillation(motion), mean_indentation, options);
-        settings.emplace_back("levels", levels.identity);
+            cycle_settings(contact_sets.grid, material, oscillation(motion), mean_indentation, options);
+        settings.emplace_back("contact_sets", contact_sets.identity);
         return simulation(options, checkpoint, checkpoint_every, resume, std::move(settings),
                           progress, [&](const CycleOptions& chosen, const Progress&) {
-                            return simulate_cycle(levels.levels, levels.grid, material,
+                            return simulate_cycle(contact_sets.contact_sets, contact_sets.grid, material,
                                                   trajectory(motion, mean_indentation), chosen);
                           });
       },
-      nb::arg("levels"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
+      nb::arg("contact_sets"), nb::arg("material"), nb::arg("motion"), nb::arg("mean_indentation"),
       nb::kw_only(), nb::arg("steps") = 64, nb::arg("max_periods") = 6, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-8, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("checkpoint") = nb::none(),
@@ -179,8 +179,8 @@ is of second order: −h²/24 of W, h = 2π/steps, for equal frequencies and K_t
 
 Parameters
 ----------
-levels : ContactLevels
-    Such as :func:`boundary_element_levels` of a surface.
+contact_sets : ContactSets
+    Such as :func:`boundary_element_contact_sets` of a surface.
 material : Material
 motion : EqualFrequency or Drag
 mean_indentation : float
@@ -304,31 +304,31 @@ Relaxation and slip are told apart by cells; the exponent is NaN. The steps are 
 }
 
 void bind_quadrature(nb::module_& m) {
-  described_class<LevelQuadratureResult>(m, "LevelQuadratureResult",
+  described_class<IntervalQuadratureResult>(m, "IntervalQuadratureResult",
                                          "The loss of a cycle from a few contact sets.");
   m.def(
-      "level_quadrature",
-      [](const BoundLevels& levels, const Material& material, const Oscillation& motion,
+      "interval_quadrature",
+      [](const BoundContactSets& contact_sets, const Material& material, const Oscillation& motion,
          double mean_indentation, int count, double direction, double tolerance, int max_iterations,
          const Choice<Boundary>& boundary, const ProgressArgument& progress) {
         cite({"popov2015"});
-        LevelQuadratureOptions options{.levels = count, .direction = direction};
+        IntervalQuadratureOptions options{.contact_sets = count, .direction = direction};
         options.stick = {.tolerance = tolerance,
                          .max_iterations = max_iterations,
                          .boundary = boundary.value("boundary")};
         return interruptible(progress, [&](Progress told) {
           options.on_progress = std::move(told);
-          return level_quadrature(levels.levels, levels.grid, material, motion, mean_indentation,
+          return interval_quadrature(contact_sets.contact_sets, contact_sets.grid, material, motion, mean_indentation,
                                   options);
         });
       },
-      nb::arg("contact_levels"), nb::arg("material"), nb::arg("motion"),
-      nb::arg("mean_indentation"), nb::kw_only(), nb::arg("levels") = 0, nb::arg("direction") = 0.0,
+      nb::arg("contact_sets"), nb::arg("material"), nb::arg("motion"),
+      nb::arg("mean_indentation"), nb::kw_only(), nb::arg("intervals") = 0, nb::arg("direction") = 0.0,
       nb::arg("tolerance") = 1e-5, nb::arg("max_iterations") = 1000,
       nb::arg("boundary") = "periodic", nb::arg("progress") = false,
       R"(Relaxation damping of a contact without stepping through the cycle: W = ½∮ s² dK_t by parts.
 
-On Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch solve at each. levels = 0: 16 for equal
+On Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch solve at each. contact_sets = 0: 16 for equal
 frequencies, 32 for drag.
 )");
 }
@@ -336,7 +336,7 @@ frequencies, 32 for drag.
 }  // namespace
 
 void bind_cycle(nb::module_& m) {
-  bind_levels(m);
+  bind_contact_sets(m);
   bind_result(m);
   bind_simulations(m);
   bind_quadrature(m);

@@ -89,33 +89,33 @@ tangential_range : float
 }
 
 void bind_contact_element(nb::module_& m) {
-  nb::class_<LawLevels>(
-      m, "LawLevels",
-      R"(A contact law as levels of springs with friction, shared by contact elements.
+  nb::class_<LawSprings>(
+      m, "LawSprings",
+      R"(A contact law as springs of springs with friction, shared by contact elements.
 
 Parameters
 ----------
 law : ContactLaw
 lowest, highest : float
-    Indentations between which contacts will move with the accuracy asked for, m. Below, levels are
+    Indentations between which contacts will move with the accuracy asked for, m. Below, springs are
     coarser; above, the force goes on along its tangent.
 friction_coefficient : float
     μ >= 0; infinite: full stick.
-levels : int
+springs : int
     8 … 4096; half of them lie between lowest and highest, half below.
 )")
       .def(
           "__init__",
-          [](LawLevels* self, const ContactLaw& law, double lowest, double highest,
-             double friction_coefficient, int levels) {
-            new (self) LawLevels(law, lowest, highest, {friction_coefficient, levels});
+          [](LawSprings* self, const ContactLaw& law, double lowest, double highest,
+             double friction_coefficient, int springs) {
+            new (self) LawSprings(law, lowest, highest, {friction_coefficient, springs});
           },
           nb::arg("law"), nb::arg("lowest"), nb::arg("highest"), nb::kw_only(),
-          nb::arg("friction_coefficient") = infinite, nb::arg("levels") = LawLevelsOptions().levels)
-      .def("__len__", &LawLevels::size)
-      .def_prop_ro("friction_coefficient", &LawLevels::friction_coefficient, "μ")
+          nb::arg("friction_coefficient") = infinite, nb::arg("intervals") = LawSpringsOptions().springs)
+      .def("__len__", &LawSprings::size)
+      .def_prop_ro("friction_coefficient", &LawSprings::friction_coefficient, "μ")
       .def_prop_ro(
-          "nodes", [](const LawLevels& self) { return array_of(self.nodes()); },
+          "nodes", [](const LawSprings& self) { return array_of(self.nodes()); },
           nb::rv_policy::automatic, "Indentations at which levels end, m.");
 
   nb::class_<ElementForces>(m, "ElementForces", "What a contact element answers to a step.")
@@ -130,13 +130,13 @@ levels : int
       R"(A contact as an element of another program, with both tangential directions.
 
 Springs are anchored where they touch, let go where they part, and slip along their own stretch; all of them
-slip at a tangential force of μF. A copy is a state to come back to, and copies share their levels.
+slip at a tangential force of μF. A copy is a state to come back to, and copies share their springs.
 
 Parameters
 ----------
-levels : LawLevels
+springs : LawSprings
 )")
-      .def(nb::init<std::shared_ptr<const LawLevels>>(), nb::arg("levels"))
+      .def(nb::init<std::shared_ptr<const LawSprings>>(), nb::arg("intervals"))
       .def(
           "copy", [](const ContactElement& self) { return ContactElement(self); },
           "A state to come back to.")

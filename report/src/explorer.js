@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loss of a motion that the reader chooses, from the mean curve of the study. Its formulas are those of the library: contact/hermite.cpp,
-// contact/law/law.cpp, damping/level_loss.cpp, and damping/assumptions.cpp.
+// contact/law/law.cpp, damping/spring_loss.cpp, and damping/assumptions.cpp.
 "use strict";
 
 /** A monotone cubic through points, x ↦ {value, slope}; slopes that are not given are those of the cubic through four neighbours. */
@@ -89,8 +89,8 @@ function meanRise(ratio) {
   return (2 * Math.PI - stuck - (Math.sin(from) - Math.sin(low)) + 2 * Math.sin(from / 2) ** 2 * stuck + ratio * stuck * stuck / 2) / (2 * Math.PI);
 }
 
-/** What a level that never opens loses on a way between turning points at random phases, as SlidingLevels (damping/level_loss.hpp). */
-function slidingLevels({amplitude, stretch, speed, excursion}) {
+/** What a level that never opens loses on a way between turning points at random phases, as SlidingSprings (damping/spring_loss.hpp). */
+function slidingSprings({amplitude, stretch, speed, excursion}) {
   const swing = stretch * amplitude, rise = swing * meanRise(speed / swing), phases = 240, step = 2 * Math.PI * speed / phases, place = [];
   let last = 0, back = 0, lowest = Infinity;
   for (let i = 0; i < 3 * phases; ++i) {
@@ -119,7 +119,7 @@ function motionOf(law, middle, set) {
 }
 
 /** ∫K_t' w dζ over levels from the first to the last. */
-function overLevels(law, levels, loss) {
+function overSprings(law, levels, loss) {
   let sum = 0, above = law.stiffness(levels[0]);
   for (let i = 1; i < levels.length; ++i) {
     const below = law.stiffness(levels[i]);
@@ -129,19 +129,19 @@ function overLevels(law, levels, loss) {
   return sum;
 }
 
-/** Losses of a normal cycle, J: without slip, and with it of levels that open and of those that stay closed. */
+/** Losses of a normal cycle, J: without slip, and with it of springs that open and of those that stay closed. */
 function losses(law, middle, motion) {
   const {amplitude, stretch} = motion, cells = 240;
   const opening = Array.from({length: cells + 1}, (_, i) => middle + amplitude * Math.cos(Math.PI * i / cells));
   const half = (level) => Math.acos((level - middle) / amplitude);
-  const stick = overLevels(law, opening, (level) => (motion.place(half(level)) - motion.place(-half(level))) ** 2 / 2);
+  const stick = overSprings(law, opening, (level) => (motion.place(half(level)) - motion.place(-half(level))) ** 2 / 2);
   if (!known(stretch)) return {stick, opened: NaN, relaxation: NaN, slip: NaN};
-  const opened = overLevels(law, opening, (level) => springLoss(motion, level - middle, half(level), 1));
-  const taken = motion.drag && known(motion.excursion) ? 1.5 * costOfTurning(law, middle, amplitude) * slidingLevels(motion).turningShare : 0;
+  const opened = overSprings(law, opening, (level) => springLoss(motion, level - middle, half(level), 1));
+  const taken = motion.drag && known(motion.excursion) ? 1.5 * costOfTurning(law, middle, amplitude) * slidingSprings(motion).turningShare : 0;
   return {stick, opened, relaxation: opened * Math.max(0, 1 - taken), slip: slipLoss(law, middle, motion)};
 }
 
-/** What a turning point of a slow motion takes, in losses of one normal cycle of levels that open. */
+/** What a turning point of a slow motion takes, in losses of one normal cycle of springs that open. */
 function costOfTurning(law, middle, amplitude) {
   const angles = Array.from({length: 360}, (_, i) => Math.PI * (i + 0.5) / 360), closed = law.stiffness(middle - amplitude);
   const opening = angles.map((angle) => law.stiffness(middle + amplitude * Math.cos(angle)) - closed);
@@ -154,15 +154,15 @@ function slipLoss(law, middle, motion) {
   if (!(depth > 0)) return motion.drag && !known(excursion) ? NaN : 0;
   const levels = Array.from({length: cells + 1}, (_, i) => bottom - depth * i / cells);
   if (motion.drag) {
-    const {lossOfWay} = slidingLevels(motion);
-    return overLevels(law, levels, (level) => lossOfWay(stretch * (bottom - level)) * way / excursion);
+    const {lossOfWay} = slidingSprings(motion);
+    return overSprings(law, levels, (level) => lossOfWay(stretch * (bottom - level)) * way / excursion);
   }
-  return overLevels(law, levels, (level) => springLoss(motion, level - middle, Math.PI, 2));
+  return overSprings(law, levels, (level) => springLoss(motion, level - middle, Math.PI, 2));
 }
 
 /** The deepest level that slips: deeper ones stick where one anchor is within their limit of x at all times. */
 function slipsDownTo(middle, motion) {
-  if (motion.drag) return middle - motion.amplitude - slidingLevels(motion).deepest / motion.stretch;
+  if (motion.drag) return middle - motion.amplitude - slidingSprings(motion).deepest / motion.stretch;
   const angles = Array.from({length: 360}, (_, i) => 2 * Math.PI * i / 360), limit = (angle) => motion.stretch * motion.amplitude * Math.cos(angle);
   return middle - (Math.max(...angles.map((angle) => motion.place(angle) - limit(angle))) - Math.min(...angles.map((angle) => motion.place(angle) + limit(angle)))) / (2 * motion.stretch);
 }
@@ -197,7 +197,7 @@ function verdictsOf(point, k, law, middle, motion, loss) {
   };
   // As verdicts_of() has it, of a loss with slip.
   if (regimeOf(law, middle, motion, loss) === "sliding") found.push({name: "regime", verdict: "broken", assumption: "a damper: the contact does not slide as a whole", here: motion.drag ? "γ = µF/v: Coulomb friction, not a damper" : "γ = 4µF/(πωu_x): Coulomb friction, not a damper", remedy: motion.drag ? "use `salebra sliding`" : "use the energy dissipated in a cycle"});
-  if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_levels", "slip_of_closed_levels"]) add(name, "unknown", null, null, "friction_coefficient");
+  if (!known(motion.friction_coefficient)) for (const name of ["slip_of_opening_springs", "slip_of_closed_springs"]) add(name, "unknown", null, null, "friction_coefficient");
   if (motion.drag) {
     const cost = costOfTurning(law, middle, motion.amplitude), cycles = motion.excursion / motion.way, [five, twenty] = [0.05, 0.2].map((share) => Math.max(1, cost / share));
     add("slow_motion", known(cycles) ? judge(-cycles, -five, -twenty) : "unknown", cycles, five, "excursion");
@@ -248,7 +248,7 @@ function explore(point, k, set) {
 /** The motion of the study, with what it knows of friction. */
 function studiedMotion(point) {
   const {normal_amplitude, drag_velocity, tangential_amplitude, phase, angular_frequency, friction_coefficient} = point.damping, frequency = angular_frequency / (2 * Math.PI);
-  const excursion = point.assumptions.slip_of_closed_levels.value.find(known) ?? NaN;
+  const excursion = point.assumptions.slip_of_closed_springs.value.find(known) ?? NaN;
   return {normal_amplitude, frequency, ...(drag_velocity === undefined ? {tangential_amplitude, phase} : {drag_velocity, excursion}), friction_coefficient: friction_coefficient ?? NaN};
 }
 

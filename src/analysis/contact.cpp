@@ -236,7 +236,7 @@ Assumptions ContactSolution::assumptions_beside_slip(double indentation, const O
   const double deepest = indentation + detail::normal_amplitude(motion);
   Assumptions assumptions = assumptions_of(*law, indentation, motion, parameters_at(known, indentation, deepest));
   // What slides on does not turn back, and the loss is that at its amplitude.
-  for (const auto assumption : {&Assumptions::slip_of_opening_levels, &Assumptions::slip_of_closed_levels,
+  for (const auto assumption : {&Assumptions::slip_of_opening_springs, &Assumptions::slip_of_closed_springs,
                              &Assumptions::slow_motion, &Assumptions::amplitude})
     assumptions.*assumption = {.verdict = Verdict::holds};
   assumptions.largest.clear();

@@ -409,7 +409,7 @@ PathSolution solve(const PathProblem& problem, const Context& context) {
   if (!planar) return solution;
   // Slip is judged along x alone, where it is one of the vector.
   Assumptions& judged = solution.assumptions;
-  judged.slip_of_opening_levels = judged.slip_of_closed_levels = {};
+  judged.slip_of_opening_springs = judged.slip_of_closed_springs = {};
   judged.largest.clear();
   judged.regime = Regime::unknown;
   return solution;

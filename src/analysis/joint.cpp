@@ -23,7 +23,7 @@ void require_converged(const std::vector<JointLoss>& losses, std::string_view wh
 std::vector<JointLoss> simulate(const JointProblem& problem, const Surface& surface,
                                 const Material& material, double indentation,
                                 const Context& context) {
-  const PressureLevels levels = boundary_element_pressures(surface, material.contact_modulus);
+  const PressureFields levels = boundary_element_pressures(surface, material.contact_modulus);
   CycleOptions options{.friction_coefficient = problem.parameters.friction_coefficient,
                        .steps = *problem.direct_steps,
                        .max_periods = 20};

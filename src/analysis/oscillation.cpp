@@ -52,8 +52,8 @@ double tangential_scale(const Oscillation& motion) {
   return std::get<EqualFrequency>(motion).tangential_amplitude;
 }
 
-ContactLevels levels_of(const OscillatingBody& body, const Material& material) {
-  return boundary_element_levels(body.surface, material.contact_modulus,
+ContactSets intervals_of(const OscillatingBody& body, const Material& material) {
+  return boundary_element_contact_sets(body.surface, material.contact_modulus,
                                  {.boundary = body.boundary});
 }
 
@@ -102,23 +102,23 @@ OscillatingBody oscillating_shape(const std::string& shape, const Grid2D& grid) 
 }
 
 double OscillationOutcome::work_per_cycle() const {
-  return cycle ? cycle->work_per_cycle : levels.work_per_cycle;
+  return cycle ? cycle->work_per_cycle : intervals.work_per_cycle;
 }
 
 double OscillationOutcome::error_estimate() const {
-  if (!cycle) return levels.error_estimate;
+  if (!cycle) return intervals.error_estimate;
   return cycle->step_error + (choice ? choice->cell_error : 0);
 }
 
 std::vector<std::string> OscillationOutcome::error_contains() const {
-  std::vector<std::string> parts{cycle ? "steps" : "levels"};
+  std::vector<std::string> parts{cycle ? "steps" : "intervals"};
   if (choice && choice->cell_error > 0) parts.emplace_back("cells");
   return parts;
 }
 
 double OscillationOutcome::elastic_energy() const {
   double stiffness = 0;
-  for (const ForceSample& sample : levels.curve.samples)
+  for (const ForceSample& sample : intervals.curve.samples)
     if (std::isfinite(sample.tangential_stiffness))
       stiffness = std::max(stiffness, sample.tangential_stiffness);
   const double scale = tangential_scale(run.motion);
@@ -129,18 +129,18 @@ double OscillationOutcome::uncertain_loss() const { return 1e-7 * elastic_energy
 
 std::optional<double> OscillationOutcome::over(double reference) const {
   // The quadrature of a contact whose cells do not change sums what its solvers leave.
-  if (std::abs(reference) <= std::max(levels.error_estimate, uncertain_loss())) return {};
+  if (std::abs(reference) <= std::max(intervals.error_estimate, uncertain_loss())) return {};
   return work_per_cycle() / reference;
 }
 
 bool OscillationOutcome::bends_down() const {
   // A flat punch has F'' = 0 but for the noise of its force.
-  return levels.small_amplitude_work < -1e-3 * elastic_energy();
+  return intervals.small_amplitude_work < -1e-3 * elastic_energy();
 }
 
 bool OscillationOutcome::converged() const {
   const auto done = [](const std::optional<CycleResult>& one) { return !one || one->converged(); };
-  return levels.converged() && done(cycle) && done(frictional) && done(coupled);
+  return intervals.converged() && done(cycle) && done(frictional) && done(coupled);
 }
 
 bool OscillationOutcome::interrupted() const {
@@ -151,8 +151,8 @@ bool OscillationOutcome::interrupted() const {
 }
 
 bool OscillationOutcome::routes_agree() const {
-  return std::abs(levels.work_per_cycle - cycle->work_per_cycle) <=
-         levels.error_estimate + cycle->step_error + uncertain_loss();
+  return std::abs(intervals.work_per_cycle - cycle->work_per_cycle) <=
+         intervals.error_estimate + cycle->step_error + uncertain_loss();
 }
 
 double OscillationOutcome::balance(const CycleResult& one) const {
@@ -184,7 +184,7 @@ void load_plastically(OscillationCase& contact, const OperatingPoint& point, dou
       contact_at(at_pressure(pressure), contact.body, modulus, elastic).indentation;
 }
 
-OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationRoutes& routes) {
+OscillationOutcome oscillation_by_intervals(OscillationCase run, const OscillationRoutes& routes) {
   OscillationOutcome outcome;
   outcome.run = std::move(run);
   OscillationCase& contact = outcome.run;
@@ -193,30 +193,30 @@ OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationR
     AdaptiveQuadratureOptions options;
     options.relative_error = *routes.relative_error;
     options.max_points = routes.max_points;
-    options.quadrature = routes.levels;
-    const auto choose = [&](const auto& levels) {
-      return adaptive_level_quadrature(levels, grid, contact.material, contact.motion,
+    options.quadrature = routes.intervals;
+    const auto choose = [&](const auto& intervals) {
+      return adaptive_interval_quadrature(intervals, grid, contact.material, contact.motion,
                                        contact.indentation, options);
     };
     if (routes.shape.empty()) {
-      outcome.choice = choose(levels_of(contact.body, contact.material));
+      outcome.choice = choose(intervals_of(contact.body, contact.material));
     } else {
       const auto shape_on = [&, boundary = contact.body.boundary](const Grid2D& finer) {
         OscillatingBody body = oscillating_shape(routes.shape, finer);
         body.boundary = boundary;
         return body;
       };
-      outcome.choice = choose(LevelsOnGrid(
-          [&](const Grid2D& finer) { return levels_of(shape_on(finer), contact.material); }));
+      outcome.choice = choose(ContactSetsOnGrid(
+          [&](const Grid2D& finer) { return intervals_of(shape_on(finer), contact.material); }));
       contact.body = shape_on(outcome.choice->grid);
     }
-    outcome.levels = outcome.choice->quadrature;
+    outcome.intervals = outcome.choice->quadrature;
   } else {
-    outcome.levels =
-        level_quadrature(levels_of(contact.body, contact.material), grid, contact.material,
-                         contact.motion, contact.indentation, routes.levels);
+    outcome.intervals =
+        interval_quadrature(intervals_of(contact.body, contact.material), grid, contact.material,
+                         contact.motion, contact.indentation, routes.intervals);
   }
-  if (outcome.levels.termination == Termination::interrupted)
+  if (outcome.intervals.termination == Termination::interrupted)
     throw Interrupted("interrupted; nothing was written");
   return outcome;
 }
@@ -232,14 +232,14 @@ void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& route
     outcome.dundurs = dundurs_constant(material.contact_modulus, *routes.cycle.coupling_constant);
   const Trajectory trajectory = trajectory_of(contact.motion, contact.indentation);
   outcome.cycle = run(routes.cycle, [&](const CycleOptions& options) {
-    return simulate_cycle(levels_of(contact.body, material), surface.grid, material, trajectory,
+    return simulate_cycle(intervals_of(contact.body, material), surface.grid, material, trajectory,
                           options);
   });
   if (!routes.frictional || outcome.interrupted()) return;
-  const PressureLevels levels =
+  const PressureFields intervals =
       boundary_element_pressures(surface, material.contact_modulus, normal);
   outcome.frictional = run(routes.cycle, [&](const CycleOptions& options) {
-    return simulate_frictional_cycle(levels, surface.grid, material, trajectory, options);
+    return simulate_frictional_cycle(intervals, surface.grid, material, trajectory, options);
   });
   if (!routes.coupled || outcome.interrupted()) return;
   outcome.coupled = run(routes.cycle, [&](const CycleOptions& options) {
@@ -248,31 +248,31 @@ void simulate_cycles(OscillationOutcome& outcome, const OscillationRoutes& route
 }
 
 OscillationLoss loss_of(const OscillationOutcome& outcome) {
-  const LevelQuadratureResult& levels = outcome.levels;
+  const IntervalQuadratureResult& intervals = outcome.intervals;
   OscillationLoss loss{
       .work_per_cycle = outcome.work_per_cycle(),
       .error_estimate = outcome.error_estimate(),
-      .work_by_levels = levels.work_per_cycle,
-      .work_by_levels_error = levels.error_estimate,
-      .work_by_whole_cells = levels.work_by_levels,
-      .work_by_force = levels.work_by_force,
-      .ratio_finite = outcome.over(levels.work_by_force),
+      .work_by_intervals = intervals.work_per_cycle,
+      .work_by_intervals_error = intervals.error_estimate,
+      .work_by_whole_cells = intervals.work_by_intervals,
+      .work_by_force = intervals.work_by_force,
+      .ratio_finite = outcome.over(intervals.work_by_force),
       .work_over_elastic_energy = outcome.work_per_cycle() / outcome.elastic_energy(),
       .indentation = outcome.run.indentation,
-      .force = levels.force,
+      .force = intervals.force,
       // The ends of the sweep are levels without a tangential solve, but for the last of a drag.
-      .levels = levels.curve.samples.size() - 2};
+      .intervals = intervals.curve.samples.size() - 2};
   if (!outcome.bends_down()) {
-    loss.small_amplitude_work = levels.small_amplitude_work;
-    loss.ratio = outcome.over(levels.small_amplitude_work);
-    loss.force_curvature = levels.force_curvature;
+    loss.small_amplitude_work = intervals.small_amplitude_work;
+    loss.ratio = outcome.over(intervals.small_amplitude_work);
+    loss.force_curvature = intervals.force_curvature;
   }
   return loss;
 }
 
 ExponentialLoss exponential_loss(const OscillationOutcome& outcome, double decay_length) {
   require_positive(decay_length, "decay_length");
-  const double modulus_ratio = outcome.run.material.modulus_ratio(), force = outcome.levels.force;
+  const double modulus_ratio = outcome.run.material.modulus_ratio(), force = outcome.intervals.force;
   const double small = std::visit(
       [&](const auto& motion) {
         return closed_form::work_per_cycle(modulus_ratio, force / (decay_length * decay_length),
@@ -310,14 +310,14 @@ CouplingEffect coupling_effect(const OscillationOutcome& outcome) {
 
 Assumptions assumptions_of(const OscillationOutcome& outcome, ContactParameters parameters) {
   const OscillationCase& run = outcome.run;
-  const ForceCurve& curve = outcome.levels.curve;
+  const ForceCurve& curve = outcome.intervals.curve;
   const Grid2D& grid = run.body.surface.grid;
   const double contact = curve.samples.back().contact_area_fraction * grid.area();
   const bool spot = run.body.boundary == Boundary::free;
   parameters.contact_modulus = run.material.contact_modulus;
   parameters.mean_contact_pressure = curve.samples.back().force / contact;
   parameters.loaded_size = spot ? std::sqrt(contact / std::numbers::pi) : grid.lx;
-  parameters.nominal_pressure = outcome.levels.force / (spot ? contact : grid.area());
+  parameters.nominal_pressure = outcome.intervals.force / (spot ? contact : grid.area());
   if (run.first_loading && run.first_loading->yielded())
     parameters.first_load = run.first_loading->pressure * grid.area();
   const auto touching = std::ranges::count_if(curve.samples, [](const ForceSample& sample) {

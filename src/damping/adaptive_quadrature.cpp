@@ -10,8 +10,8 @@ namespace salebra {
 namespace {
 
 // Fewer levels say nothing about their own scatter.
-int first_levels(const Oscillation& motion, const LevelQuadratureOptions& options) {
-  if (options.levels > 0) return options.levels;
+int first_intervals(const Oscillation& motion, const IntervalQuadratureOptions& options) {
+  if (options.intervals > 0) return options.intervals;
   return std::holds_alternative<Drag>(motion) ? 16 : 8;
 }
 
@@ -19,12 +19,12 @@ void validate(const AdaptiveQuadratureOptions& options) {
   require(options.relative_error > 0 && options.relative_error < 1, "relative_error",
           options.relative_error, "must lie between 0 and 1");
   require(options.max_points >= 1, "max_points", options.max_points, "must be >= 1");
-  require(options.max_levels >= 4, "max_levels", options.max_levels, "must be >= 4");
+  require(options.max_intervals >= 4, "max_intervals", options.max_intervals, "must be >= 4");
 }
 
 }  // namespace
 
-AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, const Grid2D& grid,
+AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& contact_sets, const Grid2D& grid,
                                                    const Material& material,
                                                    const Oscillation& motion,
                                                    double mean_indentation,
@@ -34,13 +34,13 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
   constexpr double unknown = std::numeric_limits<double>::infinity();
   AdaptiveQuadratureResult result;
   result.grid = grid;
-  result.levels = first_levels(motion, options.quadrature);
+  result.intervals = first_intervals(motion, options.quadrature);
   const auto run = [&] {
-    LevelQuadratureOptions quadrature = options.quadrature;
-    quadrature.levels = result.levels;
-    result.quadrature = level_quadrature(levels(result.grid), result.grid, material, motion,
+    IntervalQuadratureOptions quadrature = options.quadrature;
+    quadrature.intervals = result.intervals;
+    result.quadrature = interval_quadrature(intervals(result.grid), result.grid, material, motion,
                                          mean_indentation, quadrature);
-    result.trials.push_back({result.grid, result.levels, result.quadrature.work_per_cycle,
+    result.trials.push_back({result.grid, result.intervals, result.quadrature.work_per_cycle,
                              result.quadrature.stiffness_ratio, result.quadrature.error_estimate});
     const std::size_t count = result.trials.size();
     return count < 2 ? unknown
@@ -50,7 +50,7 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
   const auto finer_grid = [&] {
     return std::max(result.grid.nx, result.grid.ny) * 2 <= options.max_points;
   };
-  const auto more_levels = [&] { return result.levels * 2 <= options.max_levels; };
+  const auto more_intervals = [&] { return result.intervals * 2 <= options.max_intervals; };
 
   run();
   double by_levels = unknown, by_grid = finer_grid() ? unknown : 0;
@@ -63,10 +63,10 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
                      result.error_estimate <=
                          options.relative_error * std::abs(result.quadrature.work_per_cycle);
     if (result.reached || !result.quadrature.converged()) break;
-    const bool levels_next = more_levels() && (by_levels >= by_grid || !finer_grid());
-    if (!levels_next && !finer_grid()) break;
-    if (levels_next) {
-      result.levels *= 2;
+    const bool intervals_next = more_intervals() && (by_levels >= by_grid || !finer_grid());
+    if (!intervals_next && !finer_grid()) break;
+    if (intervals_next) {
+      result.intervals *= 2;
       by_levels = run();
     } else {
       result.grid.nx *= 2;
@@ -79,14 +79,14 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
   return result;
 }
 
-AdaptiveQuadratureResult adaptive_level_quadrature(const ContactLevels& levels, const Grid2D& grid,
+AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
                                                    const Material& material,
                                                    const Oscillation& motion,
                                                    double mean_indentation,
                                                    const AdaptiveQuadratureOptions& options) {
   AdaptiveQuadratureOptions fixed_grid = options;
   fixed_grid.max_points = 1;
-  return adaptive_level_quadrature([&](const Grid2D&) { return levels; }, grid, material, motion,
+  return adaptive_interval_quadrature([&](const Grid2D&) { return intervals; }, grid, material, motion,
                                    mean_indentation, fixed_grid);
 }
 

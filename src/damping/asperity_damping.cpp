@@ -40,9 +40,9 @@ void validate(const Oscillation& motion) {
 double released_square(double radius, double indentation, const Oscillation& motion) {
   const double amplitude = normal_amplitude_of(motion);
   if (amplitude == 0 || indentation + amplitude <= 0) return 0;
-  const auto square_at = [&](double level) {
+  const auto square_at = [&](double spring_depth) {
     const double distance = std::visit(
-        [&](const auto& of_kind) { return closed_form::released_distance(level, of_kind); },
+        [&](const auto& of_kind) { return closed_form::released_distance(spring_depth, of_kind); },
         motion);
     return distance * distance;
   };
@@ -51,9 +51,9 @@ double released_square(double radius, double indentation, const Oscillation& mot
     // Over θ, where s is smooth at both ends: ζ = δ + u_z cosθ, dx = R dζ/2x.
     integral = detail::integrate(
         [&](double angle) {
-          const double level = amplitude * std::cos(angle);
-          const double x = std::sqrt(radius * (indentation + level));
-          return square_at(level) * radius * amplitude * std::sin(angle) / (2 * x);
+          const double spring_depth = amplitude * std::cos(angle);
+          const double x = std::sqrt(radius * (indentation + spring_depth));
+          return square_at(spring_depth) * radius * amplitude * std::sin(angle) / (2 * x);
         },
         std::array{0.0, std::numbers::pi}, 1e-12);
   } else {

@@ -16,7 +16,7 @@
 #include "base/special_values.hpp"
 #include "judge.hpp"
 #include "max_motion.hpp"
-#include "level_loss.hpp"
+#include "spring_loss.hpp"
 
 namespace salebra {
 namespace {
@@ -354,7 +354,7 @@ class ClosedLevels {
       : law_(law),
         bottom_(bottom),
         distance_per_cycle_(2 * pi * displacement),
-        levels_(amplitude, displacement),
+        springs_(amplitude, displacement),
         // A little beyond, for levels that all touch at once.
         depth_(1.001 * depth_of_share(law, bottom, 1e-9)) {}
 
@@ -363,13 +363,13 @@ class ClosedLevels {
   double loss(double excursion) const {
     constexpr int cells = 256;
     // Cells of a longer way would be wider than the levels reach.
-    const double depth = std::fmin(levels_.deepest(excursion), depth_);
+    const double depth = std::fmin(springs_.deepest(excursion), depth_);
     double sum = 0, above = law_.tangential_stiffness(bottom_);
     for (int i = 0; i < cells; ++i) {
       const double end = depth * (i + 1) / cells;
       const double below = law_.tangential_stiffness(bottom_ - end);
       const double stretch = depth * (i + 0.5) / cells;
-      sum += (above - below) * levels_.loss_over_distance(stretch, excursion);
+      sum += (above - below) * springs_.loss_over_distance(stretch, excursion);
       above = below;
     }
     return sum;
@@ -379,10 +379,10 @@ class ClosedLevels {
     return loss(excursion) * distance_per_cycle_ / excursion;
   }
 
-  // What the turning points leave of the loss of levels that open. cost: cost_of_turning(), two
+  // What the turning points leave of the loss of springs that open. cost: cost_of_turning(), two
   // thirds of the mean θ/π of levels that touch from −θ to θ.
   double kept(double cost, double excursion) const {
-    return std::max(0.0, 1 - 1.5 * cost * levels_.turning_share(excursion));
+    return std::max(0.0, 1 - 1.5 * cost * springs_.turning_share(excursion));
   }
 
   // Ways on which the loss is 5 and 20 % of `relaxation` per normal cycle; 0 where they were
@@ -403,7 +403,7 @@ class ClosedLevels {
  private:
   const ContactLaw& law_;
   double bottom_, distance_per_cycle_;
-  detail::SlidingLevels levels_;
+  detail::SlidingSprings springs_;
   double depth_;
 };
 
@@ -453,7 +453,7 @@ bool slides(const ContactLaw& law, const JudgedMotion& motion, double displaceme
     deepest = 0.5 * (low - high);
   }
   if (law.force(deepest) > stuck_share * least) return false;
-  // Below v_c levels that open stick while they are closed, and lose in proportion to v. What
+  // Below v_c springs that open stick while they are closed, and lose in proportion to v. What
   // slides under a large oscillation may be a small part of the mean force.
   return !motion.drag || displacement >= motion.amplitude ||
          ClosedLevels(law, bottom, motion.amplitude, displacement).loss_per_cycle(excursion) >=
@@ -669,8 +669,8 @@ std::vector<LargestMotion> max_motions(const JudgedMotion& motion, const Contact
 // By the verdicts on the slip of both kinds of levels. stretch: μ/g.
 Regime regime_of(const ContactLaw& law, const JudgedMotion& motion, const Assumptions& assumptions,
                  double stretch, double stick) {
-  const Assumption& opening = assumptions.slip_of_opening_levels;
-  const Assumption& closed = assumptions.slip_of_closed_levels;
+  const Assumption& opening = assumptions.slip_of_opening_springs;
+  const Assumption& closed = assumptions.slip_of_closed_springs;
   if (opening.verdict == Verdict::unknown || closed.verdict == Verdict::unknown)
     return assumptions.regime;
   if (opening.verdict == Verdict::holds && closed.verdict == Verdict::holds) return Regime::no_slip;
@@ -693,8 +693,8 @@ Assumptions all_assumptions(const ContactLaw& given, const JudgedMotion& motion,
   assumptions.coupling =
       coupling_of(law, dynamic_cast<const IndenterLaw*>(&given) != nullptr, motion.drag, parameters);
   assumptions.slow_motion = slow_motion_of(law, motion, parameters);
-  Assumption& opening = assumptions.slip_of_opening_levels;
-  Assumption& closed = assumptions.slip_of_closed_levels;
+  Assumption& opening = assumptions.slip_of_opening_springs;
+  Assumption& closed = assumptions.slip_of_closed_springs;
   const double ratio = law.stiffness_ratio(motion.mean);
   const double stretch = parameters.friction_coefficient / ratio;
   const double displacement = std::abs(motion.displacement);

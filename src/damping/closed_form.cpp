@@ -80,20 +80,20 @@ double edge_slope(double contact_modulus, double force_curvature) {
   return 2 * contact_modulus / force_curvature;
 }
 
-bool intermittent_contact(double level, double amplitude) {
-  return std::abs(level) < std::abs(amplitude);
+bool intermittent_contact(double spring_depth, double amplitude) {
+  return std::abs(spring_depth) < std::abs(amplitude);
 }
 
-double released_distance(double level, const EqualFrequency& motion) {
-  if (!intermittent_contact(level, motion.normal_amplitude)) return 0;
-  return 2 * motion.tangential_amplitude * std::sqrt(1 - square(level / motion.normal_amplitude)) *
+double released_distance(double spring_depth, const EqualFrequency& motion) {
+  if (!intermittent_contact(spring_depth, motion.normal_amplitude)) return 0;
+  return 2 * motion.tangential_amplitude * std::sqrt(1 - square(spring_depth / motion.normal_amplitude)) *
          std::sin(motion.phase);
 }
 
-double released_distance(double level, const Drag& motion) {
-  if (!intermittent_contact(level, motion.normal_amplitude)) return 0;
+double released_distance(double spring_depth, const Drag& motion) {
+  if (!intermittent_contact(spring_depth, motion.normal_amplitude)) return 0;
   return 2 * motion.drag_velocity / motion.angular_frequency *
-         std::acos(level / std::abs(motion.normal_amplitude));
+         std::acos(spring_depth / std::abs(motion.normal_amplitude));
 }
 
 double spring_energy(double tangential_modulus, double distance, double spring_width) {
@@ -105,7 +105,7 @@ double work_per_cycle(double tangential_modulus, double slope, double amplitude,
   const double half_width = std::abs(amplitude);
   const std::array<double, 2> interval{-half_width, half_width};
   return tangential_modulus / slope *
-         detail::integrate([&](double level) { return square(distance(level)); }, interval, 1e-13)
+         detail::integrate([&](double spring_depth) { return square(distance(spring_depth)); }, interval, 1e-13)
              .value;
 }
 

@@ -61,7 +61,7 @@ struct Ends {
 // The function at the part t of the interval. A cubic with these ends is convex where what the slope
 // rises by lies in the middle third of the interval. Where it lies outside, as in wide levels and
 // at first touch, a power of the distance from one end is convex and joins the cubics smoothly.
-LawLevels::Normal between(const Ends& ends, double width, double t) {
+LawSprings::Normal between(const Ends& ends, double width, double t) {
   const double mean = (ends.high - ends.low) / width - ends.low_slope;
   const double rise = ends.high_slope - ends.low_slope;
   if (3 * mean < rise && mean > 0) {
@@ -79,13 +79,13 @@ LawLevels::Normal between(const Ends& ends, double width, double t) {
           ends.low_slope + t * (2 * b + 3 * c * t), (2 * b + 6 * c * t) / width};
 }
 
-LawLevels::Normal tangent(double force, double slope, double distance) {
+LawSprings::Normal tangent(double force, double slope, double distance) {
   const double there = force + slope * distance;
-  return there > 0 ? LawLevels::Normal{there, slope, 0} : LawLevels::Normal{};
+  return there > 0 ? LawSprings::Normal{there, slope, 0} : LawSprings::Normal{};
 }
 
 // A function given at nodes by values and slopes, and along its tangents beyond them.
-LawLevels::Normal through(const std::vector<double>& node, const std::vector<double>& value,
+LawSprings::Normal through(const std::vector<double>& node, const std::vector<double>& value,
                           const std::vector<double>& slope, double at) {
   if (at <= node.front()) return tangent(value.front(), slope.front(), at - node.front());
   if (at >= node.back()) return tangent(value.back(), slope.back(), at - node.back());
@@ -117,24 +117,24 @@ std::vector<double> rising(const std::vector<double>& values) {
 
 }  // namespace
 
-LawLevels::LawLevels(const ContactLaw& law, double lowest, double highest,
-                     const LawLevelsOptions& options)
+LawSprings::LawSprings(const ContactLaw& law, double lowest, double highest,
+                     const LawSpringsOptions& options)
     : friction_coefficient_(options.friction_coefficient) {
   require(options.friction_coefficient >= 0, "friction_coefficient", options.friction_coefficient,
           "must be >= 0 (infinity: full stick)");
-  require(options.levels >= 8 && options.levels <= 4096, "levels", options.levels,
+  require(options.springs >= 8 && options.springs <= 4096, "intervals", options.springs,
           "must lie between 8 and 4096");
   require(std::isfinite(lowest) && std::isfinite(highest) && lowest <= highest, "lowest", lowest,
           "and highest must be finite and in this order");
   require(law.force(highest) > 0, "highest", highest, "m is where nothing touches");
   detail::require_possible(law, 0.5 * (lowest + highest), 0.5 * (highest - lowest));
-  const int half = options.levels / 2;
+  const int half = options.springs / 2;
   std::vector<double> nodes;
   for (int i = 0; i <= half; ++i) nodes.push_back(lowest + (highest - lowest) * i / half);
   const double bottom = deepest(law, lowest, highest);
   const double first = std::max((highest - lowest) / half, shortest_level * law.force(highest) /
                                                                law.normal_stiffness(highest));
-  for (const double depth : depths(first, lowest - bottom, options.levels - half))
+  for (const double depth : depths(first, lowest - bottom, options.springs - half))
     nodes.push_back(std::max(bottom, lowest - depth));
   for (const double at : law.break_points())
     if (std::isfinite(at) && at > bottom && at < highest && law.force(at) == 0) nodes.push_back(at);
@@ -149,7 +149,7 @@ LawLevels::LawLevels(const ContactLaw& law, double lowest, double highest,
 
 // F and K at the nodes. Where the law scatters so much that F between two nodes would not rise, K
 // is lowered.
-void LawLevels::set_normal(const ContactLaw& law) {
+void LawSprings::set_normal(const ContactLaw& law) {
   for (const double node : node_) {
     force_.push_back(law.force(node));
     slope_.push_back(law.normal_stiffness(node));
@@ -166,7 +166,7 @@ void LawLevels::set_normal(const ContactLaw& law) {
 }
 
 // K_t of the levels, and G at the nodes.
-void LawLevels::set_tangential(const ContactLaw& law) {
+void LawSprings::set_tangential(const ContactLaw& law) {
   std::vector<double> stiffness;
   bool proportional = true;  // K_t to K, so that ∫K_t is known
   for (std::size_t i = 0; i < node_.size(); ++i) {
@@ -197,20 +197,20 @@ void LawLevels::set_tangential(const ContactLaw& law) {
   }
 }
 
-LawLevels::Normal LawLevels::normal(double indentation) const {
+LawSprings::Normal LawSprings::normal(double indentation) const {
   return through(node_, force_, slope_, indentation);
 }
 
-LawLevels::Normal LawLevels::held(double indentation) const {
+LawSprings::Normal LawSprings::held(double indentation) const {
   return through(node_, held_, sum_, indentation);
 }
 
-ContactElement::ContactElement(std::shared_ptr<const LawLevels> levels)
-    : levels_(std::move(levels)) {
-  require(levels_ != nullptr, "levels", "none", "must be given");
-  state_.assign(3 + 2 * levels_->size(), 0.0);
-  held_.assign(levels_->size(), {});
-  state_[0] = levels_->depth_.front();  // where F along the lowest tangent is 0
+ContactElement::ContactElement(std::shared_ptr<const LawSprings> springs)
+    : springs_(std::move(springs)) {
+  require(springs_ != nullptr, "intervals", "none", "must be given");
+  state_.assign(3 + 2 * springs_->size(), 0.0);
+  held_.assign(springs_->size(), {});
+  state_[0] = springs_->depth_.front();  // where F along the lowest tangent is 0
 }
 
 void ContactElement::start(double indentation, double x, double y) {
@@ -218,18 +218,18 @@ void ContactElement::start(double indentation, double x, double y) {
     require(std::isfinite(one), "displacement", one, "must be finite");
   state_[0] = indentation, state_[1] = x, state_[2] = y;
   const auto anchors = state_.begin() + 3;
-  const auto half = static_cast<std::ptrdiff_t>(levels_->size());
+  const auto half = static_cast<std::ptrdiff_t>(springs_->size());
   std::fill(anchors, anchors + half, x);
   std::fill(anchors + half, state_.end(), y);
-  sum(0, levels_->size());
+  sum(0, springs_->size());
 }
 
 // Sums what levels from here on hold, below the last.
 void ContactElement::sum(std::size_t from, std::size_t to) {
-  const std::size_t count = levels_->size();
+  const std::size_t count = springs_->size();
   std::array<double, 2> sum = from > 0 ? held_[from - 1] : std::array<double, 2>{};
   for (std::size_t i = from; i < to; ++i) {
-    const double k = levels_->stiffness_[i];
+    const double k = springs_->stiffness_[i];
     sum[0] += k * state_[3 + i], sum[1] += k * state_[3 + count + i];
     held_[i] = sum;
   }
@@ -240,7 +240,7 @@ void ContactElement::restore(std::span<const double> state) {
           "numbers are not those of these levels");
   for (const double one : state) require(std::isfinite(one), "state", one, "must be finite");
   std::ranges::copy(state, state_.begin());
-  sum(0, levels_->size());
+  sum(0, springs_->size());
 }
 
 // A step from the state of an element, level by level.
@@ -252,7 +252,7 @@ struct ContactElement::Step {
   };
 
   Step(const ContactElement& from, double indentation, double x, double y)
-      : of(*from.levels_),
+      : of(*from.springs_),
         anchor_x(from.state_.data() + 3),
         anchor_y(anchor_x + of.size()),
         held(from.held_),
@@ -293,7 +293,7 @@ struct ContactElement::Step {
   }
 
   // The stiffness of a level that touches at an indentation, and its derivative.
-  std::pair<double, double> touched(std::size_t i, double at, const LawLevels::Normal& held) const {
+  std::pair<double, double> touched(std::size_t i, double at, const LawSprings::Normal& held) const {
     if (at <= floor(i)) return {0, 0};
     if (i == 0 || at >= of.node_[i]) return {of.stiffness_[i], 0};
     return {held.stiffness - of.sum_[i - 1], held.curvature};
@@ -303,18 +303,18 @@ struct ContactElement::Step {
   Level passed(std::size_t i) const {
     const auto [k, slope] = touched(i, indentation, now);
     const double k_before = touched(i, before, then).first;
-    Level level = whole(i);
+    Level spring_depth = whole(i);
     const bool inside = i > 0 && indentation < of.node_[i];
     if (inside) {
-      level.bears_slope = k;
-      level.bears = now.force - of.held_[i - 1] - of.sum_[i - 1] * (indentation - floor(i));
+      spring_depth.bears_slope = k;
+      spring_depth.bears = now.force - of.held_[i - 1] - of.sum_[i - 1] * (indentation - floor(i));
     }
     const double stretch_x = x - anchor_x[i], stretch_y = y - anchor_y[i];
-    level.k = k;
+    spring_depth.k = k;
     if (k <= k_before) {
-      level.f_x = k * stretch_x, level.f_y = k * stretch_y, level.hold = k;
-      level.push_x = slope * stretch_x, level.push_y = slope * stretch_y;
-      return level;
+      spring_depth.f_x = k * stretch_x, spring_depth.f_y = k * stretch_y, spring_depth.hold = k;
+      spring_depth.push_x = slope * stretch_x, spring_depth.push_y = slope * stretch_y;
+      return spring_depth;
     }
     // Springs that touch on the way are anchored where the body was in the middle of them.
     const double climb = indentation - before, start = std::max(floor(i), before);
@@ -322,19 +322,19 @@ struct ContactElement::Step {
     const double fraction = (0.5 * (start + finish) - before) / climb;
     const double gained = k - k_before, kept = gained * (1 - fraction);
     const double push = slope * (1 - fraction) - gained * ((inside ? 0.5 : 0.0) - fraction) / climb;
-    level.f_x = k_before * stretch_x + kept * travel_x;
-    level.f_y = k_before * stretch_y + kept * travel_y;
-    level.hold = k_before + kept;
-    level.push_x = push * travel_x, level.push_y = push * travel_y;
-    return level;
+    spring_depth.f_x = k_before * stretch_x + kept * travel_x;
+    spring_depth.f_y = k_before * stretch_y + kept * travel_y;
+    spring_depth.hold = k_before + kept;
+    spring_depth.push_x = push * travel_x, spring_depth.push_y = push * travel_y;
+    return spring_depth;
   }
 
-  double limit_of(const Level& level) const { return share * std::max(0.0, level.bears); }
+  double limit_of(const Level& spring_depth) const { return share * std::max(0.0, spring_depth.bears); }
 
-  bool sticks(const Level& level) const {
+  bool sticks(const Level& spring_depth) const {
     if (full_stick()) return true;
-    const double limit = limit_of(level);
-    return level.f_x * level.f_x + level.f_y * level.f_y <= limit * limit;
+    const double limit = limit_of(spring_depth);
+    return spring_depth.f_x * spring_depth.f_x + spring_depth.f_y * spring_depth.f_y <= limit * limit;
   }
 
   // How many levels, from the lowest on, the step holds throughout and leaves sticking.
@@ -357,10 +357,10 @@ struct ContactElement::Step {
     const std::size_t lowest = sticking();
     std::size_t i = touching;
     for (; i > lowest; --i) {
-      const Level level = held_throughout(i - 1) ? whole(i - 1) : passed(i - 1);
-      const double part = add(level);
-      if (level.k > 0)
-        anchor(i - 1, x - part * level.f_x / level.k, y - part * level.f_y / level.k);
+      const Level spring_depth = held_throughout(i - 1) ? whole(i - 1) : passed(i - 1);
+      const double part = add(spring_depth);
+      if (spring_depth.k > 0)
+        anchor(i - 1, x - part * spring_depth.f_x / spring_depth.k, y - part * spring_depth.f_y / spring_depth.k);
     }
     if (i == 0) return 0;
     force_x += of.sum_[i - 1] * x - held[i - 1][0], xx += of.sum_[i - 1];
@@ -369,25 +369,25 @@ struct ContactElement::Step {
   }
 
   // Adds a level, and returns the part of its stretch that the limit of friction leaves.
-  double add(const Level& level) {
-    if (sticks(level)) {
-      force_x += level.f_x, force_y += level.f_y;
-      along_x += level.push_x, along_y += level.push_y;
-      xx += level.hold, yy += level.hold;
+  double add(const Level& spring_depth) {
+    if (sticks(spring_depth)) {
+      force_x += spring_depth.f_x, force_y += spring_depth.f_y;
+      along_x += spring_depth.push_x, along_y += spring_depth.push_y;
+      xx += spring_depth.hold, yy += spring_depth.hold;
       return 1;
     }
     // The part that pulls across the stretch remains; along it the limit decides.
-    const double size = std::sqrt(level.f_x * level.f_x + level.f_y * level.f_y);
-    const double limit = limit_of(level);
-    const double n_x = level.f_x / size, n_y = level.f_y / size;
+    const double size = std::sqrt(spring_depth.f_x * spring_depth.f_x + spring_depth.f_y * spring_depth.f_y);
+    const double limit = limit_of(spring_depth);
+    const double n_x = spring_depth.f_x / size, n_y = spring_depth.f_y / size;
     const double part = limit / size;
-    const double limit_slope = share * level.bears_slope + share_slope * level.bears;
-    const double push = level.push_x * n_x + level.push_y * n_y;
+    const double limit_slope = share * spring_depth.bears_slope + share_slope * spring_depth.bears;
+    const double push = spring_depth.push_x * n_x + spring_depth.push_y * n_y;
     force_x += limit * n_x, force_y += limit * n_y;
-    along_x += part * (level.push_x - push * n_x) + limit_slope * n_x;
-    along_y += part * (level.push_y - push * n_y) + limit_slope * n_y;
-    xx += part * level.hold * n_y * n_y, yy += part * level.hold * n_x * n_x;
-    xy -= part * level.hold * n_x * n_y;
+    along_x += part * (spring_depth.push_x - push * n_x) + limit_slope * n_x;
+    along_y += part * (spring_depth.push_y - push * n_y) + limit_slope * n_y;
+    xx += part * spring_depth.hold * n_y * n_y, yy += part * spring_depth.hold * n_x * n_x;
+    xy -= part * spring_depth.hold * n_x * n_y;
     return part;
   }
 
@@ -397,12 +397,12 @@ struct ContactElement::Step {
             {{{normal.stiffness, 0, 0}, {along_x, xx, xy}, {along_y, xy, yy}}}};
   }
 
-  const LawLevels& of;
+  const LawSprings& of;
   const double *anchor_x, *anchor_y;
   const std::vector<std::array<double, 2>>& held;
   std::size_t touching;  // levels that touch at the end
   double indentation, x, y, before, travel_x, travel_y;
-  LawLevels::Normal normal, now, then;  // F, and G at the end and before
+  LawSprings::Normal normal, now, then;  // F, and G at the end and before
   double share = 0, share_slope = 0;    // μF/G, and its derivative
   double force_x = 0, force_y = 0, along_x = 0, along_y = 0, xx = 0, xy = 0, yy = 0;
 };
@@ -416,7 +416,7 @@ ElementForces ContactElement::forces(double indentation, double x, double y) con
 ElementForces ContactElement::move_to(double indentation, double x, double y) {
   Step step(*this, indentation, x, y);
   const std::size_t lowest = step.follow([&](std::size_t i, double anchor_x, double anchor_y) {
-    state_[3 + i] = anchor_x, state_[3 + levels_->size() + i] = anchor_y;
+    state_[3 + i] = anchor_x, state_[3 + springs_->size() + i] = anchor_y;
   });
   state_[0] = indentation, state_[1] = x, state_[2] = y;
   sum(lowest, step.touching);

@@ -51,14 +51,14 @@ void check_below_sliding(double force, double limit, const char* where) {
 }
 
 // Quadratures over the levels that slip, of depth 0 … c below δ = high.
-class SlippingLevels {
+class SlippingSprings {
  public:
-  SlippingLevels(const ContactLaw& law, double high, double depth, double tolerance)
+  SlippingSprings(const ContactLaw& law, double high, double depth, double tolerance)
       : law_(law), high_(high), depth_(depth), tolerance_(tolerance) {
     if (!(high - depth >= law.lowest_indentation())) refuse_deep_slip(law);
-    for (const double level : detail::sweep_breaks(law, high - depth, high))
-      breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - level, 0.0)),
-                                       std::sqrt(std::max(level - (high - depth), 0.0))));
+    for (const double spring_depth : detail::sweep_breaks(law, high - depth, high))
+      breaks_.push_back(2 * std::atan2(std::sqrt(std::max(high - spring_depth, 0.0)),
+                                       std::sqrt(std::max(spring_depth - (high - depth), 0.0))));
     std::ranges::sort(breaks_);
   }
 
@@ -98,7 +98,7 @@ double depth_of_slip(const ContactLaw& law, double high, double force, double fr
     const double next = depth + step;
     if (!(high - next >= law.lowest_indentation())) break;
     const std::vector<double> breaks = detail::sweep_breaks(law, high - next, high - depth);
-    reached += detail::integrate([&](double level) { return law.tangential_stiffness(level); },
+    reached += detail::integrate([&](double spring_depth) { return law.tangential_stiffness(spring_depth); },
                                  breaks, tolerance)
                    .value;
     depth = next;
@@ -127,7 +127,7 @@ struct JointPath {
   double lowest = 0, highest = 0;               // indentation
   bool by_force = false;                        // or by displacement
   double amplitude = 0;                         // of that
-  std::vector<double> level = {}, target = {};  // indentation, and that
+  std::vector<double> spring_depth = {}, target = {};  // indentation, and that
 };
 
 JointPath path_of(double mean, const JointMotion& motion, int steps) {
@@ -137,7 +137,7 @@ JointPath path_of(double mean, const JointMotion& motion, int steps) {
   std::visit([&](const auto& one) { path.amplitude = one.amplitude; }, motion.tangential);
   for (int i = 0; i <= steps; ++i) {
     const double angle = pi + 2 * pi * double(i % steps) / steps;
-    path.level.push_back(mean + motion.normal_amplitude * std::cos(angle));
+    path.spring_depth.push_back(mean + motion.normal_amplitude * std::cos(angle));
     path.target.push_back(path.amplitude * std::cos(angle + motion.phase));
   }
   return path;
@@ -166,35 +166,35 @@ double slope_of(const std::vector<double>& force, const std::vector<double>& x) 
 // slips remembers it in the force, not in the loss.
 Followed follow(const ContactLaw& law, const JointPath& path, double friction_coefficient,
                 const Progress& on_progress, double first) {
-  const auto& [lowest, highest, by_force, amplitude, level, target] = path;
+  const auto& [lowest, highest, by_force, amplitude, spring_depth, target] = path;
   if (by_force)
-    for (std::size_t i = 0; i < level.size(); ++i)
-      check_below_sliding(std::abs(target[i]), friction_coefficient * law.force(level[i]),
+    for (std::size_t i = 0; i < spring_depth.size(); ++i)
+      check_below_sliding(std::abs(target[i]), friction_coefficient * law.force(spring_depth[i]),
                           " in the course of the normal oscillation");
   // By force, x is not known before: as far as all springs of the least contact could be stretched.
   const double range = by_force ? std::numeric_limits<double>::infinity() : 2 * amplitude;
   TangentialContact contact(
       law, lowest, highest,
       {.friction_coefficient = friction_coefficient, .tangential_range = range});
-  contact.start(level[0], first);
-  std::vector<double> x(level.size()), force(level.size());
+  contact.start(spring_depth[0], first);
+  std::vector<double> x(spring_depth.size()), force(spring_depth.size());
   Followed result;
   constexpr int max_periods = 200;
   for (int period = 0; period < max_periods; ++period) {
     const double lost = contact.dissipated(), slipped = contact.dissipated_in_permanent_contact();
-    for (std::size_t i = 0; i < level.size(); ++i) {
+    for (std::size_t i = 0; i < spring_depth.size(); ++i) {
       detail::stop_if_asked();
       constexpr std::size_t interval = 1 << 8;
       if (i % interval == interval - 1 && on_progress &&
           !on_progress(
               {"joint",
-               (period + static_cast<double>(i) / static_cast<double>(level.size())) / max_periods,
+               (period + static_cast<double>(i) / static_cast<double>(spring_depth.size())) / max_periods,
                period, 0}))
         throw Interrupted("joint: interrupted");
       if (by_force)
-        contact.move_to_force(level[i], target[i]);
+        contact.move_to_force(spring_depth[i], target[i]);
       else
-        contact.move_to(level[i], target[i]);
+        contact.move_to(spring_depth[i], target[i]);
       x[i] = contact.displacement();
       force[i] = contact.tangential_force();
     }
@@ -273,32 +273,32 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point,
   const double depth = by_force ? depth_of_slip(law, high, by_force->amplitude,
                                                 friction_coefficient, options.tolerance)
                                 : std::get<TangentialAmplitude>(motion).amplitude / limit;
-  SlippingLevels levels(law, high, depth, options.tolerance);
+  SlippingSprings springs(law, high, depth, options.tolerance);
 
   JointLoss loss;
   loss.indentation = high;
   const double x = loss.tangential_amplitude = limit * depth;
   loss.tangential_force =
-      x / 2 * levels.integral([](double theta, double k) { return k * std::sin(theta); });
-  loss.storage_stiffness = 2 / pi * levels.integral([](double theta, double k) {
+      x / 2 * springs.integral([](double theta, double k) { return k * std::sin(theta); });
+  loss.storage_stiffness = 2 / pi * springs.integral([](double theta, double k) {
     return k * std::pow(std::sin(theta), 2);
   });
   // Stiffness over that of the deepest level that slips: what is the same all over loses nothing.
-  const double deepest = levels.stiffness_at(pi);
+  const double deepest = springs.stiffness_at(pi);
   // Below this part of K_t so little is left that sticks that T is μF to round-off, and the loss
   // grows at a constant force.
   constexpr double nothing_left = 1e-9;
-  levels.allow_cancelling();
-  loss.slip_work = loss.work_per_cycle = x * x * levels.integral([&](double theta, double k) {
+  springs.allow_cancelling();
+  loss.slip_work = loss.work_per_cycle = x * x * springs.integral([&](double theta, double k) {
     return (k - deepest) * std::sin(2 * theta);
   });
   loss.relaxation_work = 0;
-  const double beyond = x / 2 * levels.integral([&](double theta, double k) {
+  const double beyond = x / 2 * springs.integral([&](double theta, double k) {
     return (k - deepest) * std::sin(theta);
   });
-  if (deepest > nothing_left * levels.stiffness_at(0))
+  if (deepest > nothing_left * springs.stiffness_at(0))
     loss.exponent = loss.tangential_force / loss.work_per_cycle * 4 * beyond / deepest;
-  loss.converged = levels.converged();
+  loss.converged = springs.converged();
   set_ratios(loss);
   return loss;
 }
@@ -321,11 +321,11 @@ std::vector<JointLoss> surface_joint_loss(const Surface& surface, const Material
   const auto under = [&](double force) {
     return solved(press(fine, material.contact_modulus, at_pressure(force / area), contact));
   };
-  const auto pressed_to = [&](double level) {
-    return solved(press(fine, material.contact_modulus, at_indentation(level), contact));
+  const auto pressed_to = [&](double spring_depth) {
+    return solved(press(fine, material.contact_modulus, at_indentation(spring_depth), contact));
   };
-  const double level = losses.front().indentation;
-  const NormalContactState high = under(law.force(level));
+  const double spring_depth = losses.front().indentation;
+  const NormalContactState high = under(law.force(spring_depth));
   // K_t/K hardly changes where a joint slips. The law interpolates both stiffnesses.
   const ForceSample stuck =
       stuck_at(high.force / area, surface, material, on_progress).samples.front();
@@ -401,7 +401,7 @@ detail::JointLoop detail::joint_loop(const ContactLaw& law, double indentation,
       .loop;
 }
 
-JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
+JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
                                const Material& material, double indentation,
                                const JointMotion& motion, const CycleOptions& options) {
   check(motion.tangential, options.friction_coefficient);
@@ -415,7 +415,7 @@ JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
                                                  motion.normal_amplitude > 0 ? motion.phase : 0},
                                   indentation);
   if (by_force) std::swap(path.tangential, path.tangential_force);
-  const CycleResult cycle = simulate_frictional_cycle(levels, grid, material, path, options);
+  const CycleResult cycle = simulate_frictional_cycle(springs, grid, material, path, options);
 
   JointLoss loss;
   loss.indentation = indentation;

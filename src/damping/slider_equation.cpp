@@ -61,9 +61,9 @@ SliderEquation::SliderEquation(const SliderContact& contact, const Slider& slide
   for (int i = 0; i <= count; ++i) times.push_back(period_ * i / count);
   if (oscillates) {
     const double low = contact.min_indentation();
-    for (const double level : sweep_breaks(contact.law, low, highest)) {
-      if (!(level > low && level < highest) || contact.law.force(level) > 0) continue;
-      const double phase = 2 * std::atan2(std::sqrt(level - low), std::sqrt(highest - level));
+    for (const double spring_depth : sweep_breaks(contact.law, low, highest)) {
+      if (!(spring_depth > low && spring_depth < highest) || contact.law.force(spring_depth) > 0) continue;
+      const double phase = 2 * std::atan2(std::sqrt(spring_depth - low), std::sqrt(highest - spring_depth));
       const double time = phase / contact.angular_frequency;
       times.push_back(time);
       times.push_back(period_ - time);

@@ -24,7 +24,7 @@ namespace {
 // again.
 class StepPressures {
  public:
-  StepPressures(const PressureLevels& levels, const Grid2D& grid, const Trajectory& trajectory,
+  StepPressures(const PressureFields& contact_sets, const Grid2D& grid, const Trajectory& trajectory,
                 int steps, double resolution) {
     // A field for every second step, since the way down meets those of the way up.
     require_memory(grid, 0.5 * sizeof(double) * steps * static_cast<double>(grid.points()),
@@ -33,7 +33,7 @@ class StepPressures {
       const double indentation = trajectory.indentation(static_cast<double>(k) / steps);
       auto next = stored_.lower_bound(indentation - resolution);
       if (next == stored_.end() || next->first > indentation + resolution) {
-        next = stored_.emplace(indentation, levels(indentation)).first;
+        next = stored_.emplace(indentation, contact_sets(indentation)).first;
         if (!next->second.converged) termination_ = Termination::iteration_limit;
       }
       steps_.push_back(&next->second);
@@ -94,11 +94,11 @@ class SlidingBody : public detail::CycleBody {
 
 class FrictionalBody : public SlidingBody {
  public:
-  FrictionalBody(const PressureLevels& levels, const Grid2D& grid, const Material& material,
+  FrictionalBody(const PressureFields& contact_sets, const Grid2D& grid, const Material& material,
                  const Trajectory& trajectory, const CycleOptions& options,
                  const detail::TrajectoryRange& range)
       : SlidingBody(trajectory, options),
-        pressures_(levels, grid, trajectory, options.steps, 1e-9 * range.sweep()),
+        pressures_(contact_sets, grid, trajectory, options.steps, 1e-9 * range.sweep()),
         // Without tangential motion nothing is solved for, and any scale will do.
         contact_(grid, material,
                  {.friction_coefficient = options.friction_coefficient,
@@ -107,7 +107,7 @@ class FrictionalBody : public SlidingBody {
     ContactSet largest = ContactSet::Constant(grid.nx, grid.ny, false);
     for (int k = 0; k <= options.steps; ++k) {
       const Field& pressure = pressures_.at(k).contact_pressure;
-      require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "levels", pressure.size(),
+      require(pressure.rows() == grid.nx && pressure.cols() == grid.ny, "contact_sets", pressure.size(),
               "pressures do not match the grid");
       largest = largest || (pressure > 0);
     }
@@ -133,13 +133,13 @@ class FrictionalBody : public SlidingBody {
   decltype(CycleState::body) state() const override { return contact_.state(); }
 
  protected:
-  const PressureAt& level(int step) const { return pressures_.at(step); }
+  const PressureAt& pressure_at(int step) const { return pressures_.at(step); }
   SlidingContact& contact() { return contact_; }
-  void at_step(int step) { normal_force_ = level(step).force; }
+  void at_step(int step) { normal_force_ = pressure_at(step).force; }
 
  private:
   void move(int step, const TangentialMove& by) override {
-    contact_.advance(level(step).contact_pressure, by);
+    contact_.advance(pressure_at(step).contact_pressure, by);
     at_step(step);
   }
 
@@ -151,15 +151,15 @@ class FrictionalBody : public SlidingBody {
 // Its tangential force is given, and its displacement follows.
 class ForcedBody final : public FrictionalBody {
  public:
-  ForcedBody(const PressureLevels& levels, const Grid2D& grid, const Material& material,
+  ForcedBody(const PressureFields& contact_sets, const Grid2D& grid, const Material& material,
              const Trajectory& at_rest, const std::function<double(double t)>& force,
              const CycleOptions& options, const detail::TrajectoryRange& range)
-      : FrictionalBody(levels, grid, material, at_rest, options, range) {
+      : FrictionalBody(contact_sets, grid, material, at_rest, options, range) {
     double greatest = 0;
     for (int k = 0; k <= options.steps; ++k) {
       forces_.push_back(force(time(k)));
       const double limit =
-          options.friction_coefficient * grid.cell_area() * level(k).contact_pressure.sum();
+          options.friction_coefficient * grid.cell_area() * pressure_at(k).contact_pressure.sum();
       std::ostringstream constraint;
       constraint << "N must be below " << limit << " N, at which the contact slides";
       require(std::abs(forces_.back()) < limit, "tangential_force", forces_.back(),
@@ -167,7 +167,7 @@ class ForcedBody final : public FrictionalBody {
       greatest = std::max(greatest, std::abs(forces_.back()));
     }
     require_positive(greatest, "tangential_force");
-    const StickStiffness stiffness = stick_stiffness(level(0).contact_pressure > 0, grid, material,
+    const StickStiffness stiffness = stick_stiffness(pressure_at(0).contact_pressure > 0, grid, material,
                                                      options.stick, /*along_x_only=*/true);
     termination_ = stiffness.termination;
     stiffness_ = stiffness.xx;
@@ -177,7 +177,7 @@ class ForcedBody final : public FrictionalBody {
 
   // F_x grows with the distance: secants within a bracket, from the slope of full stick.
   double advance(int step, double from) override {
-    const Field& pressure = level(step).contact_pressure;
+    const Field& pressure = pressure_at(step).contact_pressure;
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     double distance = 0, slope = stiffness_, last_distance = 0, last_excess = 0;
     std::optional<SlidingContact::Increment> increment;
@@ -261,7 +261,7 @@ class CoupledBody final : public SlidingBody {
 
 }  // namespace
 
-PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
+PressureFields boundary_element_pressures(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options) {
   surface.require_whole("an oscillating contact");
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
@@ -273,7 +273,7 @@ PressureLevels boundary_element_pressures(Surface surface, double contact_modulu
   };
 }
 
-CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
+CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const Grid2D& grid,
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options) {
   grid.validate();
@@ -281,11 +281,11 @@ CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D
     require_positive(options.friction_coefficient, "friction_coefficient");
     const Trajectory at_rest{trajectory.indentation, [](double) { return 0.0; }};
     const detail::TrajectoryRange range = detail::checked_range(at_rest, options);
-    ForcedBody body(levels, grid, material, at_rest, trajectory.tangential_force, options, range);
+    ForcedBody body(contact_sets, grid, material, at_rest, trajectory.tangential_force, options, range);
     return detail::run_cycle(body, grid, at_rest, options);
   }
   const detail::TrajectoryRange range = detail::checked_range(trajectory, options);
-  FrictionalBody body(levels, grid, material, trajectory, options, range);
+  FrictionalBody body(contact_sets, grid, material, trajectory, options, range);
   return detail::run_cycle(body, grid, trajectory, options);
 }
 

@@ -78,9 +78,9 @@ double OscillatingStress::displacement(double angle) const {
 }
 
 double OscillatingStress::touch_angle(double radius) const {
-  const double level = law_.profile().image(radius);
-  return half_angle(mean_indentation_ + amplitude_ - level,
-                    level - (mean_indentation_ - amplitude_));
+  const double spring_depth = law_.profile().image(radius);
+  return half_angle(mean_indentation_ + amplitude_ - spring_depth,
+                    spring_depth - (mean_indentation_ - amplitude_));
 }
 
 double OscillatingStress::pressure(double angle, double r) const {
@@ -101,7 +101,7 @@ double OscillatingStress::shear(double angle, double r) const {
   const double inner = law_.contact_radius(indentation(open_angle_));
   const double span = pi - now, base = std::max(r, inner);
   const double base_offset = r > inner ? std::min(pi - touch_angle(r), span) : pi - open_angle_;
-  const double base_level = profile.image(base), base_slope = profile.image_slope(base);
+  const double base_depth = profile.image(base), base_slope = profile.image_slope(base);
   double width = 1;
   if (r < inner && base_slope > 0)
     width = std::min(1.0, std::sqrt((inner - r) * (inner + r) * base_slope / (inner * amplitude_)));
@@ -121,7 +121,7 @@ double OscillatingStress::shear(double angle, double r) const {
     if (growth < 1e-5 * base)
       growth = climb / profile.image_slope(base + 0.5 * growth);
     else
-      growth = law_.contact_radius(base_level + climb) - base;
+      growth = law_.contact_radius(base_depth + climb) - base;
     const double square = (growth + (base - r)) * (growth + (base + r));
     return square > 0 ? stretch * speed(offset - pi) / std::sqrt(square) : 0;
   };

@@ -18,28 +18,28 @@ double inner_product(const TangentialField& a, const TangentialField& b) {
 }
 
 // Caches levels by rounded indentation, so that a resumed run gets identical levels.
-class LevelStore {
+class ContactSetStore {
  public:
-  LevelStore(const ContactLevels& levels, double resolution)
-      : levels_(levels), resolution_(resolution) {}
+  ContactSetStore(const ContactSets& contact_sets, double resolution)
+      : contact_sets_(contact_sets), resolution_(resolution) {}
 
   const ContactSetAt& at(double indentation) {
     const long long key = resolution_ > 0 ? std::llround(indentation / resolution_) : 0;
     const auto found = stored_.find(key);
     if (found != stored_.end()) return found->second;
     const double rounded = resolution_ > 0 ? static_cast<double>(key) * resolution_ : indentation;
-    return stored_.emplace(key, levels_(rounded)).first->second;
+    return stored_.emplace(key, contact_sets_(rounded)).first->second;
   }
 
  private:
-  const ContactLevels& levels_;
+  const ContactSets& contact_sets_;
   double resolution_;
   std::map<long long, ContactSetAt> stored_;
 };
 
 class StuckBody final : public detail::CycleBody {
  public:
-  StuckBody(const ContactLevels& levels, const Grid2D& grid, const Material& material,
+  StuckBody(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
             const Trajectory& trajectory, const CycleOptions& options,
             const detail::TrajectoryRange& range)
       : trajectory_(trajectory),
@@ -49,12 +49,12 @@ class StuckBody final : public detail::CycleBody {
         scale_(range.tangential() > 0 ? range.tangential() : 1.0),
         direction_x_(std::cos(options.direction)),
         direction_y_(options.stick.hold_lateral ? std::sin(options.direction) : 0.0),
-        levels_(levels, 1e-9 * range.sweep()),
+        contact_sets_(contact_sets, 1e-9 * range.sweep()),
         solver_(grid, material, options.stick),
         unit_motion_{Field::Constant(grid.nx, grid.ny, direction_x_),
                      Field::Constant(grid.nx, grid.ny, direction_y_)} {
-    const ContactSetAt& widest = levels_.at(range.indentation_max);
-    require(widest.contact.rows() == grid.nx && widest.contact.cols() == grid.ny, "levels",
+    const ContactSetAt& widest = contact_sets_.at(range.indentation_max);
+    require(widest.contact.rows() == grid.nx && widest.contact.cols() == grid.ny, "contact_sets",
             widest.contact.size(), "cells do not match the grid");
     solver_.reserve(widest.contact);
     if (const StuckState* state = detail::resumed<StuckState>(options, grid)) {
@@ -68,7 +68,7 @@ class StuckBody final : public detail::CycleBody {
     state_.displacement = zero();
     state_.traction = zero();
     state_.unit_traction = zero();
-    change_to(levels_.at(trajectory.indentation(0)));
+    change_to(contact_sets_.at(trajectory.indentation(0)));
     note(widest);
   }
 
@@ -77,7 +77,7 @@ class StuckBody final : public detail::CycleBody {
   double advance(int step, double from) override {
     if (step > 0) from = move(from, (step - 0.5) / steps_);
     const double t = static_cast<double>(step) / steps_;
-    change_to(levels_.at(trajectory_.indentation(t)));
+    change_to(contact_sets_.at(trajectory_.indentation(t)));
     return step > 0 ? move(from, t) : from;
   }
 
@@ -117,10 +117,10 @@ class StuckBody final : public detail::CycleBody {
   }
 
   // Replaces the contact set at rest.
-  void change_to(const ContactSetAt& level) {
-    note(level);
-    normal_force_ = level.force;
-    const ContactSet& contact = level.contact;
+  void change_to(const ContactSetAt& reached) {
+    note(reached);
+    normal_force_ = reached.force;
+    const ContactSet& contact = reached.contact;
     if ((contact == state_.contact).all()) return;
     const ContactSet leaving = state_.contact && !contact, staying = state_.contact && contact;
     const ContactSet entering = contact && !state_.contact;
@@ -137,8 +137,8 @@ class StuckBody final : public detail::CycleBody {
     count(solver_.solve(contact, unit_motion_, 1.0, state_.unit_traction));
   }
 
-  void note(const ContactSetAt& level) {
-    if (!level.converged)
+  void note(const ContactSetAt& reached) {
+    if (!reached.converged)
       state_.termination = std::max(state_.termination, Termination::iteration_limit);
   }
 
@@ -169,7 +169,7 @@ class StuckBody final : public detail::CycleBody {
   const Trajectory& trajectory_;
   int steps_;
   double cell_area_, scale_, direction_x_, direction_y_;
-  LevelStore levels_;
+  ContactSetStore contact_sets_;
   StickSolver solver_;
   TangentialField unit_motion_;  // the body's direction
   StuckState state_;
@@ -243,7 +243,7 @@ double step_error_of(const CycleResult& result, const Trajectory& trajectory, do
 
 }  // namespace
 
-ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
+ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
                                       const NormalContactOptions& options) {
   surface.require_whole("an oscillating contact");
   return [surface = std::move(surface), contact_modulus, options](double indentation) {
@@ -255,7 +255,7 @@ ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
   };
 }
 
-CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
+CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options) {
   grid.validate();
@@ -264,7 +264,7 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
   // way up.
   require_memory(grid, 0.5 * options.steps * static_cast<double>(grid.points()),
                  "the contact sets of its steps (fewer `steps` need less)");
-  StuckBody body(levels, grid, material, trajectory, options, range);
+  StuckBody body(contact_sets, grid, material, trajectory, options, range);
   // Started at the minimum indentation, every other cell has been released and has entered again:
   // the period repeats.
   const bool from_minimum =

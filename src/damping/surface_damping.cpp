@@ -17,18 +17,18 @@
 #include "base/task_pool.hpp"
 #include "contact/normal/contact_memory.hpp"
 #include "kriged_stiffness.hpp"
-#include "level_loss.hpp"
+#include "spring_loss.hpp"
 #include "phase_quadrature.hpp"
 #include "surface/refine.hpp"
-#include "surface_levels.hpp"
+#include "surface_contacts.hpp"
 
 namespace salebra {
 namespace {
 
 using detail::every_other;
 using detail::KrigedStiffness;
-using detail::LevelLoss;
-using detail::Levels;
+using detail::LossOfSpring;
+using detail::SurfaceContacts;
 using detail::ratio_on;
 using detail::stated_deviations;
 using detail::StiffnessRatio;
@@ -36,7 +36,7 @@ using detail::StiffnessSample;
 using detail::VarianceScales;
 using std::numbers::pi;
 
-constexpr int max_levels = 32;
+constexpr int max_intervals = 32;
 constexpr Index piece_parts = 64;
 // The finest grid has at least so many: the scatter of W is then a tenth.
 constexpr double enough_cells = 100;
@@ -76,7 +76,7 @@ class Load {
         sample_(curve.samples[k]),
         ratio_(ratio_on(curve, k, material.modulus_ratio())),
         amplitude_(detail::normal_amplitude(motion)) {
-    levels_ = options.levels;
+    intervals_ = options.intervals;
     // A drag without turning points is followed by no slow motion.
     if (!std::isnan(options.friction_coefficient) &&
         (std::holds_alternative<EqualFrequency>(motion) || !std::isnan(options.excursion)))
@@ -96,9 +96,9 @@ class Load {
   const std::vector<GridValue>& values() const { return values_; }
   double stiffness_ratio() const { return ratio_.middle(); }
   double window() const { return half_; }
-  int levels() const { return levels_; }
-  double level_error() const { return level_error_; }
-  double level_error_with_slip() const { return level_error_with_slip_; }
+  int intervals() const { return intervals_; }
+  double interval_error() const { return interval_error_; }
+  double interval_error_with_slip() const { return interval_error_with_slip_; }
   bool follows_slip() const { return slip_.has_value(); }
   bool usable() const {
     return sample_.converged && sample_.force > 0 && std::isfinite(ratio_.middle()) &&
@@ -111,21 +111,21 @@ class Load {
     contact.on_progress = progress;
     contact.tolerance = tolerance();
     const bool first = values_.empty();
-    Levels levels(surface, material_.contact_modulus, contact);
-    const double center = levels.indentation_at(sample_.pressure);
+    SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
+    const double center = contacts_at.indentation_at(sample_.pressure);
     if (first) {
-      widen(levels, center);
+      widen(contacts_at, center);
       // Both stiffnesses see the same cells, so that the first grid is fine enough. A curve that
       // has K_t = (G*/E*)K keeps it.
       if (states_error() && std::abs(ratio_.middle() - 1) > 1e-9) {
-        const auto high = levels.ratio_at(center + half_, material_);
-        const auto middle = levels.ratio_at(center, material_);
-        ratio_ = {levels.ratio_at(center - half_, material_), middle, high};
+        const auto high = contacts_at.ratio_at(center + half_, material_);
+        const auto middle = contacts_at.ratio_at(center, material_);
+        ratio_ = {contacts_at.ratio_at(center - half_, material_), middle, high};
       }
     }
-    values_.push_back(integrate(levels, center));
+    values_.push_back(integrate(contacts_at, center));
     values_.back().points = surface.grid.nx;
-    values_.back().converged = values_.back().converged && levels.usable();
+    values_.back().converged = values_.back().converged && contacts_at.usable();
   }
 
  private:
@@ -136,13 +136,13 @@ class Load {
     return std::clamp(1e-3 * strain * strain, 1e-12, 1e-6);
   }
 
-  void widen(Levels& levels, double center) {
+  void widen(SurfaceContacts& contacts_at, double center) {
     const double widest = widest_window * sample_.force / sample_.normal_stiffness;
     const double wanted =
         enough_cells / std::pow(4.0, options_.coarsen ? 1 : std::min(options_.refinements, 1));
-    while (half_ < widest && levels.usable()) {
-      const StiffnessSample high = levels.without_stiffness_at(center + half_),
-                            low = levels.without_stiffness_at(center - half_);
+    while (half_ < widest && contacts_at.usable()) {
+      const StiffnessSample high = contacts_at.without_stiffness_at(center + half_),
+                            low = contacts_at.without_stiffness_at(center - half_);
       // Those that enter together count once.
       const double cells = (high.cells - low.cells) / std::max(high.together, low.together);
       if (cells >= wanted) break;
@@ -155,73 +155,73 @@ class Load {
   /// The first grid says how many levels are enough: their error is one of the surface, not of the
   /// cells. With K of each contact half of them say hardly less, and are taken on other grids, and
   /// where no error is stated.
-  GridValue integrate(Levels& levels, double center) {
+  GridValue integrate(SurfaceContacts& contacts_at, double center) {
     const bool first = values_.empty();
     std::vector<StiffnessSample> contacts;
-    const bool chooses = first && (options_.choose_levels || states_error());
-    for (int n = chooses ? levels_ : levels_ / 2;; n *= 2) {
+    const bool chooses = first && (options_.choose_intervals || states_error());
+    for (int n = chooses ? intervals_ : intervals_ / 2;; n *= 2) {
       std::vector<StiffnessSample> finer(static_cast<std::size_t>(n + 1));
       const bool nested = !contacts.empty();
       for (int k = 0; k <= n; ++k)
         finer[static_cast<std::size_t>(k)] = nested && k % 2 == 0
                                                  ? contacts[static_cast<std::size_t>(k / 2)]
-                                                 : levels.at(center + half_ * std::cos(pi * k / n));
+                                                 : contacts_at.at(center + half_ * std::cos(pi * k / n));
       contacts = std::move(finer);
-      if (!levels.usable()) return {};
+      if (!contacts_at.usable()) return {};
       // What one grid shows of the variances holds on the others.
       const KrigedStiffness kriged(contacts, indices(center));
       VarianceScales scales = scales_;
       scales.add(kriged.log_likelihood());
       GridValue value = evaluate(kriged, center, scales);
       if (chooses) {
-        levels_ = n;
+        intervals_ = n;
         const GridValue by_half =
             evaluate(KrigedStiffness(every_other(contacts), indices(center)), center, scales);
-        level_error_ = std::abs(value.work - by_half.work);
-        if (options_.choose_levels && n < max_levels && level_error_ > value.deviation) continue;
+        interval_error_ = std::abs(value.work - by_half.work);
+        if (options_.choose_intervals && n < max_intervals && interval_error_ > value.deviation) continue;
       }
       scales_ = scales;
       const double mean = mean_position(kriged, center);
-      if (slip_ && std::isfinite(mean)) add_slip(value, levels, contacts, kriged, mean, center, n);
+      if (slip_ && std::isfinite(mean)) add_slip(value, contacts_at, contacts, kriged, mean, center, n);
       return value;
     }
   }
 
-  /// W with friction, −∫K_t w' dζ (level_loss.hpp): over the window by its contacts, and below it
+  /// W with friction, −∫K_t w' dζ (spring_loss.hpp): over the window by its contacts, and below it
   /// by further ones, in pieces of no more than 1.5 F/K. No parabola with a random function of one
   /// variance describes K over more, since both fall with the load. The pieces share the contact
   /// at their border, and w is continuous, so that nothing of K at a border enters. Levels that
   /// carry F below the last piece add less than F times the largest |w'|: pieces go on until this
   /// is 0.3 % of W, which counts as an error of the levels. None is needed where levels slip only
   /// so little below the window that K_t does not change there.
-  void add_slip(GridValue& value, Levels& levels, const std::vector<StiffnessSample>& contacts,
+  void add_slip(GridValue& value, SurfaceContacts& contacts_at, const std::vector<StiffnessSample>& contacts,
                 const KrigedStiffness& kriged, double mean, double center, int intervals) {
-    const bool first = values_.empty(), chooses = intervals == levels_;
+    const bool first = values_.empty(), chooses = intervals == intervals_;
     const double least = mean - amplitude_;
     KrigedWork sum{0, 0, 0, 0};
     double by_half = 0, rest = 0;
     const auto add = [&](const std::vector<StiffnessSample>& samples, const Eigen::VectorXd& at,
                          const KrigedStiffness& between, const VarianceScales& scales) {
-      Eigen::VectorXd of_level =
-          weights_of_levels(at, least, [&](double index) { return (*slip_)(index - mean); });
+      Eigen::VectorXd of_spring =
+          weights_of_springs(at, least, [&](double index) { return (*slip_)(index - mean); });
       // w falls to 0 at once.
-      if (shallow_) of_level(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
-      const Eigen::VectorXd weights = tangential(of_level, at, between, ratio_);
+      if (shallow_) of_spring(at.size() - 1) -= (*slip_)(at(at.size() - 1) - mean);
+      const Eigen::VectorXd weights = tangential(of_spring, at, between, ratio_);
       const auto [work, deviation] = between.estimate(weights, scales);
-      const Eigen::VectorXd straight = tangential(of_level, at, between, ratio_.straight(), false);
+      const Eigen::VectorXd straight = tangential(of_spring, at, between, ratio_.straight(), false);
       sum.work += work;
       sum.deviation = std::hypot(sum.deviation, deviation);
       sum.ratio_error += std::abs(work - between.estimate(straight, scales).value);
       sum.solver_error += between.solver_error(weights);
       if (!chooses) return;
       const KrigedStiffness half(every_other(samples), at);
-      by_half += half.estimate(tangential(of_level, at, half, ratio_), scales).value;
+      by_half += half.estimate(tangential(of_spring, at, half, ratio_), scales).value;
     };
     const double lowest = (*slip_)(-amplitude_);
     const auto add_window = [&](const std::vector<StiffnessSample>& samples,
                                 const Eigen::VectorXd& at, const KrigedStiffness& between) {
       add(samples, at, between, scales_);
-      const Eigen::VectorXd opening = weights_of_levels(
+      const Eigen::VectorXd opening = weights_of_springs(
           at, least, [&](double index) { return (*slip_)(std::max(index, least) - mean); });
       value.relaxation_work = between
                                   .estimate(tangential(opening - lowest * between.weights_at(least),
@@ -245,9 +245,9 @@ class Load {
     add_window(contacts, window, kriged);
     for (std::size_t piece = 0; top > bottom && !shallow_; ++piece) {
       if (first) {
-        const StiffnessSample highest = levels.at(top);
+        const StiffnessSample highest = contacts_at.at(top);
         rest = material_.modulus_ratio() * ratio_.middle() * highest.force * slip_->steepest();
-        if (!levels.usable() || rest <= min_rest * std::abs(sum.work)) break;
+        if (!contacts_at.usable() || rest <= min_rest * std::abs(sum.work)) break;
         const double width = widest_piece * highest.force / highest.stiffness;
         // No piece is so narrow that no cells enter, or that forces must be known to more digits
         // than in the window.
@@ -262,11 +262,11 @@ class Load {
       if (!(half > 1e-9 * amplitude_)) break;
       std::vector<StiffnessSample> inside;
       for (int k = 0; k <= intervals; ++k)
-        inside.push_back(levels.at(k == 0 ? top
+        inside.push_back(contacts_at.at(k == 0 ? top
                                    : k == intervals
                                        ? end
                                        : middle + half * std::cos(pi * k / intervals)));
-      if (!levels.usable()) break;
+      if (!contacts_at.usable()) break;
       const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(piece_parts + 1, [&](Index k) {
         return k == 0             ? top
                : k == piece_parts ? end
@@ -290,13 +290,13 @@ class Load {
       }
       top = end;
     }
-    if (chooses) level_error_with_slip_ = std::hypot(sum.work - by_half, rest);
+    if (chooses) interval_error_with_slip_ = std::hypot(sum.work - by_half, rest);
     value.with_slip = sum;
   }
 
   /// −∫K w' dζ = Σ weights × K(places), for K linear between places. w bends at the least
   /// indentation and at the deepest level that slips, which may lie much closer than two places.
-  Eigen::VectorXd weights_of_levels(const Eigen::VectorXd& indices, double least,
+  Eigen::VectorXd weights_of_springs(const Eigen::VectorXd& indices, double least,
                                     const auto& loss) const {
     const auto integral = [&](double from, double to) {
       return (to - from) * (loss(from) + 4 * loss((from + to) / 2) + loss(to)) / 6;
@@ -426,9 +426,9 @@ class Load {
   StiffnessRatio ratio_;
   const double amplitude_;
   double half_ = 0;  // of the window
-  int levels_ = 4;
-  double level_error_ = 0, level_error_with_slip_ = 0;  // J
-  std::optional<LevelLoss> slip_ = {};
+  int intervals_ = 4;
+  double interval_error_ = 0, interval_error_with_slip_ = 0;  // J
+  std::optional<LossOfSpring> slip_ = {};
   std::vector<StiffnessRatio::Point> of_curve_ = {};
   std::vector<double> pieces_ = {};  // below the mean indentation, their lower ends
   bool shallow_ = false;             // levels below the window slip only next to it
@@ -458,7 +458,7 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.converged = true;
   result.stiffness_ratio = load.stiffness_ratio();
   result.window = load.window();
-  result.levels = load.levels();
+  result.intervals = load.intervals();
   result.points = value.points;
   const bool no_slip = std::isnan(options.friction_coefficient);
   const KrigedWork& described = no_slip ? value : value.with_slip;
@@ -467,11 +467,11 @@ SurfaceDamping result_of(const Load& load, const Oscillation& motion,
   result.relaxation_work = value.relaxation_work;
   result.slip_work = value.with_slip.work - value.relaxation_work;
   result.set_damping_constants(motion);
-  result.error_without_slip = budget_of(value, load.level_error());
+  result.error_without_slip = budget_of(value, load.interval_error());
   if (no_slip)
     result.error = result.error_without_slip;
   else if (load.follows_slip())
-    result.error = budget_of(described, load.level_error_with_slip());
+    result.error = budget_of(described, load.interval_error_with_slip());
   if (values.size() < 2) return result;
   const GridValue& other = values[at > 0 ? at - 1 : values.size() - 1];
   // Forces converge at second order: of a halving a third remains on the finer cells.
@@ -537,7 +537,7 @@ void validate(const ForceCurve& curve, const SurfaceDampingOptions& options) {
                  std::string("has no ") + name +
                      ", which says how far the oscillation reaches; sweep the surface with "
                      "`stiffness`");
-  require(allowed_levels(options.levels), "levels", options.levels, "must be 4, 8, 16 or 32");
+  require(allowed_intervals(options.intervals), "intervals", options.intervals, "must be 4, 8, 16 or 32");
   require(options.refinements >= 0 && options.refinements <= 4, "refinements", options.refinements,
           "must lie in 0 … 4");
   for (const auto& [value, field] :

@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "surface/refine.hpp"
-#include "surface_levels.hpp"
+#include "surface_contacts.hpp"
 
 namespace salebra {
 namespace {
 
 using detail::KrigedStiffness;
-using detail::Levels;
+using detail::SurfaceContacts;
 using detail::StiffnessRatio;
 using detail::StiffnessSample;
 using detail::VarianceScales;
@@ -125,14 +125,14 @@ class SurfaceSlidingRun {
     // Forces differ by F·uK/F over the window, and their differences by its square.
     contact.tolerance =
         std::clamp(1e-4 * std::pow(half_ * load_.normal_stiffness / load_.force, 2), 1e-12, 1e-7);
-    Levels levels(surface, material_.contact_modulus, contact);
-    const double center = levels.indentation_at(load_.pressure);
+    SurfaceContacts contacts_at(surface, material_.contact_modulus, contact);
+    const double center = contacts_at.indentation_at(load_.pressure);
     const StiffnessRatio ratio =
-        first ? ratio_ : ratio_.scaled(levels.ratio_at(center, material_).ratio / ratio_.middle());
+        first ? ratio_ : ratio_.scaled(contacts_at.ratio_at(center, material_).ratio / ratio_.middle());
     std::vector<StiffnessSample> contacts;
     for (int k = 0; k <= count; ++k)
-      contacts.push_back(levels.at(center + half_ * std::cos(pi * k / count)));
-    if (!levels.usable()) throw NotConverged("sliding: a contact of the surface did not converge");
+      contacts.push_back(contacts_at.at(center + half_ * std::cos(pi * k / count)));
+    if (!contacts_at.usable()) throw NotConverged("sliding: a contact of the surface did not converge");
     const VectorXd positions = center + half_ * ArrayXd::LinSpaced(linear_parts + 1, 0, pi).cos();
     const KrigedStiffness kriged(contacts, positions);
     scales_.add(kriged.log_likelihood());

@@ -55,28 +55,28 @@ struct TangentialContact::State {
         merge_tolerance(given.merge_tolerance),
         slack(1e-9 * (high - lowest_of_motion) + 1e-15 * std::abs(high)) {
     // One spring in place of those below the table: it carries their normal force.
-    core_level = low;
-    if (table->core() > 0) core_level -= stiffness_ratio * law.force(low) / table->core();
+    core_depth = low;
+    if (table->core() > 0) core_depth -= stiffness_ratio * law.force(low) / table->core();
   }
 
-  double within_range(double level) const {
-    if (parts_below && level < permanent_below) return level;
-    require(level >= permanent_below - slack && level <= table->highest() + slack, "indentation",
-            level, "m leaves the range from lowest to highest that the contact was made for");
-    return std::clamp(level, permanent_below, table->highest());
+  double within_range(double spring_depth) const {
+    if (parts_below && spring_depth < permanent_below) return spring_depth;
+    require(spring_depth >= permanent_below - slack && spring_depth <= table->highest() + slack, "indentation",
+            spring_depth, "m leaves the range from lowest to highest that the contact was made for");
+    return std::clamp(spring_depth, permanent_below, table->highest());
   }
 
   double bottom() const {
     return pieces.size() > 1 ? pieces[pieces.size() - 2].top : table->lowest();
   }
-  double anchor_at(double level) const {
+  double anchor_at(double spring_depth) const {
     const Piece& piece = pieces.back();
     const double low = bottom();
     // Exact at both ends, so that pieces join without a step.
-    if (level >= piece.top) return piece.anchor.high;
-    if (level <= low) return piece.anchor.low;
+    if (spring_depth >= piece.top) return piece.anchor.high;
+    if (spring_depth <= low) return piece.anchor.low;
     return piece.anchor.low +
-           (piece.anchor.high - piece.anchor.low) * ((level - low) / (piece.top - low));
+           (piece.anchor.high - piece.anchor.low) * ((spring_depth - low) / (piece.top - low));
   }
 
   void push(double top, Linear anchor, double deviation = 0) {
@@ -92,17 +92,17 @@ struct TangentialContact::State {
 
   // Takes levels >= `level` off the topmost piece, or all of it; `moments` are those of what is
   // taken off.
-  void cut(double level, const Moments& moments, Linear removed) {
+  void cut(double spring_depth, const Moments& moments, Linear removed) {
     Piece& piece = pieces.back();
-    const double low = bottom(), width = piece.top - level;
-    if (level <= low) {
+    const double low = bottom(), width = piece.top - spring_depth;
+    if (spring_depth <= low) {
       pieces.pop_back();
       return;
     }
     piece.first_integral -= integral(moments, width, removed, {1, 1});
     piece.second_integral -= integral(moments, width, removed, removed);
     piece.anchor.high = removed.low;
-    piece.top = level;
+    piece.top = spring_depth;
   }
 
   // ∫K_t' v w dζ over [low, high] into the two sums of dissipated energy.
@@ -125,7 +125,7 @@ struct TangentialContact::State {
   // motion pulled it, and the first share of that work remains.
   void release(double new_indentation, double new_x) {
     const double descent = indentation - new_indentation, travel = new_x - x;
-    auto position = [&](double level) { return x + (indentation - level) / descent * travel; };
+    auto position = [&](double spring_depth) { return x + (indentation - spring_depth) / descent * travel; };
     auto partition = [&](double stretch) {
       if (std::isinf(slope_limit)) return 1.0;
       const double retreat = slope_limit * descent;
@@ -178,8 +178,8 @@ struct TangentialContact::State {
     const double climb = new_indentation - indentation;
     const double advance = side * (new_x - x) - slope_limit * climb;
     if (!(advance > 0)) return;
-    auto bound = [&](double level) {
-      return side * new_x - slope_limit * (new_indentation - level);
+    auto bound = [&](double spring_depth) {
+      return side * new_x - slope_limit * (new_indentation - spring_depth);
     };
     double reach = new_indentation;
     double reach_bound = bound(reach);
@@ -207,7 +207,7 @@ struct TangentialContact::State {
       if (partial) break;
     }
     if (reach <= table->lowest())
-      slip_core(side, new_indentation, side * bound(core_level), climb, advance);
+      slip_core(side, new_indentation, side * bound(core_depth), climb, advance);
     push(new_indentation, {side * reach_bound, new_x});
   }
 
@@ -221,7 +221,7 @@ struct TangentialContact::State {
                          "friction, reduce the motion, or give a curve from lower forces on");
     const double slipped = side * (new_anchor - core_anchor);
     if (!(slipped > 0)) return;
-    const double stretch = slope_limit * (new_indentation - core_level);
+    const double stretch = slope_limit * (new_indentation - core_depth);
     const double loss =
         table->core() * (stretch - 0.5 * slope_limit * climb / advance * slipped) * slipped;
     dissipated += loss;
@@ -248,11 +248,11 @@ struct TangentialContact::State {
   // Every level at its limit, the core too.
   void slide(double new_indentation, double new_x, int direction) {
     begin(new_indentation, new_x);
-    const auto anchor = [&](double level) {
-      return -direction * slope_limit * (indentation - level);
+    const auto anchor = [&](double spring_depth) {
+      return -direction * slope_limit * (indentation - spring_depth);
     };
     push(indentation, {anchor(table->lowest()), 0});
-    core_anchor = anchor(core_level);
+    core_anchor = anchor(core_depth);
     carried = direction;
     energy_at_start = energy();
   }
@@ -284,7 +284,7 @@ struct TangentialContact::State {
   std::vector<Piece> pieces;
   double indentation = 0, x = 0, origin = 0;  // x counts from the origin
   double dissipated = 0, permanent = 0, energy_at_start = 0;
-  double core_level = 0, core_anchor = 0;
+  double core_depth = 0, core_anchor = 0;
   double carried = 0;  // the direction in which the core slides, ±1; 0: it does not
 };
 

@@ -153,8 +153,8 @@ std::vector<AssumptionVerdict> verdicts_of(std::span<const Assumptions> cases, b
                                      std::span<const double> pressures) {
   std::vector<AssumptionVerdict> verdicts;
   for (const AssumptionName& name : assumption_names()) {
-    const bool slip = name.assumption == &Assumptions::slip_of_opening_levels ||
-                      name.assumption == &Assumptions::slip_of_closed_levels;
+    const bool slip = name.assumption == &Assumptions::slip_of_opening_springs ||
+                      name.assumption == &Assumptions::slip_of_closed_springs;
     if ((slip && slip_followed) || name.assumption == &Assumptions::amplitude) continue;
     // A motion that is not slow by kind has no such condition.
     AssumptionVerdict one = verdict_of(name, cases, pressures);

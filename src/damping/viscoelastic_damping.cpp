@@ -45,11 +45,11 @@ struct NormalPeriod {
   std::vector<double> force;  // at the samples
 };
 
-NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, double level,
+NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, double spring_depth,
                            const Branches& start) {
   NormalPeriod period;
   period.derivative = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
-  NormalSpring state(spring, level);
+  NormalSpring state(spring, spring_depth);
   state.start(path.indentation[0], start);
   period.force.push_back(state.force(path.indentation[0]));
   // The anchors' velocity is continuous at touch and release: that these move changes nothing at
@@ -80,13 +80,13 @@ NormalPeriod normal_period(const MaxwellSpring& spring, const SpringPath& path, 
 
 // Newton's method for the anchors that a period returns to. They are a convex and rising function
 // of those at the start, so that it converges monotonically after its first step.
-NormalPeriod periodic(const MaxwellSpring& spring, const SpringPath& path, double level,
+NormalPeriod periodic(const MaxwellSpring& spring, const SpringPath& path, double spring_depth,
                       double range, Branches& start, LoopProgress& progress) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spring.terms(), spring.terms());
   NormalPeriod period;
   double last = range;
   for (int iteration = 0; iteration < 60 && progress.advance(0); ++iteration) {
-    period = normal_period(spring, path, level, start);
+    period = normal_period(spring, path, spring_depth, start);
     period.converged = spring.terms() == 0;
     if (period.converged) break;
     const Branches change =
@@ -272,11 +272,11 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
   const PermanentPeriod normal = permanent_period(spring, path, normal_moves);
   const PermanentPeriod tangential = permanent_period(spring, path, moves);
   // A spring never leaves while its force stays > 0.
-  double permanent_level = highest;
+  double permanent_depth = highest;
   for (std::size_t i = 0; i < samples; ++i)
-    permanent_level = std::min(permanent_level, trajectory.indentation[i] + normal.branch_force[i]);
+    permanent_depth = std::min(permanent_depth, trajectory.indentation[i] + normal.branch_force[i]);
   result.min_contact_radius =
-      std::min(law.contact_radius(permanent_level), result.max_contact_radius);
+      std::min(law.contact_radius(permanent_depth), result.max_contact_radius);
 
   const double stiffness = 2 * law.contact_modulus(), ratio = law.modulus_ratio();
   const double core = stiffness * result.min_contact_radius;
@@ -290,11 +290,11 @@ ViscoelasticDamping viscoelastic_damping(const IndenterLaw& law, const PronySeri
                                   result.max_contact_radius, springs);
   // Each spring starts from the state of the one within it; the first from that of a spring that
   // never leaves.
-  Branches start = trajectory.indentation.front() - permanent_level - normal.start;
+  Branches start = trajectory.indentation.front() - permanent_depth - normal.start;
   LoopProgress progress(on_progress, "viscoelastic", static_cast<Index>(ring.cells.size()));
   for (const detail::SpringLayout::Cell& cell : ring.cells) {
     const NormalPeriod period =
-        periodic(spring, path, cell.level, highest - lowest, start, progress);
+        periodic(spring, path, cell.spring_depth, highest - lowest, start, progress);
     result.converged = period.converged && result.converged;
     if (!progress.advance()) break;
     const double share = stiffness * cell.width;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact law as a C header without dependencies: the levels of LawLevels, and ContactElement's step.
+// A contact law as a C header without dependencies: the levels of LawSprings, and ContactElement's step.
 #include "c_header.hpp"
 
 #include <fmt/format.h>
@@ -22,10 +22,10 @@ constexpr std::string_view program = R"c(#include <math.h>
 #include <stddef.h>
 
 /* A contact between two steps: indentation, displacements along x and y, and where the springs of
-   each level are anchored. Copy it to come back to it; write it to a file to restart. */
+   each spring_depth are anchored. Copy it to come back to it; write it to a file to restart. */
 typedef struct {
   double indentation, x, y;
-  double anchor_x[@NAME@_levels], anchor_y[@NAME@_levels];
+  double anchor_x[@NAME@_springs], anchor_y[@NAME@_springs];
 } @NAME@_state;
 
 /* normal_force: F >= 0. tangential_force: F_x and F_y, which hold the displaced body. stiffness: the derivatives
@@ -39,7 +39,7 @@ typedef struct {
    tangent beyond them, and 0 where that is below 0. */
 static inline void @NAME@_between(const double *value, const double *slope, double at, double result[3]) {
   const double *node = @NAME@_node;
-  const int last = @NAME@_levels - 1;
+  const int last = @NAME@_springs - 1;
   int low = 0, high = last;
   result[2] = 0;
   if (at <= node[0] || at >= node[last]) {
@@ -76,10 +76,10 @@ static inline void @NAME@_between(const double *value, const double *slope, doub
   }
 }
 
-/* Where level i begins; the lowest touches and parts as one, where its force is 0. */
+/* Where spring_depth i begins; the lowest touches and parts as one, where its force is 0. */
 static inline double @NAME@_floor(int i) { return i > 0 ? @NAME@_node[i - 1] : @NAME@_depth[0]; }
 
-/* The stiffness of level i that touches at an indentation, where all levels have that of held, and
+/* The stiffness of spring_depth i that touches at an indentation, where all springs have that of held, and
    its derivative. */
 static inline double @NAME@_touched(int i, double at, const double held[3], double *derivative) {
   *derivative = 0;
@@ -93,7 +93,7 @@ static inline double @NAME@_touched(int i, double at, const double held[3], doub
 static inline void @NAME@_start(@NAME@_state *state, double indentation, double x, double y) {
   int i;
   state->indentation = indentation, state->x = x, state->y = y;
-  for (i = 0; i < @NAME@_levels; ++i) state->anchor_x[i] = x, state->anchor_y[i] = y;
+  for (i = 0; i < @NAME@_springs; ++i) state->anchor_x[i] = x, state->anchor_y[i] = y;
 }
 
 /* The forces at the end of a straight step. The state after it goes to *to, which may be *from, or
@@ -112,11 +112,11 @@ static inline @NAME@_forces @NAME@_step(const @NAME@_state *from, @NAME@_state *
   @NAME@_between(@NAME@_held, @NAME@_sum, before, then);
   result.normal_force = normal[0];
   stiffness[0][0] = normal[1];
-  if (!full_stick && now[0] > 0) { /* the levels together carry mu F at most */
+  if (!full_stick && now[0] > 0) { /* the springs together carry mu F at most */
     share = @NAME@_friction * normal[0] / now[0];
     share_slope = (@NAME@_friction * normal[1] - share * now[1]) / now[0];
   }
-  for (i = @NAME@_levels - 1; i >= 0; --i) {
+  for (i = @NAME@_springs - 1; i >= 0; --i) {
     const double floor = @NAME@_floor(i), top = @NAME@_node[i];
     const double stretch_x = x - from->anchor_x[i], stretch_y = y - from->anchor_y[i];
     const int inside = i > 0 && indentation < top;
@@ -171,7 +171,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
 }
 
 std::string table(std::string_view name, const std::vector<double>& values, double unit) {
-  std::string text = fmt::format("static const double @NAME@_{}[@NAME@_levels] = {{", name);
+  std::string text = fmt::format("static const double @NAME@_{}[@NAME@_springs] = {{", name);
   for (std::size_t i = 0; i < values.size(); ++i)
     text += fmt::format("{}{:.17g}",
                         i == 0       ? "\n  "
@@ -183,7 +183,7 @@ std::string table(std::string_view name, const std::vector<double>& values, doub
 
 }  // namespace
 
-std::string c_header(const LawLevels& levels, const CHeaderOptions& options) {
+std::string c_header(const LawSprings& springs, const CHeaderOptions& options) {
   const std::string& name = options.name;
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
   require(!name.empty() && std::ranges::all_of(name, fits) &&
@@ -199,16 +199,16 @@ std::string c_header(const LawLevels& levels, const CHeaderOptions& options) {
   std::string_view body = program;
   const std::size_t includes = body.find("\n\n") + 1;
   text += body.substr(0, includes);
-  text += fmt::format("\nenum {{ @NAME@_levels = {} }};\n", levels.size());
-  text += std::isinf(levels.friction_coefficient())
+  text += fmt::format("\nenum {{ @NAME@_springs = {} }};\n", springs.size());
+  text += std::isinf(springs.friction_coefficient())
               ? "#define @NAME@_friction HUGE_VAL\n"
-              : fmt::format("#define @NAME@_friction {:.17g}\n", levels.friction_coefficient());
+              : fmt::format("#define @NAME@_friction {:.17g}\n", springs.friction_coefficient());
   std::vector<double> held, sum;
-  for (std::size_t i = 0; i < levels.size(); ++i) {
-    const double before = i > 0 ? sum[i - 1] : 0, k = levels.level_stiffnesses()[i];
-    const double width = i > 0 ? levels.nodes()[i] - levels.nodes()[i - 1] : 0;
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const double before = i > 0 ? sum[i - 1] : 0, k = springs.spring_stiffnesses()[i];
+    const double width = i > 0 ? springs.nodes()[i] - springs.nodes()[i - 1] : 0;
     held.push_back((i > 0 ? held[i - 1] : 0) + before * width +
-                   k * (levels.nodes()[i] - levels.level_depths()[i]));
+                   k * (springs.nodes()[i] - springs.spring_depths()[i]));
     sum.push_back(before + k);
   }
   text +=
@@ -216,11 +216,11 @@ std::string c_header(const LawLevels& levels, const CHeaderOptions& options) {
       "   level and the indentation at which it acts; of all levels up to it the stiffness and "
       "its\n"
       "   integral over the indentation. */\n";
-  text += table("node", levels.nodes(), options.length_unit);
-  text += table("force", levels.forces(), options.force_unit);
-  text += table("slope", levels.stiffnesses(), stiffness);
-  text += table("stiffness", levels.level_stiffnesses(), stiffness);
-  text += table("depth", levels.level_depths(), options.length_unit);
+  text += table("node", springs.nodes(), options.length_unit);
+  text += table("force", springs.forces(), options.force_unit);
+  text += table("slope", springs.stiffnesses(), stiffness);
+  text += table("stiffness", springs.spring_stiffnesses(), stiffness);
+  text += table("depth", springs.spring_depths(), options.length_unit);
   text += table("sum", sum, stiffness);
   text += table("held", held, options.force_unit);
   text += body.substr(includes);

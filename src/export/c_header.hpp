@@ -17,6 +17,6 @@ struct CHeaderOptions {
 /// A header of C99, which is C++ as well, that needs the standard's math.h alone: tables of the
 /// levels, and <name>_state, <name>_start(), <name>_step() with the forces and derivatives of
 /// ContactElement, up to round-off. Throws InvalidInput for a name that C does not take.
-std::string c_header(const LawLevels& levels, const CHeaderOptions& options = {});
+std::string c_header(const LawSprings& springs, const CHeaderOptions& options = {});
 
 }  // namespace salebra

@@ -221,7 +221,7 @@ std::string what_of(DeckCase which, const std::vector<std::size_t>& surfaces, st
 
 void check(const DeckProblem& problem, detail::DeckContent content) {
   const bool table = content == detail::DeckContent::table;
-  const bool levels = content == detail::DeckContent::levels;
+  const bool springs = content == detail::DeckContent::springs;
   require(!problem.contacts.empty(), "contacts", 0, "are given; give one at least");
   require(problem.rows >= 4 && problem.rows <= 100000, "rows", problem.rows,
           "must be from 4 to 100000");
@@ -239,15 +239,15 @@ void check(const DeckProblem& problem, detail::DeckContent content) {
                "not given, but sliders need it");
   for (const DeckContact& contact : problem.contacts) {
     const double area = contact.nominal_area;
-    if (table || problem.pressure_window || (levels && problem.contacts.size() > 1))
+    if (table || problem.pressure_window || (springs && problem.contacts.size() > 1))
       require_that(area > 0 && std::isfinite(area), "nominal_area",
                    "not given, but a pressure is a force per nominal area");
-    if (!friction && !levels) continue;
+    if (!friction && !springs) continue;
     require_that(
         contact.knows_tangential_stiffness, "tangential_stiffness",
         "is not known, but friction needs it; give `poisson` or `tangential_modulus`, or a "
         "curve with stick solves");
-    if (levels) continue;
+    if (springs) continue;
     require_that(!std::isnan(contact.indentation), "indentation",
                  "not given, nor another position, on which the tangential stiffness depends");
   }
@@ -406,7 +406,7 @@ std::shared_ptr<const ContactLaw> law_of_case(const DeckProblem& problem, const 
   return std::make_shared<TabulatedLaw>(curve, first.law->modulus_ratio());
 }
 
-void add_levels(Deck& deck) {
+void add_springs(Deck& deck) {
   const DeckProblem& problem = deck.problem;
   const Range range = common_range(problem);
   const auto [which, what] = case_of(problem);
@@ -416,11 +416,11 @@ void add_levels(Deck& deck) {
   const double lowest = std::max(first.clearance_origin - range.far, law->lowest_indentation());
   const double highest = std::min(first.clearance_origin - range.close, law->highest_indentation());
   const bool friction = !std::isnan(problem.friction_coefficient);
-  deck.levels = std::make_shared<const LawLevels>(
+  deck.springs = std::make_shared<const LawSprings>(
       *law, lowest, highest,
-      LawLevelsOptions{.friction_coefficient = friction ? problem.friction_coefficient
+      LawSpringsOptions{.friction_coefficient = friction ? problem.friction_coefficient
                                                         : std::numeric_limits<double>::infinity(),
-                       .levels = problem.sliders});
+                       .springs = problem.sliders});
   const double metre = 1 / problem.units.in_si(Dimension::length),
                newton = 1 / problem.units.in_si(Dimension::force);
   deck.header.push_back(
@@ -488,8 +488,8 @@ DeckSolution solve(const DeckProblem& asked) {
     case detail::DeckContent::sliders:
       add_sliders(deck, answer);
       break;
-    case detail::DeckContent::levels:
-      add_levels(deck);
+    case detail::DeckContent::springs:
+      add_springs(deck);
       break;
   }
   convert(deck);

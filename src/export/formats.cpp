@@ -257,7 +257,7 @@ std::string jenkins(const Deck& deck) {
 
 std::string header_of_c(const Deck& deck) {
   const UnitSystem& units = deck.problem.units;
-  return c_header(*deck.levels, {.name = deck.problem.name,
+  return c_header(*deck.springs, {.name = deck.problem.name,
                                  .comment = deck.header,
                                  .length_unit = units.in_si(Dimension::length),
                                  .force_unit = units.in_si(Dimension::force)});
@@ -312,7 +312,7 @@ const DeckWriter& writer_of(DeckFormat format) {
       DeckWriter{DeckFormat::ansys, ansys, DeckContent::table, 19},
       DeckWriter{DeckFormat::code_aster, code_aster},
       DeckWriter{DeckFormat::jenkins, jenkins, DeckContent::sliders},
-      DeckWriter{DeckFormat::c_header, header_of_c, DeckContent::levels},
+      DeckWriter{DeckFormat::c_header, header_of_c, DeckContent::springs},
   };
   return *std::ranges::find(writers, format, &DeckWriter::format);
 }

@@ -32,7 +32,7 @@ struct Deck {
   std::vector<double> clearance = {};    ///< from the farthest to the closest
   std::vector<DeckLaw> laws = {};        ///< the mean, and of several surfaces low and high
   std::vector<Slider> sliders = {};      ///< from the one that slips first on
-  std::shared_ptr<const LawLevels> levels = {};
+  std::shared_ptr<const LawSprings> springs = {};
   double exponential_pressure = DeckContact::unknown;  ///< at clearance 0, of one exponential law
   double exponential_length = DeckContact::unknown;    ///< l of it
 
@@ -54,7 +54,7 @@ std::string comment(std::string_view sentence, const CommentStyle& style);
 /// a deck: no closer than where the tangent at the farthest row meets zero, so that they stay convex.
 double first_clearance(const Deck& deck);
 
-enum class DeckContent { table, sliders, levels };
+enum class DeckContent { table, sliders, springs };
 
 /// What a format holds, and how it is written. A format is a function and a row.
 struct DeckWriter {

@@ -36,8 +36,8 @@ class Backbone {
     double sum = 0;
     for (const DeckContact& contact : contacts_) {
       const ContactLaw& law = *contact.law;
-      const double level = contact.indentation - depth_of(contact) * x;
-      sum += law.tangential_stiffness(std::max(level, law.lowest_indentation()));
+      const double spring_depth = contact.indentation - depth_of(contact) * x;
+      sum += law.tangential_stiffness(std::max(spring_depth, law.lowest_indentation()));
     }
     return sum / double(contacts_.size());
   }

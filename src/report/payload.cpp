@@ -502,7 +502,7 @@ void add_direct(Json& payload, const ResultReader& oscillation) {
   Json& damping = payload["points"][0]["damping"];
   // A cycle in time steps passes its ends; levels of a quadrature lie a little within them.
   const bool stepped = oscillation.has("cycle/indentation");
-  const std::string group = stepped ? "cycle" : "levels";
+  const std::string group = stepped ? "cycle" : "intervals";
   if (!oscillation.has(group + "/indentation") || !oscillation.has(group + "/force") ||
       !oscillation.number_attribute(group, "work_per_cycle"))
     throw InvalidInput(file, "holds no oscillation; give the result file of a simulated cycle");

@@ -11,7 +11,7 @@
 #include <salebra/contact/normal/flow_factors.hpp>
 #include <salebra/damping/friction_map.hpp>
 #include <salebra/damping/joint.hpp>
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 #include <salebra/damping/assumptions.hpp>
 #include <salebra/damping/slider.hpp>
 #include <salebra/damping/steady_sliding.hpp>
@@ -44,7 +44,7 @@ const Column* entry_of(std::string_view name) {
       ReliabilityLimit, HeightHistogram, SelfAffineParameters, Material, ForceCurve, ForceSample,
       NormalContactState, FirstLoading, ExponentialFit, ExponentialTest, LawDescription,
       WindowSensitivity, LocalDecayLength, CycleSample, CycleResult, SlipEffect, CouplingEffect,
-      CycleFrame, CycleMesh, LevelQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
+      CycleFrame, CycleMesh, IntervalQuadratureResult, OscillationLoss, ExponentialLoss, SampledMotion,
       EqualFrequency, Drag, DampingResult, CommonPeriod, ContactParameters, LargestMotion, Assumption, Loss,
       TrajectoryDamping, JointLoss, SteadySliding, SlidingPoint, RegimePoint, Slider, SliderMotion,
       SliderStability, SliderThresholds, OscillatorDecay, FrictionMap, StressMap, RegimeMap,

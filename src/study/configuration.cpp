@@ -337,7 +337,7 @@ void read_adhesion(TomlTable table, StudyConfiguration& configuration) {
   plan.force_coarse = table.flag("force_coarse").value_or(false);
   table.require_no_other_keys();
   configuration.adhesion = std::move(plan);
-  configuration.levels = 0;
+  configuration.intervals = 0;
   configuration.compared_models.insert(configuration.compared_models.end(),
                                        {ContactModel::gw_dmt, ContactModel::gw_jkr});
 }
@@ -372,10 +372,10 @@ void read_damping(TomlTable table, StudyConfiguration& configuration) {
   if (const auto hold = enumerated<Hold>(table, "hold")) configuration.damping.hold = *hold;
   if (const auto amplitude = enumerated<Amplitude>(table, "amplitude"))
     configuration.damping.amplitude = *amplitude;
-  if (const auto levels = table.quantity("levels", Dimension::dimensionless)) {
-    table.check(*levels == 0 || allowed_levels(*levels), "levels",
-                fmt::format("{} must be 0, 4, 8, 16 or 32", *levels));
-    configuration.levels = static_cast<int>(*levels);
+  if (const auto intervals = table.quantity("intervals", Dimension::dimensionless)) {
+    table.check(*intervals == 0 || allowed_intervals(*intervals), "intervals",
+                fmt::format("{} must be 0, 4, 8, 16 or 32", *intervals));
+    configuration.intervals = static_cast<int>(*intervals);
   }
   if (const auto error = table.quantity("relative_error", Dimension::dimensionless)) {
     table.check(*error > 0 && *error < 1, "relative_error",

@@ -25,7 +25,7 @@ namespace {
 // 256², 512² and 1024² points.
 constexpr double stick_per_cell = 0.15e-6;       // s
 constexpr double growth = 0.15;                  // iterations grow with this power of the cells
-constexpr double level_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
+constexpr double interval_per_cell = 0.15e-6;       // s, a contact that starts from its neighbour
 constexpr double memory_per_cell = 80;           // bytes
 constexpr double memory_per_cell_stick = 155;    // bytes
 constexpr double memory_of_adhesion = 130;       // bytes
@@ -54,13 +54,13 @@ double transform_seconds() {
 
 /// Contacts inside the oscillation for each load, those of finer and coarser cells by their size;
 /// mean over the surfaces.
-double levels_of(const StudyConfiguration& point, const Grid2D& grid) {
-  if (point.levels == 0) return 0;
+double intervals_of(const StudyConfiguration& point, const Grid2D& grid) {
+  if (point.intervals == 0) return 0;
   const auto of = [&](std::uint64_t seed) {
     const SurfaceDampingOptions options = surface_damping_options(point, grid, seed);
     // With their stiffnesses, one contact to begin with, and about two to choose the range; on the
     // first grid of an error three stick solves.
-    const double first = options.levels + 8, others = options.levels / 2.0 + 5;
+    const double first = options.intervals + 8, others = options.intervals / 2.0 + 5;
     double contacts = options.coarsen           ? first / 4 + others
                       : options.refinements > 0 ? first
                                                 : others;
@@ -89,8 +89,8 @@ PointCost cost_of(const StudyConfiguration& point, double speed) {
   cost.warnings.insert(cost.warnings.end(), loads.warnings.begin(), loads.warnings.end());
   const bool stick = stick_solves(point);
   const auto cells = static_cast<double>(cost.grid.points());
-  cost.levels = levels_of(point, cost.grid);
-  double per_cell = (stick ? stick_per_cell : 0) + level_per_cell * cost.levels;
+  cost.intervals = intervals_of(point, cost.grid);
+  double per_cell = (stick ? stick_per_cell : 0) + interval_per_cell * cost.intervals;
   for (const StudyModel& model : models_of(point)) per_cell += model.seconds_per_cell;
   if (point.adhesion)
     per_cell += contact_models()[0].seconds_per_cell * contacts_of_adhesion *
@@ -310,7 +310,7 @@ void add_point(StudyCost& cost, const PointCost& own) {
   // The contacts inside the oscillation take the time, and the exchange, of so many more.
   const double sweep = contact_models()[std::size_t(ContactModel::bem)].seconds_per_cell +
                        (work.tangential_stiffness ? stick_per_cell : 0);
-  const double more = 1 + level_per_cell * own.levels / sweep;
+  const double more = 1 + interval_per_cell * own.intervals / sweep;
   const double rounds =
       std::ceil(static_cast<double>(own.surfaces) / static_cast<double>(all.groups));
   const Cost one = estimate_cost(work);

@@ -21,7 +21,7 @@ struct PointCost {
   std::size_t surfaces = 0;
   /// Contacts inside the oscillation for each load and surface, counted in contacts on the cells as
   /// they are; without the halvings that a relative error may ask for beyond the first.
-  double levels = 0;
+  double intervals = 0;
   double seconds = 0;  ///< of one thread, all surfaces
   double memory = 0;   ///< of one surface, bytes
   std::vector<std::string>
@@ -34,7 +34,7 @@ constexpr void describe(auto&& visit, std::type_identity<PointCost>) {
   visit(&S::surfaces, Quantity{"surfaces", dimensionless, "number of surfaces"});
   visit(&S::grid, Part{"", "points and size of one of them"});
   visit(&S::pressures, Quantity{"pressure", pressure, "nominal pressure"});
-  visit(&S::levels, Quantity{"levels", dimensionless, "contacts inside the oscillation"});
+  visit(&S::intervals, Quantity{"intervals", dimensionless, "contacts inside the oscillation"});
   visit(&S::seconds, Quantity{"seconds_of_one_thread", Dimension::time, "time of one thread"});
   visit(&S::warnings, Quantity{"warnings", dimensionless, "warnings"});
 }

@@ -258,8 +258,8 @@ SurfaceDampingOptions surface_damping_options(const StudyConfiguration& configur
   SurfaceDampingOptions options;
   options.hold = configuration.damping.hold;
   options.amplitude = configuration.damping.amplitude;
-  options.levels = configuration.levels.value_or(4);
-  options.choose_levels = alone || to_error;
+  options.intervals = configuration.intervals.value_or(4);
+  options.choose_intervals = alone || to_error;
   options.relative_error = configuration.relative_error;
   options.seam = configuration.seam;
   options.keep_cells = !alone && !to_error;
@@ -343,7 +343,7 @@ Realisation analyse_realisation(Surface drawn, const StudyConfiguration& configu
     result.model = model.id;
     if (bem) require_converged(result.curve, configuration);
     analyse(result, configuration, scale);
-    if (bem && configuration.levels != 0 && !configuration.adhesion)
+    if (bem && configuration.intervals != 0 && !configuration.adhesion)
       resolve_damping(result, surface, configuration, seed, share);
     realisation.models.push_back(std::move(result));
     spent += model.seconds_per_cell;

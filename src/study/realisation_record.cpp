@@ -45,7 +45,7 @@ std::uint64_t realisation_key(const StudyConfiguration& point, std::uint64_t see
                     point.stick, point.flow_factors, point.window, point.models, point.adhesion,
                     point.known.hardness, point.known.friction_coefficient, point.known.excursion,
                     point.motion, point.damping.hold, point.damping.amplitude,
-                    point.damping.tolerance, point.levels, point.relative_error, point.seam,
+                    point.damping.tolerance, point.intervals, point.relative_error, point.seam,
                     seeds_of(point).size() == 1, seed == seeds_of(point).front());
   return Checksum(bytes).value();
 }

@@ -108,8 +108,8 @@ StudyLoads study_loads(const StudyConfiguration& configuration, const Communicat
     warning = warning_of_pressure(loads.pressures.back(), modulus);
   if (warning) loads.warnings.push_back(*warning);
   require_below_hardness(configuration, loads);
-  require(configuration.levels != 0 || !(configuration.relative_error > 0 || configuration.seam),
-          "levels", 0,
+  require(configuration.intervals != 0 || !(configuration.relative_error > 0 || configuration.seam),
+          "intervals", 0,
           "levels state no error; use 4 or more, or leave out `relative_error` and the error of "
           "the seam");
   if (const auto& window = configuration.window) {

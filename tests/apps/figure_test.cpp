@@ -260,7 +260,7 @@ TEST_CASE("No text of a picture of a study lies on a curve or on another text", 
       "study --no-report --no-stick --surface " +
       (std::filesystem::path(SALEBRA_README).parent_path() / "data/surfaces/afm-scan.txt")
           .string() +
-      " --contact-modulus 115GPa --poisson 0.3 --friction-coefficient 0.3 --levels 0 "
+      " --contact-modulus 115GPa --poisson 0.3 --friction-coefficient 0.3 --intervals 0 "
       "--normal-amplitude 1nm --drag-velocity 1um/s --excursion 1nm --frequency 20kHz --pressures ";
   test.write("study.toml", study_text("seeds = [1, 2, 3]"));
   test.write("adhesive.toml", adhesive_study_text());

@@ -22,7 +22,7 @@ TEST_CASE("Three hundred surfaces are computed and written with 300 MB of addres
   // themselves. Libraries and the stacks of two threads have some 200 MB of addresses; what is
   // resident is 30 MB. Without levels a surface is pressed less often; the samples are as many.
   const auto result =
-      test.done("study study.toml -o result.h5 --no-report --quiet --threads 2 --levels 0",
+      test.done("study study.toml -o result.h5 --no-report --quiet --threads 2 --intervals 0",
                 "ulimit -v 300000;");
   const salebra::ResultReader reader(test.folder() / "result.h5");
   CHECK(reader.numbers("surface/seed").size() == 300);

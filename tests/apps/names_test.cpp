@@ -166,7 +166,7 @@ void check_file(const ResultReader& reader, const std::string& path = "") {
     const std::string parent = path.substr(path.rfind('/') + 1);
     // "hurst" has value, low and high; "psd" and "contact" are groups too.
     const bool part =
-        is_listed(parent) && parent != "psd" && parent != "contact" && parent != "levels";
+        is_listed(parent) && parent != "psd" && parent != "contact" && parent != "intervals";
     const std::string name = part ? parent : stem(dataset);
     REQUIRE(is_listed(name));
     const Meaning meaning = meaning_of(name);
@@ -264,7 +264,7 @@ void check_assumptions(const json& object) {
     const auto listed = [](const json& one) { return one.is_array() ? one : json::array({one}); };
     const json verdicts = listed(assumption["verdict"]), values = listed(assumption["value"]),
                limits = listed(assumption["limit_5_percent"]);
-    const bool large_is_good = name == "slip_of_opening_levels" || name == "slow_motion";
+    const bool large_is_good = name == "slip_of_opening_springs" || name == "slow_motion";
     for (std::size_t k = 0; k < verdicts.size(); ++k) {
       CHECK(words("holds doubtful broken unknown").contains(verdicts[k]));
       const json& limit = limits[limits.size() > 1 ? k : 0];

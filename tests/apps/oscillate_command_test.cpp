@@ -31,7 +31,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
           "[oscillate]") {
   const ProgramTest test;
   const std::string without_friction =
-      "oscillate --shape cone --points 40 --steps 16 --levels 4 --contact-modulus 1GPa --poisson "
+      "oscillate --shape cone --points 40 --steps 16 --intervals 4 --contact-modulus 1GPa --poisson "
       "0.3 --direction 30deg --phase 45deg --json --friction ";
   const std::string command = without_friction + "0.4 ";
   const auto whole = test.answer(command);
@@ -75,7 +75,7 @@ TEST_CASE("A killed cycle with friction resumes to the same numbers and lists al
 TEST_CASE("A killed coupled cycle resumes to the same numbers", "[oscillate]") {
   const ProgramTest test;
   const std::string command =
-      "oscillate --shape paraboloid --points 20 --steps 8 --levels 4 --max-periods 2 "
+      "oscillate --shape paraboloid --points 20 --steps 8 --intervals 4 --max-periods 2 "
       "--contact-modulus 1GPa --poisson 0.3 --coupled --quiet ";
   const auto whole = test.answer(command);
   const std::string recorded =

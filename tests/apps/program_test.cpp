@@ -271,7 +271,7 @@ TEST_CASE("SIGINT stops every command that computes for long, and nothing is wri
             "--friction-coefficient 0.3 --frequency 20kHz --normal-amplitude 1:20nm:40 "
             "--velocity-ratios 0.001:0.9:4000",
         "damping " + law + "--normal-amplitude 1:20nm:2000 --frequency 1:100kHz:2000",
-        cylinder + "--size-y 1m", cylinder + "--points 16 --levels 4000", surface,
+        cylinder + "--size-y 1m", cylinder + "--points 16 --intervals 4000", surface,
         surface + "--skewness 1 --kurtosis 5"}) {
     INFO(command);
     const auto start = std::chrono::steady_clock::now();

@@ -148,7 +148,7 @@ TEST_CASE("A relative error is met, or the study says what was reached and gives
     CHECK(refused.status == 2);
     CHECK_THAT(refused.err, Contains("damping.relative_error"));
   }
-  CHECK(test.run("study study.toml --levels 7").status == 2);
+  CHECK(test.run("study study.toml --intervals 7").status == 2);
   CHECK(test.run("study study.toml --seam-error none").status == 2);
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("A comparison of chosen models draws every point of the ensemble", "[s
 TEST_CASE("Without levels the loss is that of the curve, and no error is stated", "[study]") {
   const ProgramTest test;
   test.write("study.toml", study_text("seeds = [3]"));
-  const std::string study = "study study.toml --no-stick --levels 0 ";
+  const std::string study = "study study.toml --no-stick --intervals 0 ";
   const auto run = test.done(study + "--json -o curve.h5");
   const auto damping = run.json()["damping"];
   int known = 0;
@@ -229,13 +229,13 @@ TEST_CASE("Without levels the loss is that of the curve, and no error is stated"
           Approx(damping["work_per_cycle"]["mean"][k]).epsilon(1e-9));
   }
   CHECK(known > 5);
-  CHECK(test.run(study + "--dry-run --json").json()["points"][0]["levels"] == 0);
-  const auto compared = test.run("compare study.toml --no-stick --levels 0 --models gw_moments");
+  CHECK(test.run(study + "--dry-run --json").json()["points"][0]["intervals"] == 0);
+  const auto compared = test.run("compare study.toml --no-stick --intervals 0 --models gw_moments");
   CHECK(compared.status == 0);
   CHECK_THAT(compared.out, Contains("theorem"));
-  check_refused(test.run(study + "--relative-error 5%"), "--levels: 0 levels state no error");
-  check_refused(test.run(study + "--seam-error window"), "--levels: 0 levels state no error");
+  check_refused(test.run(study + "--relative-error 5%"), "--intervals: 0 levels state no error");
+  check_refused(test.run(study + "--seam-error window"), "--intervals: 0 levels state no error");
   std::string text = study_text("seeds = [3]");
-  test.write("study.toml", text + "levels = 0\n");
+  test.write("study.toml", text + "intervals = 0\n");
   CHECK(test.run("study study.toml --no-stick --json").json()["damping"] == damping);
 }

@@ -38,7 +38,7 @@ Dimension meaning(const std::string& object, const std::string& name) {
       {force, words("force mean_force tangential_force")},
       {energy,
        words("elastic_energy work_per_cycle work_per_cycle_without_slip error_estimate "
-             "work_by_levels work_by_levels_error "
+             "work_by_intervals work_by_intervals_error "
              "work_by_whole_cells work_by_force predicted_exponential predicted_exponential_finite "
              "work small_amplitude_work relaxation_work slip_work work_per_cycle_error dissipated "
              "stored_energy_change normal_work gap_work")},

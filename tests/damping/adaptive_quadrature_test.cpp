@@ -18,9 +18,9 @@ constexpr double contact_modulus = 3e9;
 const Grid2D coarsest{32, 32, 1e-3, 1e-3};
 
 template <class Shape>
-LevelsOnGrid free_levels(const Shape& shape) {
+ContactSetsOnGrid free_levels(const Shape& shape) {
   return [=](const Grid2D& grid) {
-    return boundary_element_levels(shape(grid), contact_modulus,
+    return boundary_element_contact_sets(shape(grid), contact_modulus,
                                    {.tolerance = 1e-9, .boundary = Boundary::free});
   };
 }
@@ -84,7 +84,7 @@ TEST_CASE("A requested error is reached and holds against the exact loss of roun
   const double amplitude = cone ? 7.5e-6 * pi / 2 : 0.1e-6;
   const PowerLaw cone_law(2 * contact_modulus / (pi * 0.1), 2, ratio);
   const PowerLaw sphere_law(4.0 / 3 * contact_modulus * std::sqrt(0.3), 1.5, ratio);
-  const LevelsOnGrid levels = cone ? free_levels([](const Grid2D& grid) {
+  const ContactSetsOnGrid intervals = cone ? free_levels([](const Grid2D& grid) {
     return cone_surface(grid, std::atan(0.1), off_grid_center(grid));
   })
                                    : free_levels([](const Grid2D& grid) {
@@ -93,7 +93,7 @@ TEST_CASE("A requested error is reached and holds against the exact loss of roun
   for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}),
                                     Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
     const AdaptiveQuadratureResult result =
-        adaptive_level_quadrature(levels, coarsest, material, motion, depth, to_error(0.01));
+        adaptive_interval_quadrature(intervals, coarsest, material, motion, depth, to_error(0.01));
     const double exact =
         relaxation_damping(cone ? cone_law : sphere_law, at_indentation(depth), motion)
             .work_per_cycle;
@@ -127,7 +127,7 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
   AdaptiveQuadratureOptions options = to_error(0.015);
   options.quadrature.direction = direction;
   const Oscillation motion = EqualFrequency{0.08e-6, 2e-7, pi / 2};
-  const AdaptiveQuadratureResult result = adaptive_level_quadrature(
+  const AdaptiveQuadratureResult result = adaptive_interval_quadrature(
       free_levels([&](const Grid2D& grid) {
         return elliptic_paraboloid_surface(grid, radius_x, radius_y, off_grid_center(grid));
       }),
@@ -142,19 +142,19 @@ TEST_CASE("The stated error holds for ellipses, whose loss elliptic integrals gi
 
 TEST_CASE("An error that cannot be reached is not called reached", "[levels]") {
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const LevelsOnGrid levels = free_levels(
+  const ContactSetsOnGrid intervals = free_levels(
       [](const Grid2D& grid) { return paraboloid_surface(grid, 0.3, off_grid_center(grid)); });
   const Oscillation motion = EqualFrequency{0.1e-6, 2e-7, pi / 2};
   AdaptiveQuadratureOptions options = to_error(1e-7);
   options.max_points = 32;
-  options.max_levels = 16;
+  options.max_intervals = 16;
   const AdaptiveQuadratureResult result =
-      adaptive_level_quadrature(levels(coarsest), coarsest, material, motion, 0.3e-6, options);
+      adaptive_interval_quadrature(intervals(coarsest), coarsest, material, motion, 0.3e-6, options);
   CHECK_FALSE(result.reached);
   CHECK(result.grid.nx == 32);
-  CHECK(result.levels == 16);
+  CHECK(result.intervals == 16);
   CHECK(result.trials.size() == 2);
   options.relative_error = 0;
-  CHECK_THROWS_WITH(adaptive_level_quadrature(levels, coarsest, material, motion, 0.3e-6, options),
+  CHECK_THROWS_WITH(adaptive_interval_quadrature(intervals, coarsest, material, motion, 0.3e-6, options),
                     Catch::StartsWith("relative_error: 0"));
 }

@@ -97,7 +97,7 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
     CAPTURE(&one - cases);
     const Assumptions assumptions =
         assumptions_of(*one.law, one.mean, one.motion, {.friction_coefficient = one.friction});
-    const Assumption& opening = assumptions.slip_of_opening_levels;
+    const Assumption& opening = assumptions.slip_of_opening_springs;
     // Friction that puts the same motion at the limit's M.
     const auto change_at = [&](double limit) {
       const double friction = one.friction * limit / opening.value;
@@ -123,8 +123,8 @@ TEST_CASE("Slip limits are where the simulated path loses 5 and 20 % more or les
        {Oscillation(Drag{1e-7, 1e-3, 1e5}), Oscillation(equal(3e-8, 1))}) {
     const ContactParameters parameters{.friction_coefficient = 0.5};
     // Cubics through 5 samples in each l.
-    CHECK(assumptions_of(table, 0, motion, parameters).slip_of_opening_levels.limit_5_percent ==
-          Approx(assumptions_of(exponential, 0, motion, parameters).slip_of_opening_levels.limit_5_percent)
+    CHECK(assumptions_of(table, 0, motion, parameters).slip_of_opening_springs.limit_5_percent ==
+          Approx(assumptions_of(exponential, 0, motion, parameters).slip_of_opening_springs.limit_5_percent)
               .epsilon(1e-3));
   }
 }
@@ -141,14 +141,14 @@ TEST_CASE("Limits of slip scale with mu/g and with the lengths of the contact", 
     const double more = 2 * (0.6 / 0.3) * (0.8 / 0.7) / 2;  // of μ/g
     const Assumptions rougher = limits(1, 0.7, 0.6, drag * more);
     // Bisected to 1e-6.
-    CHECK(larger.slip_of_opening_levels.limit_5_percent ==
-          Approx(one.slip_of_opening_levels.limit_5_percent).epsilon(1e-4));
-    CHECK(larger.slip_of_closed_levels.limit_5_percent ==
-          Approx(5 * one.slip_of_closed_levels.limit_5_percent).epsilon(1e-4));
-    CHECK(rougher.slip_of_opening_levels.limit_20_percent ==
-          Approx(one.slip_of_opening_levels.limit_20_percent).epsilon(1e-4));
-    CHECK(rougher.slip_of_closed_levels.limit_20_percent ==
-          Approx(more * one.slip_of_closed_levels.limit_20_percent).epsilon(1e-4));
+    CHECK(larger.slip_of_opening_springs.limit_5_percent ==
+          Approx(one.slip_of_opening_springs.limit_5_percent).epsilon(1e-4));
+    CHECK(larger.slip_of_closed_springs.limit_5_percent ==
+          Approx(5 * one.slip_of_closed_springs.limit_5_percent).epsilon(1e-4));
+    CHECK(rougher.slip_of_opening_springs.limit_20_percent ==
+          Approx(one.slip_of_opening_springs.limit_20_percent).epsilon(1e-4));
+    CHECK(rougher.slip_of_closed_springs.limit_20_percent ==
+          Approx(more * one.slip_of_closed_springs.limit_20_percent).epsilon(1e-4));
     CHECK(larger.amplitude.limit_5_percent ==
           Approx(5 * one.amplitude.limit_5_percent).epsilon(1e-4));
   }
@@ -161,15 +161,15 @@ TEST_CASE("A flat punch slips where Coulomb's limit of its one level is passed",
   const Assumptions equal = assumptions_of(law, mean, EqualFrequency{amplitude, 1e-8, pi / 2},
                                      {.friction_coefficient = 0.3});
   const double onset = stretch * std::sqrt(mean * mean - amplitude * amplitude);
-  CHECK(equal.slip_of_closed_levels.limit_5_percent == Approx(onset).epsilon(1e-3));
-  CHECK(equal.slip_of_closed_levels.verdict == Verdict::holds);
+  CHECK(equal.slip_of_closed_springs.limit_5_percent == Approx(onset).epsilon(1e-3));
+  CHECK(equal.slip_of_closed_springs.verdict == Verdict::holds);
   // Both turning points at the limit: X = 2(μ/g)δ_min.
   const Assumptions drag =
       assumptions_of(law, mean, Drag{amplitude, 1e-6, 1e5},
                   {.friction_coefficient = 0.3, .excursion = 3 * stretch * (mean - amplitude)});
-  CHECK(drag.slip_of_closed_levels.limit_5_percent ==
+  CHECK(drag.slip_of_closed_springs.limit_5_percent ==
         Approx(2 * stretch * (mean - amplitude)).epsilon(1e-2));
-  CHECK(drag.slip_of_closed_levels.verdict == Verdict::broken);
+  CHECK(drag.slip_of_closed_springs.verdict == Verdict::broken);
 }
 
 TEST_CASE("A table of constant stiffness has no levels but the noise of its last digits",
@@ -186,7 +186,7 @@ TEST_CASE("A table of constant stiffness has no levels but the noise of its last
        {Oscillation(EqualFrequency{5e-8, 1e-9, 1}), Oscillation(Drag{5e-8, 1e-9, 1})}) {
     const Assumptions assumptions = assumptions_of(law, 1e-7, motion, {.friction_coefficient = 0.3});
     CHECK(assumptions.amplitude.verdict == Verdict::holds);
-    CHECK(assumptions.slip_of_opening_levels.verdict != Verdict::unknown);
+    CHECK(assumptions.slip_of_opening_springs.verdict != Verdict::unknown);
   }
 }
 
@@ -212,15 +212,15 @@ TEST_CASE("The excursion of a slow motion is limited by slip of the closed level
     // The share goes like X².
     const double steady = relaxation_damping(law, at_indentation(0), drag).work_per_cycle;
     const double expected = excursion * std::sqrt(0.05 * steady / simulated.slip_work);
-    CHECK(assumptions.slip_of_closed_levels.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
+    CHECK(assumptions.slip_of_closed_springs.limit_5_percent == Approx(expected).epsilon(1.0 / cycles));
   }
   // The example of many introductions: 1 mm/s, 1 nm, 20 kHz, l = 30 nm.
   const ExponentialLaw rough(1, 3e-8, ratio);
   const Assumptions fast =
       assumptions_of(rough, 0, Drag{1e-9, 1e-3, 2 * pi * 2e4}, {.friction_coefficient = 0.3});
-  CHECK(fast.slip_of_opening_levels.verdict == Verdict::broken);
-  CHECK(fast.slip_of_closed_levels.verdict == Verdict::broken);
-  CHECK(fast.slip_of_closed_levels.limit_20_percent == 0);
+  CHECK(fast.slip_of_opening_springs.verdict == Verdict::broken);
+  CHECK(fast.slip_of_closed_springs.verdict == Verdict::broken);
+  CHECK(fast.slip_of_closed_springs.limit_20_percent == 0);
   CHECK(fast.largest.front().excursion == 0);
 }
 
@@ -333,8 +333,8 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
   const ExponentialLaw law(1, 1e-7, ratio);
   const Drag motion{1e-9, 1e-6, 1e5};
   const Assumptions bare = assumptions_of(law, 0, motion);
-  CHECK(bare.slip_of_opening_levels.needs == "friction_coefficient");
-  CHECK(bare.slip_of_opening_levels.limit_5_percent > 1);
+  CHECK(bare.slip_of_opening_springs.needs == "friction_coefficient");
+  CHECK(bare.slip_of_opening_springs.limit_5_percent > 1);
   CHECK(bare.plasticity.needs == "hardness");
   CHECK(bare.inertia.needs == "density");
   REQUIRE(bare.largest.size() == 3);
@@ -343,11 +343,11 @@ TEST_CASE("Assumptions name what they need, and refuse parameters that cannot be
   ContactParameters parameters{.friction_coefficient = 0.3};
   Drag slow = motion;
   slow.drag_velocity = bare.largest[1].drag_velocity;
-  const Assumption at_limit = assumptions_of(law, 0, slow, parameters).slip_of_opening_levels;
+  const Assumption at_limit = assumptions_of(law, 0, slow, parameters).slip_of_opening_springs;
   CHECK(at_limit.value == Approx(at_limit.limit_5_percent).epsilon(1e-6));
-  CHECK(assumptions_of(law, 0, motion, parameters).slip_of_closed_levels.needs == "excursion");
+  CHECK(assumptions_of(law, 0, motion, parameters).slip_of_closed_springs.needs == "excursion");
   slow.drag_velocity = ContactParameters::unknown;
-  CHECK(assumptions_of(law, 0, slow, parameters).slip_of_opening_levels.needs == "drag_velocity");
+  CHECK(assumptions_of(law, 0, slow, parameters).slip_of_opening_springs.needs == "drag_velocity");
 
   parameters = {.hardness = 1e9,
            .density = 8000,
@@ -452,12 +452,12 @@ TEST_CASE("A sampled path has the assumptions of the motion that it samples", "[
       column->erase(column->begin(), column->begin() + 100);
     const Assumptions whole = assumptions_of(law, 1e-6, motion, parameters),
                    sampled = assumptions_of(law, path, parameters);
-    CHECK(sampled.slip_of_opening_levels.value ==
-          Approx(whole.slip_of_opening_levels.value).epsilon(1e-3));
-    CHECK(sampled.slip_of_opening_levels.limit_5_percent ==
-          Approx(whole.slip_of_opening_levels.limit_5_percent).epsilon(1e-3));
-    CHECK(sampled.slip_of_closed_levels.limit_20_percent ==
-          Approx(whole.slip_of_closed_levels.limit_20_percent).epsilon(2e-3));
+    CHECK(sampled.slip_of_opening_springs.value ==
+          Approx(whole.slip_of_opening_springs.value).epsilon(1e-3));
+    CHECK(sampled.slip_of_opening_springs.limit_5_percent ==
+          Approx(whole.slip_of_opening_springs.limit_5_percent).epsilon(1e-3));
+    CHECK(sampled.slip_of_closed_springs.limit_20_percent ==
+          Approx(whole.slip_of_closed_springs.limit_20_percent).epsilon(2e-3));
     CHECK(sampled.amplitude.verdict == Verdict::holds);
   }
 }
@@ -593,8 +593,8 @@ TEST_CASE("A map of regimes has the borders of the assumptions, and they are mon
           const Assumption& slow = assumptions.slow_motion;
           const double taken = one.law == &punch ? 0 : 0.05 * slow.limit_5_percent / slow.value;
           CHECK(std::abs(loss - 1 + taken) < 0.1001);
-          CHECK(assumptions.slip_of_closed_levels.verdict == Verdict::holds);
-          CHECK(assumptions.slip_of_opening_levels.verdict == Verdict::holds);
+          CHECK(assumptions.slip_of_closed_springs.verdict == Verdict::holds);
+          CHECK(assumptions.slip_of_opening_springs.verdict == Verdict::holds);
         }
       }
     }
@@ -728,7 +728,7 @@ TEST_CASE("Conditions name their limit, what holds, at which loads, and what to 
   CHECK(!slow.remedy.empty());
   CHECK_THAT(verdicts_of(cases, false)[0].here, Catch::EndsWith(", in 3 of 5"));
   // Slip that is followed is no condition.
-  for (Assumptions& one : cases) one.slip_of_opening_levels.verdict = Verdict::broken;
+  for (Assumptions& one : cases) one.slip_of_opening_springs.verdict = Verdict::broken;
   CHECK(validity() == Validity::not_valid);
   CHECK_THAT(verdicts_of(cases, false, pressures)[0].here, Catch::EndsWith(", at all loads"));
   CHECK(validity(true) == Validity::valid_with_care);

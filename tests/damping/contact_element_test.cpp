@@ -19,10 +19,10 @@ namespace {
 
 constexpr double ratio = 0.8;
 
-std::shared_ptr<const LawLevels> levels_of(const ContactLaw& law, double lowest, double highest,
-                                           double friction, int levels) {
-  return std::make_shared<const LawLevels>(
-      law, lowest, highest, LawLevelsOptions{.friction_coefficient = friction, .levels = levels});
+std::shared_ptr<const LawSprings> intervals_of(const ContactLaw& law, double lowest, double highest,
+                                           double friction, int springs) {
+  return std::make_shared<const LawSprings>(
+      law, lowest, highest, LawSpringsOptions{.friction_coefficient = friction, .springs = springs});
 }
 
 double size_of(const ElementForces& forces) {
@@ -42,12 +42,12 @@ std::vector<std::array<double, 3>> walk(double low, double high, double reach, i
 
 // The largest difference of the force along x from that of a contact without levels, relative to
 // μF, over a path of turning points that both take in small steps.
-double error_of_levels(const ContactLaw& law, double low, double high, double friction,
-                       int levels) {
+double error_of_intervals(const ContactLaw& law, double low, double high, double friction,
+                       int springs) {
   const double reach = 0.6 * (high - low);
   TangentialContact exact(law, low, high,
                           {.friction_coefficient = friction, .tangential_range = 2 * reach});
-  ContactElement element(levels_of(law, low, high, friction, levels));
+  ContactElement element(intervals_of(law, low, high, friction, springs));
   const auto path = walk(low, high, reach, 30);
   exact.start(path[0][0], 0), element.start(path[0][0], 0, 0);
   double worst = 0;
@@ -126,7 +126,7 @@ TEST_CASE("No path takes the tangential force of a tabulated law beyond μF") {
     const TabulatedLaw law(curve_of(table), ratio);
     const double middle = law.indentation_of(0.5), highest = law.highest_indentation();
     const double low = law.indentation_of(0.05), reach = 0.5 * (highest - middle);
-    ContactElement element(levels_of(law, low, highest, friction, 64));
+    ContactElement element(intervals_of(law, low, highest, friction, 64));
     element.start(middle, 0, 0);
     // The lowest tangent ends where the contact parts: a part of the path lies there. Every other
     // motion is short, and one along x: most of these slip only a little.
@@ -157,7 +157,7 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
     const TabulatedLaw law(curve_of(table), ratio);
     const double middle = law.indentation_of(1);
     const auto loop = [&](const EqualFrequency& motion, double coefficient, double& peak) {
-      ContactElement element(levels_of(law, middle - motion.normal_amplitude,
+      ContactElement element(intervals_of(law, middle - motion.normal_amplitude,
                                        middle + motion.normal_amplitude, coefficient, 512));
       const auto at = [&](double phase) {
         return std::array{middle + motion.normal_amplitude * std::cos(phase),
@@ -177,11 +177,11 @@ TEST_CASE("A loop of an element over a tabulated law loses what a joint and a da
     // Both have the K_t of the law, and a loss proportional to the stretch at which a spring slips:
     // the joint takes K_t/K at its indentation for it, and the element that of the whole contact. The
     // depth of slip counts once more where K_t bends.
-    const LawLevels levels(law, middle, middle, {.levels = 512});
+    const LawSprings springs(law, middle, middle, {.intervals = 512});
     double reach = 0;
-    for (std::size_t i = 0; i < levels.size(); ++i)
-      if (levels.level_depths()[i] < middle)
-        reach += levels.level_stiffnesses()[i] * (middle - levels.level_depths()[i]);
+    for (std::size_t i = 0; i < springs.size(); ++i)
+      if (springs.spring_depths()[i] < middle)
+        reach += springs.spring_stiffnesses()[i] * (middle - springs.spring_depths()[i]);
     const double ratios =
         0.01 + 2 * std::abs(law.stiffness_ratio(middle) * law.force(middle) / reach - 1);
     CHECK(ratios < 0.2);
@@ -233,7 +233,7 @@ TEST_CASE("On noisy curves of a sphere an element and a joint differ by less tha
            .tangential_stiffness = ratio * 1.5 * force / indentation * noise()});
     }
     const TabulatedLaw law(curve, ratio);
-    ContactElement element(levels_of(law, middle, middle, friction, 256));
+    ContactElement element(intervals_of(law, middle, middle, friction, 256));
     element.start(middle, 0, 0);
     double work = 0, before = 0, force = 0;
     constexpr int steps = 1000;
@@ -264,19 +264,19 @@ TEST_CASE("The force of an element tends to that of a contact without levels") {
   // Levels as wide as h leave an error of h in where slip ends and in what a level remembers, hence
   // of first order at least; between 32 and 256 levels it falls by 8 or more.
   const ExponentialLaw exponential(10, 1e-7, ratio);
-  const double coarse = error_of_levels(exponential, -5e-8, 5e-8, 0.3, 32);
-  const double fine = error_of_levels(exponential, -5e-8, 5e-8, 0.3, 256);
+  const double coarse = error_of_intervals(exponential, -5e-8, 5e-8, 0.3, 32);
+  const double fine = error_of_intervals(exponential, -5e-8, 5e-8, 0.3, 256);
   CAPTURE(coarse, fine);
   CHECK(coarse < 0.02);
   CHECK(fine < coarse / 8);
   const PowerLaw sphere(1e9, 1.5, ratio);
-  CHECK(error_of_levels(sphere, 1e-8, 6e-8, 0.3, 256) < 2e-3);
+  CHECK(error_of_intervals(sphere, 1e-8, 6e-8, 0.3, 256) < 2e-3);
 }
 
 TEST_CASE("The normal force of an element is that of the law to fourth order of its nodes") {
   const ExponentialLaw law(10, 1e-7, ratio);
-  const auto error = [&](int levels) {
-    const LawLevels of(law, -2e-7, 2e-7, {.levels = levels});
+  const auto error = [&](int springs) {
+    const LawSprings of(law, -2e-7, 2e-7, {.springs = springs});
     double worst = 0;
     for (double at = -2e-7; at < 2e-7; at += 1.7e-9)
       worst = std::max(worst, std::abs(of.normal(at).force / law.force(at) - 1));
@@ -293,7 +293,7 @@ TEST_CASE("An element in full stick loses what the levels that it lets go held")
   // K_t(low) times X²/2 each time the body rises at 0 and falls at X.
   const ExponentialLaw law(10, 1e-7, ratio);
   const double low = -3e-8, high = 4e-8, travel = 5e-9;
-  ContactElement element(levels_of(law, low, high, INFINITY, 64));
+  ContactElement element(intervals_of(law, low, high, INFINITY, 64));
   element.start(low, 0, 0);
   double work = 0;
   const auto go = [&](double indentation, double x) {
@@ -314,8 +314,8 @@ TEST_CASE("An element under a constant load loses what Mindlin's bodies lose in 
   // W = 8μ²(E*/G*)lF[−(1 − q/2)ln(1 − q) − q], q = T/(μF): two half cycles between ±T.
   const double load = 10, decay = 1e-7, friction = 0.3;
   const ExponentialLaw law(load, decay, ratio);
-  const auto error = [&](double q, int levels) {
-    ContactElement element(levels_of(law, 0, 0, friction, levels));
+  const auto error = [&](double q, int springs) {
+    ContactElement element(intervals_of(law, 0, 0, friction, springs));
     element.start(0, 0, 0);
     // Loading: T = μF(1 − exp(−x/x_c)), x_c = μ(E*/G*)l.
     const double amplitude = -friction / ratio * decay * std::log1p(-q);
@@ -345,7 +345,7 @@ TEST_CASE("An element under a constant load loses what Mindlin's bodies lose in 
 
 TEST_CASE("Sliding in any direction takes μF, against the motion") {
   const PowerLaw law(1e9, 1.5, ratio);
-  ContactElement element(levels_of(law, 0, 5e-8, 0.2, 32));
+  ContactElement element(intervals_of(law, 0, 5e-8, 0.2, 32));
   element.start(3e-8, 0, 0);
   for (const double angle : {0.3, 2.0, 4.5}) {
     const std::vector<double> from = element.state();
@@ -361,8 +361,8 @@ TEST_CASE("Sliding in any direction takes μF, against the motion") {
 
 TEST_CASE("An element knows no direction") {
   const ExponentialLaw law(10, 1e-7, ratio);
-  const auto levels = levels_of(law, -5e-8, 5e-8, 0.3, 32);
-  ContactElement straight(levels), turned(levels);
+  const auto springs = intervals_of(law, -5e-8, 5e-8, 0.3, 32);
+  ContactElement straight(springs), turned(springs);
   straight.start(0, 0, 0), turned.start(0, 0, 0);
   const double c = std::cos(0.7), s = std::sin(0.7);
   for (const auto& [indentation, x, y] : walk(-5e-8, 5e-8, 3e-8, 200)) {
@@ -382,7 +382,7 @@ TEST_CASE("The stiffness of an element is the derivative of its forces") {
   for (const double friction : {0.3, double(INFINITY)})
     for (const ContactLaw* law :
          {static_cast<const ContactLaw*>(&exponential), static_cast<const ContactLaw*>(&sphere)}) {
-      ContactElement element(levels_of(*law, 1e-8, 9e-8, friction, 24));
+      ContactElement element(intervals_of(*law, 1e-8, 9e-8, friction, 24));
       element.start(2e-8, 0, 0);
       int compared = 0;
       for (const auto& end : walk(-1e-8, 9e-8, 4e-8, 300)) {
@@ -416,12 +416,12 @@ TEST_CASE("The stiffness of an element is the derivative of its forces") {
 
 TEST_CASE("A copy of an element and its numbers are states to come back to") {
   const ExponentialLaw law(10, 1e-7, ratio);
-  const auto levels = levels_of(law, -5e-8, 5e-8, 0.3, 32);
-  ContactElement element(levels);
+  const auto springs = intervals_of(law, -5e-8, 5e-8, 0.3, 32);
+  ContactElement element(springs);
   element.start(0, 0, 0);
   const auto path = walk(-5e-8, 5e-8, 3e-8, 40);
   for (int i = 0; i < 20; ++i) element.move_to(path[i][0], path[i][1], path[i][2]);
-  ContactElement copy = element, restored(levels);
+  ContactElement copy = element, restored(springs);
   restored.restore(element.state());
   element.forces(9e-8, 1e-6, 0);  // a step that is not taken
   for (int i = 20; i < 40; ++i) {
@@ -438,7 +438,7 @@ TEST_CASE("A copy of an element and its numbers are states to come back to") {
 TEST_CASE("An element that parts has no force, and forgets") {
   for (const double friction : {0.3, double(INFINITY)}) {
     const ExponentialLaw law(10, 1e-7, ratio);
-    ContactElement element(levels_of(law, -1e-7, 1e-7, friction, 32));
+    ContactElement element(intervals_of(law, -1e-7, 1e-7, friction, 32));
     element.start(0, 0, 0);
     CHECK(size_of(element.move_to(0, 1e-8, 2e-8)) > 0);
     // 1e-6 of the highest force are 14 decay lengths below it, and the tangent one further.
@@ -456,16 +456,16 @@ TEST_CASE("An element that parts has no force, and forgets") {
 
 TEST_CASE("Levels say what they cannot do") {
   const ExponentialLaw law(10, 1e-7, ratio);
-  CHECK_THROWS_WITH(LawLevels(law, 0, 1e-8, {.friction_coefficient = -1}),
+  CHECK_THROWS_WITH(LawSprings(law, 0, 1e-8, {.friction_coefficient = -1}),
                     Catch::Contains("friction_coefficient"));
-  CHECK_THROWS_WITH(LawLevels(law, 0, 1e-8, {.levels = 2}), Catch::Contains("levels"));
-  CHECK_THROWS_WITH(LawLevels(law, 1e-8, 0), Catch::Contains("lowest"));
-  CHECK_THROWS_WITH(LawLevels(PowerLaw(1e9, 1.5, ratio), -2e-8, -1e-8),
+  CHECK_THROWS_WITH(LawSprings(law, 0, 1e-8, {.intervals = 2}), Catch::Contains("intervals"));
+  CHECK_THROWS_WITH(LawSprings(law, 1e-8, 0), Catch::Contains("lowest"));
+  CHECK_THROWS_WITH(LawSprings(PowerLaw(1e9, 1.5, ratio), -2e-8, -1e-8),
                     Catch::Contains("nothing touches"));
   ForceCurve falling{.model = "measured", .nominal_area = 1, .samples = {}};
   for (const double at : {1e-8, 2e-8, 3e-8, 4e-8, 5e-8, 6e-8})
     falling.samples.push_back({.indentation = at, .force = std::sqrt(at)});
-  CHECK_THROWS_WITH(LawLevels(TabulatedLaw(falling, ratio), 2e-8, 5e-8),
+  CHECK_THROWS_WITH(LawSprings(TabulatedLaw(falling, ratio), 2e-8, 5e-8),
                     Catch::Contains("off the mean of those about it"));
-  CHECK_THROWS_WITH(ContactElement(nullptr), Catch::Contains("levels"));
+  CHECK_THROWS_WITH(ContactElement(nullptr), Catch::Contains("intervals"));
 }

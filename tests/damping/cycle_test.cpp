@@ -31,7 +31,7 @@ ContactSet disc(const Grid2D& grid, double radius) {
 
 // The cone with g(x) = c|x|: a = δ/c, F = E*δ²/c, F'' = 2E*/c at every δ > 0.
 constexpr double cone_slope = 0.02;
-ContactLevels cone(const Grid2D& grid) {
+ContactSets cone(const Grid2D& grid) {
   return [grid](double indentation) {
     return ContactSetAt{.contact = disc(grid, indentation / cone_slope),
                         .force = contact_modulus * indentation * indentation / cone_slope};
@@ -40,7 +40,7 @@ ContactLevels cone(const Grid2D& grid) {
 
 // Nested sets without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1, and
 // have holes that close.
-ContactLevels islands(const Grid2D& grid) {
+ContactSets islands(const Grid2D& grid) {
   return [grid](double indentation) {
     ContactSetAt level{.contact = ContactSet(grid.nx, grid.ny)};
     for (Index ix = 0; ix < grid.nx; ++ix)
@@ -66,7 +66,7 @@ double stiffness_along(const ContactSet& contact, const Grid2D& grid, const Mate
 // The theorem for the sets of a discretised cycle that is symmetric about t = 1/2: the cells
 // between A(t_k) and A(t_{k+1}) enter at t_{k+1/2} and leave at 1 − t_{k+1/2}, hence W = ½ Σ
 // (K_{k+1} − K_k) s².
-double theorem(const ContactLevels& levels, const Grid2D& grid, const Material& material,
+double theorem(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
                const Trajectory& motion, const CycleOptions& options) {
   double sum = 0, below = 0;
   for (int k = 0; k <= options.steps / 2; ++k) {
@@ -89,7 +89,7 @@ TEST_CASE("The simulated loss is half the integral of s squared over K_t, for an
   const double poisson = GENERATE(0.0, 0.3, 0.5);
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
-  const ContactLevels levels = islands(grid);
+  const ContactSets levels = islands(grid);
   CycleOptions options{.steps = 12, .direction = 0.7};
   options.stick = {.tolerance = 1e-9, .boundary = boundary};
   for (const Oscillation& motion :
@@ -222,7 +222,7 @@ TEST_CASE("The steps' error holds for a motion that turns inside the sweep", "[c
 TEST_CASE("A contact turned by 90 degrees loses along y what it lost along x", "[cycle]") {
   const Grid2D grid{27, 20, 1.3e-3, 1e-3}, turned{20, 27, 1e-3, 1.3e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.4);
-  const ContactLevels across = [&](double indentation) {
+  const ContactSets across = [&](double indentation) {
     ContactSetAt level = islands(grid)(indentation);
     level.contact = ContactSet(level.contact.transpose());
     return level;
@@ -285,7 +285,7 @@ TEST_CASE("The loss goes with the squared sine of the phase, even in few steps",
 TEST_CASE("A contact whose cells do not change loses nothing", "[cycle]") {
   const Grid2D grid{40, 40, 1e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const ContactLevels cylinder = [&](double) { return ContactSetAt{disc(grid, 0.3e-3)}; };
+  const ContactSets cylinder = [&](double) { return ContactSetAt{disc(grid, 0.3e-3)}; };
   CycleOptions options{.steps = 16};
   options.stick.boundary = Boundary::free;
   const double amplitude = 2e-6;
@@ -340,7 +340,7 @@ TEST_CASE("A cycle that cannot be trusted is not called converged, and bad input
   CycleOptions options{.steps = 8};
   options.stick.max_iterations = 3;
   CHECK_FALSE(simulate_cycle(islands(grid), grid, material, motion, options).converged());
-  const ContactLevels doubtful = [&](double indentation) {
+  const ContactSets doubtful = [&](double indentation) {
     ContactSetAt level = islands(grid)(indentation);
     level.converged = indentation < 0.4 || indentation > 0.6;  // met on the way, not at its ends
     return level;

@@ -183,8 +183,8 @@ TEST_CASE("Each function of a law and a motion refuses one beyond any contact", 
           about_rest);
   refuses([&](double f) { return trajectory_damping(law, path_to(f * possible)); }, of_path);
   refuses([&](double f) { return assumptions_of(law, path_to(f * possible)); }, of_path);
-  refuses([&](double f) { return LawLevels(law, -2 * possible, f * possible); }, of_path);
-  CHECK_THROWS_WITH(LawLevels(law, 0, 1e5 * decay_length), Catch::Contains("at most 249 nm"));
+  refuses([&](double f) { return LawSprings(law, -2 * possible, f * possible); }, of_path);
+  CHECK_THROWS_WITH(LawSprings(law, 0, 1e5 * decay_length), Catch::Contains("at most 249 nm"));
   // Under a held mean force the same amplitudes lie about a lower mean indentation.
   const double wide = 1e-6, settled = indentation_at_mean_force(law, 10, wide);
   CHECK(mean_force_of_cycle(law, settled, wide) == Approx(10));

@@ -23,7 +23,7 @@ constexpr double contact_modulus = 1e9;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // A shape by boundary elements, indented from its true apex and not from the cell next to it.
-PressureLevels levels_of(const Surface& shape) {
+PressureFields intervals_of(const Surface& shape) {
   const double highest = shape.heights.maxCoeff();
   return [bem = boundary_element_pressures(shape, contact_modulus, {.boundary = Boundary::free}),
           highest](double indentation) { return bem(indentation + highest); };
@@ -36,7 +36,7 @@ CycleOptions free_boundary(double friction, int steps) {
 }
 
 // Nested pressures without any symmetry: islands that appear, grow and merge as δ goes from 0 to 1.
-PressureLevels islands(const Grid2D& grid, double peak) {
+PressureFields islands(const Grid2D& grid, double peak) {
   return [grid, peak](double indentation) {
     PressureAt level{.contact_pressure = Field(grid.nx, grid.ny)};
     for (Index ix = 0; ix < grid.nx; ++ix)
@@ -82,8 +82,8 @@ TEST_CASE("A sphere under constant load loses Mindlin's loop", "[friction]") {
   }
   const auto error = [&](Index n, int steps) {
     const Grid2D grid{n, n, 1e-3, 1e-3};
-    const PressureLevels levels =
-        levels_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
+    const PressureFields levels =
+        intervals_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
     const Trajectory motion{[&](double) { return indentation; },
                             [&](double t) { return amplitude * std::sin(2 * pi * t); }};
     const CycleResult cycle =
@@ -116,9 +116,9 @@ TEST_CASE("A sphere under a tangential force is Mindlin and Deresiewicz's", "[fr
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const Grid2D grid{48, 48, 1e-3, 1e-3};
   const double radius = 8e-3, indentation = std::pow(0.35e-3, 2) / radius, friction = 0.4;
-  const PressureLevels levels = levels_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
+  const PressureFields levels = intervals_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
   const IndenterLaw law(paraboloid_profile(radius), material);
-  const double force = levels(indentation).force, phase = 1.1;
+  const double force = contact_sets(indentation).force, phase = 1.1;
   const TangentialForce motion{part * friction * force};
   const JointLoss simulated =
       simulated_joint_loss(levels, grid, material, indentation, {motion, normal_amplitude, phase},
@@ -152,14 +152,14 @@ TEST_CASE("A rough surface under a tangential force obeys Masing's rule on its o
   // Jäger. The loop is off by the steps, 0.7 % with 32.
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const Grid2D grid{48, 48, 10e-6, 10e-6};
-  const PressureLevels levels = boundary_element_pressures(rough_surface(grid), contact_modulus);
-  const double indentation = 63e-9, friction = 0.4, force = levels(indentation).force;
+  const PressureFields levels = boundary_element_pressures(rough_surface(grid), contact_modulus);
+  const double indentation = 63e-9, friction = 0.4, force = contact_sets(indentation).force;
   const TangentialForce motion{0.6 * friction * force};
   const JointLoss loss = simulated_joint_loss(levels, grid, material, indentation, {motion},
                                               {.friction_coefficient = friction, .steps = 32});
   REQUIRE(loss.converged);
   const auto first_loading = [&](double x) {
-    return friction * (force - levels(indentation - x / friction).force);
+    return friction * (force - contact_sets(indentation - x / friction).force);
   };
   const double x = loss.tangential_amplitude;
   CHECK(first_loading(x) == Approx(motion.amplitude).epsilon(1e-3));
@@ -173,7 +173,7 @@ TEST_CASE("A tangential force at which the contact slides is refused, and what i
           "[friction]") {
   const Grid2D grid{18, 14, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const PressureLevels levels = islands(grid, 2e7);
+  const PressureFields levels = islands(grid, 2e7);
   const double limit = 0.3 * grid.cell_area() * levels(0.6).contact_pressure.sum();
   Trajectory path;
   path.indentation = [](double) { return 0.6; };
@@ -191,7 +191,7 @@ TEST_CASE("A tangential force at which the contact slides is refused, and what i
           Approx(path.tangential_force(sample.t)).margin(1.1e-7 * 0.9 * limit));
   CHECK(cycle.dissipated == Approx(cycle.work_per_cycle).epsilon(1e-6));
   const auto sets = [&](double indentation) {
-    return ContactSetAt{levels(indentation).contact_pressure > 0};
+    return ContactSetAt{contact_sets(indentation).contact_pressure > 0};
   };
   path.tangential = [](double) { return 0.0; };
   CHECK_THROWS_WITH(simulate_cycle(sets, grid, material, path),
@@ -209,7 +209,7 @@ TEST_CASE("An oscillating cone loses what the method of dimensionality reduction
   const double angle = 0.05, indentation = 0.25e-3 * pi / 2 * std::tan(angle);
   const double amplitude = 0.4 * indentation;
   const IndenterLaw law(cone_profile(angle), material);
-  const PressureLevels levels = levels_of(cone_surface(grid, angle, off_grid_center(grid)));
+  const PressureFields levels = intervals_of(cone_surface(grid, angle, off_grid_center(grid)));
   const auto [phase, number, tolerance] = GENERATE(table<double, double, double>({
       // Measured with 64 steps: 0.01, 0.2, 0.2 and 0.2, 2.4, 0.1 %; the third, where half the cone
       // slips all the time, has 1.0 % with 128 steps at 64².
@@ -240,9 +240,9 @@ TEST_CASE("Much friction is the stuck contact, whose losses are released", "[fri
   const double poisson = GENERATE(0.0, 0.5);
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
-  const PressureLevels levels = islands(grid, 1e6);
-  const ContactLevels sets = [&](double indentation) {
-    return ContactSetAt{levels(indentation).contact_pressure > 0};
+  const PressureFields levels = islands(grid, 1e6);
+  const ContactSets sets = [&](double indentation) {
+    return ContactSetAt{contact_sets(indentation).contact_pressure > 0};
   };
   const auto ratio = [&](int steps) {
     CycleOptions stuck{.steps = steps, .direction = 0.7};
@@ -268,7 +268,7 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
   const Boundary boundary = GENERATE(Boundary::periodic, Boundary::free);
   const double poisson = GENERATE(0.0, 0.3, 0.5);
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
-  const PressureLevels levels = islands(grid, 2e7);
+  const PressureFields levels = islands(grid, 2e7);
   SECTION("over a cycle") {
     CycleOptions options{.friction_coefficient = 0.5, .steps = 16, .direction = 0.7};
     options.stick.boundary = boundary;
@@ -292,7 +292,7 @@ TEST_CASE("Work and friction balance on any surface, and every cell obeys Coulom
                               {0.9, -1e-6, 0},   {0.6, -1e-6, 1e-6}, {0.3, 0, 1e-6},
                               {0.8, 1e-6, 2e-6}, {0, 1e-6, 0}};
     for (const auto& [indentation, x, y] : path) {
-      const Field pressure = levels(indentation).contact_pressure;
+      const Field pressure = contact_sets(indentation).contact_pressure;
       REQUIRE(contact.advance(pressure, {x, y}).converged());
       const Field traction = (contact.traction().x.square() + contact.traction().y.square()).sqrt();
       if (friction < infinite)
@@ -314,7 +314,7 @@ TEST_CASE("A sphere pressed obliquely slips nowhere below the angle of friction"
   const Material material = Material::of_contact_modulus(contact_modulus, 0);
   const double radius = 8e-3, indentation = std::pow(0.35e-3, 2) / radius, slope = 0.7;
   const double pull = slope * material.modulus_ratio();
-  const PressureLevels levels = levels_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
+  const PressureFields levels = intervals_of(paraboloid_surface(grid, radius, off_grid_center(grid)));
   struct Errors {
     double force, loss;
   };
@@ -407,7 +407,7 @@ TEST_CASE("A drag with friction starts in the state that it would end in", "[fri
   const auto [poisson, advance, periods] =
       GENERATE(table<double, double, int>({{0.0, 3e-7, 2}, {0.3, 3e-7, 5}, {0.3, -3e-7, 5}}));
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
-  const PressureLevels levels = islands(grid, 2e7);
+  const PressureFields levels = islands(grid, 2e7);
   const double friction = 0.3;
   const int steps = 12;
   const Trajectory motion{[](double t) { return 0.6 - 0.2 * std::cos(2 * pi * t); },
@@ -505,7 +505,7 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   const Grid2D grid{27, 20, 1.3e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 1.1}, 0.5);
-  const PressureLevels levels = islands(grid, 2e7);
+  const PressureFields levels = islands(grid, 2e7);
   const CycleResult smooth = simulate_frictional_cycle(levels, grid, material, motion,
                                                        {.friction_coefficient = 0, .steps = 8});
   CHECK(smooth.converged());
@@ -518,7 +518,7 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
       Catch::StartsWith("friction_coefficient: -1"));
   // 8 bytes for each of 2048² cells and half of 10⁵ steps are 1.7 TB, which are asked for before
   // the first contact.
-  const PressureLevels unasked = [](double) -> PressureAt { throw std::logic_error("asked"); };
+  const PressureFields unasked = [](double) -> PressureAt { throw std::logic_error("asked"); };
   CHECK_THROWS_WITH(
       simulate_frictional_cycle(unasked, Grid2D{2048, 2048, 1e-3, 1e-3}, material, motion,
                                 {.friction_coefficient = 0.5, .steps = 100000}),
@@ -528,8 +528,8 @@ TEST_CASE("Without friction nothing is lost, and bad input of a frictional cycle
   CHECK_FALSE(simulate_frictional_cycle(levels, grid, material, motion, hasty).converged());
   // The deepest level, which is solved last, and the highest, which comes first.
   for (const bool deepest : {true, false}) {
-    const PressureLevels doubtful = [&](double indentation) {
-      PressureAt level = levels(indentation);
+    const PressureFields doubtful = [&](double indentation) {
+      PressureAt level = contact_sets(indentation);
       level.converged = deepest ? indentation < 0.9 : indentation > 0.1;
       return level;
     };

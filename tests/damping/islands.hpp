@@ -7,7 +7,7 @@
 
 /// Contact of several islands that grow and merge as the indentation rises from 0 to 1, which is
 /// its force too.
-inline salebra::ContactLevels island_levels(const salebra::Grid2D& grid) {
+inline salebra::ContactSets island_levels(const salebra::Grid2D& grid) {
   using namespace salebra;
   using std::numbers::pi;
   return [grid](double indentation) {
@@ -24,11 +24,11 @@ inline salebra::ContactLevels island_levels(const salebra::Grid2D& grid) {
 }
 
 /// Uneven pressures on them, of the size that leaves some cells stuck and lets others slip.
-inline salebra::PressureLevels island_pressures(const salebra::Grid2D& grid) {
+inline salebra::PressureFields island_pressures(const salebra::Grid2D& grid) {
   using namespace salebra;
   return [grid, levels = island_levels(grid)](double indentation) {
     PressureAt level{.contact_pressure = Field::Zero(grid.nx, grid.ny), .force = indentation};
-    const ContactSet contact = levels(indentation).contact;
+    const ContactSet contact = contact_sets(indentation).contact;
     for (Index ix = 0; ix < grid.nx; ++ix)
       for (Index iy = 0; iy < grid.ny; ++iy)
         if (contact(ix, iy))

@@ -11,7 +11,7 @@ namespace {
 
 const Grid2D grid{22, 18, 1.1e-3, 0.9e-3};
 const Material material = Material::of_contact_modulus(3e9, 0.3);
-const ContactLevels levels = island_levels(grid);
+const ContactSets levels = island_levels(grid);
 
 // The path begins at the greatest indentation: the first period is not the steady one.
 Trajectory two_periods() {
@@ -65,7 +65,7 @@ TEST_CASE("A state of another grid or of a finer cycle is refused", "[cycle]") {
 }
 
 TEST_CASE("A cycle with friction resumed from any of its steps ends in the same bits", "[cycle]") {
-  const PressureLevels pressures = island_pressures(grid);
+  const PressureFields pressures = island_pressures(grid);
   const Trajectory motion = trajectory_of(EqualFrequency{0.5, 1e-6, 0.9}, 0.5);
   CycleOptions options{.friction_coefficient = 0.4, .steps = 8, .direction = 0.4};
   std::vector<CycleState> states;

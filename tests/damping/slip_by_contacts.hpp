@@ -8,7 +8,7 @@
 #include <salebra/damping/oscillation.hpp>
 #include <vector>
 
-#include "damping/level_loss.hpp"
+#include "damping/spring_loss.hpp"
 
 namespace salebra {
 
@@ -52,7 +52,7 @@ inline double work_with_slip_by_contacts(const DenseForces& dense, const Materia
                                          const Oscillation& motion, double friction,
                                          double excursion) {
   const double ratio = material.modulus_ratio();
-  const detail::LevelLoss loss(motion, friction / ratio, excursion);
+  const detail::LossOfSpring loss(motion, friction / ratio, excursion);
   double sum = 0;
   for (std::size_t k = 0; k + 1 < dense.level.size(); ++k) {
     const double high = dense.level[k] - dense.mean, low = dense.level[k + 1] - dense.mean;

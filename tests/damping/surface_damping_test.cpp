@@ -18,7 +18,7 @@
 #include <salebra/generators/shapes.hpp>
 #include <salebra/surface/moments.hpp>
 
-#include "damping/surface_levels.hpp"
+#include "damping/surface_contacts.hpp"
 #include "separate_contacts.hpp"
 #include "slip_by_contacts.hpp"
 #include "surface/refine.hpp"
@@ -66,7 +66,7 @@ Drag drag(const Surface& surface, double amplitude_over_rms) {
 
 SurfaceDampingOptions converged_options() {
   SurfaceDampingOptions options;
-  options.levels = 16;
+  options.intervals = 16;
   options.refinements = 0;
   return options;
 }
@@ -676,10 +676,10 @@ TEST_CASE("Damping of a surface refuses what it cannot use") {
                       Catch::StartsWith("relative_error: "));
   }
   SurfaceDampingOptions options;
-  options.levels = 7;
+  options.intervals = 7;
   CHECK_THROWS_WITH(surface_damping(surface, material, motion, curve, options),
                     "levels: 7 must be 4, 8, 16 or 32");
-  options.levels = 8;
+  options.intervals = 8;
   options.on_progress = [](const ProgressReport&) { return false; };
   CHECK_THROWS_AS(surface_damping(surface, material, motion, curve, options), Interrupted);
   ForceCurve nothing = curve;
@@ -729,11 +729,11 @@ TEST_CASE("Forces of contacts that start from each other know nothing of the tol
   const Surface surface = rough(128, 5);
   NormalContactOptions options;
   options.tolerance = 1e-6;
-  detail::Levels levels(surface, material.contact_modulus, options);
-  const double center = levels.indentation_at(2e6);
+  detail::SurfaceContacts contacts_at(surface, material.contact_modulus, options);
+  const double center = contacts_at.indentation_at(2e6);
   options.tolerance = 1e-13;
   for (const double share : {1.0, 1.001, 0.999, 1.002, 1.01}) {
-    const detail::StiffnessSample sample = levels.at(share * center);
+    const detail::StiffnessSample sample = contacts_at.at(share * center);
     const NormalContactState separate =
         press(surface, material.contact_modulus, at_indentation(share * center), options);
     CAPTURE(share, sample.force_correction / separate.force);

@@ -40,10 +40,10 @@ std::vector<Point> wild_path(double low, double high, double reach, int count) {
 // Springs with the friction limit, moved in small substeps: first order in the substep.
 class FrictionSprings {
  public:
-  FrictionSprings(const ContactLaw& law, double lowest, double highest, int levels, double friction)
+  FrictionSprings(const ContactLaw& law, double lowest, double highest, int springs, double friction)
       : limit_(friction / law.modulus_ratio()) {
-    const double step = (highest - lowest) / levels;
-    for (int i = 0; i < levels; ++i)
+    const double step = (highest - lowest) / springs;
+    for (int i = 0; i < springs; ++i)
       springs_.push_back({lowest + (i + 0.5) * step,
                           law.tangential_stiffness(lowest + (i + 1) * step) -
                               law.tangential_stiffness(lowest + i * step),
@@ -61,15 +61,15 @@ class FrictionSprings {
       indentation_ = from.indentation + part * (indentation - from.indentation);
       x_ = from.x + part * (x - from.x);
       for (Spring& spring : springs_) {
-        const double room = std::max(0.0, limit_ * (indentation_ - spring.level));
+        const double room = std::max(0.0, limit_ * (indentation_ - spring.spring_depth));
         const double anchor = std::clamp(spring.anchor, x_ - room, x_ + room);
         // A level that opens keeps its anchor with the indenter; what it loses then is 0.
         const double before = x_ - spring.anchor, after = x_ - anchor;
         lost_ += 0.5 * spring.stiffness * (before + after) * (anchor - spring.anchor) *
-                 (indentation_ > spring.level ? 1 : 0);
-        if (indentation_ <= spring.level && room == 0 && spring.touched)
+                 (indentation_ > spring.spring_depth ? 1 : 0);
+        if (indentation_ <= spring.spring_depth && room == 0 && spring.touched)
           lost_ += 0.5 * spring.stiffness * before * before;
-        spring.touched = indentation_ > spring.level;
+        spring.touched = indentation_ > spring.spring_depth;
         spring.anchor = anchor;
       }
     }
@@ -78,13 +78,13 @@ class FrictionSprings {
   double force() const {
     double force = 0;
     for (const Spring& spring : springs_)
-      if (indentation_ > spring.level) force += spring.stiffness * (x_ - spring.anchor);
+      if (indentation_ > spring.spring_depth) force += spring.stiffness * (x_ - spring.anchor);
     return force;
   }
 
  private:
   struct Spring {
-    double level, stiffness, anchor;
+    double spring_depth, stiffness, anchor;
     bool touched = false;
   };
   std::vector<Spring> springs_;
@@ -99,8 +99,8 @@ TEST_CASE("Along any path the stack of turning points is the spring foundation",
   const auto path = wild_path(low, high, reach, 200);
   TangentialContact contact(law, low, high);
   contact.start(low, 0);
-  auto worst = [&](int levels) {
-    salebra_test::SpringFoundation springs(law, low, high, levels);
+  auto worst = [&](int springs) {
+    salebra_test::SpringFoundation springs(law, low, high, springs);
     springs.start(low, 0);
     contact.start(low, 0);
     double error = 0;
@@ -280,11 +280,11 @@ TEST_CASE("Varying normal force: the friction stack is springs with a limit", "[
   struct Outcome {
     double lost, force;
   };
-  auto springs_with = [&](int levels) {
-    FrictionSprings springs(law, 0, high, levels, friction);
+  auto springs_with = [&](int springs) {
+    FrictionSprings springs(law, 0, high, springs, friction);
     springs.start(low, 0);
     for (std::size_t i = 1; i < path.size(); ++i)
-      springs.move_to(path[i].indentation, path[i].x, levels / 2);
+      springs.move_to(path[i].indentation, path[i].x, springs / 2);
     return Outcome{
         springs.lost() / contact.dissipated() - 1,
         (springs.force() - contact.tangential_force()) / (law.tangential_stiffness(high) * 3e-7)};

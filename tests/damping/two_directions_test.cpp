@@ -83,7 +83,7 @@ TEST_CASE("In three dimensions a path in two directions loses by the vector of i
   // Numbers of cells at which no height of the islands is one of the levels.
   const Grid2D grid{27, 20, 1.3e-3, 1e-3}, square{24, 24, 1e-3, 1e-3};
   const auto islands = [levels = island_levels(grid)](double indentation) {
-    return levels(indentation).contact;
+    return contact_sets(indentation).contact;
   };
   // Solver's 1e-11 of the displacement; the theorem itself is exact on any nested sets.
   CHECK(simulated_work(islands, grid) == Approx(theorem(islands, grid, true)).epsilon(1e-7));

@@ -195,9 +195,9 @@ TEST_CASE("The three losses are those of springs followed until they repeat", "[
   const double h = 2 * pi / omega / steps;
   double normal_work = 0, closed_work = 0, relaxation = 0, drifting = 0;
   for (int k = 0; k < springs; ++k) {
-    const double level = law.profile().image((k + 0.5) * width);
+    const double spring_depth = law.profile().image((k + 0.5) * width);
     const auto overlap = [&](double t) {
-      return indentation + amplitude * std::cos(omega * t) - level;
+      return indentation + amplitude * std::cos(omega * t) - spring_depth;
     };
     const auto rest = [&](const double* z) {
       return ratios[0] / unrelaxed * z[0] + ratios[1] / unrelaxed * z[1];
@@ -239,7 +239,7 @@ TEST_CASE("The three losses are those of springs followed until they repeat", "[
       closed = now;
     }
     // What is always closed ends a drift with more energy than it began with.
-    if (indentation - level > 6 * amplitude && std::holds_alternative<Drag>(motion)) drifting += 1;
+    if (indentation - spring_depth > 6 * amplitude && std::holds_alternative<Drag>(motion)) drifting += 1;
   }
   CHECK(drifting == 0);  // with six times the relaxed modulus every spring opens
   const ViscoelasticDamping found = damping(law, prony, motion, 1000);

@@ -69,7 +69,7 @@ def blocks_of(page):
 
 
 def smaller(text):
-    text = re.sub(r"(--points|--map-phases|--map-radii|--steps|--levels) \d+", r"\1 32", text)
+    text = re.sub(r"(--points|--map-phases|--map-radii|--steps|--intervals) \d+", r"\1 32", text)
     text = re.sub(r"(:[^ :]+):\d+", r"\1:4", text)
 
     def direct(found):
@@ -77,8 +77,8 @@ def smaller(text):
         added = " --steps 16" if "--steps" not in given else ""
         if "--points" not in given and "--surface" not in given:
             added += " --points 32"
-        if "--levels" not in given and "--surface" in given:
-            added += " --levels 8"
+        if "--intervals" not in given and "--surface" in given:
+            added += " --intervals 8"
         return f"{found[1]}{added}{given[len(found[1]):]}"
 
     return re.sub(r"(salebra oscillate\b)(?:[^\n\\]|\\\n)*", direct, text)

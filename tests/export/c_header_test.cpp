@@ -44,13 +44,13 @@ int main(void) {
 )";
 
 void compare(const ContactLaw& law, double lowest, double highest, double friction) {
-  const auto levels = std::make_shared<const LawLevels>(
-      law, lowest, highest, LawLevelsOptions{.friction_coefficient = friction, .levels = 40});
+  const auto springs = std::make_shared<const LawSprings>(
+      law, lowest, highest, LawSpringsOptions{.friction_coefficient = friction, .intervals = 40});
   // Millimetres and kilonewtons: what is checked against SI are the units as well.
   const CHeaderOptions options{
       .name = "bolt", .comment = {"one", "two"}, .length_unit = 1e-3, .force_unit = 1e3};
   const Scratch scratch;
-  scratch.file("bolt.h", c_header(*levels, options));
+  scratch.file("bolt.h", c_header(*springs, options));
   scratch.file("driver.c", driver);
   std::mt19937_64 bits(5);
   const auto uniform = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
@@ -71,7 +71,7 @@ void compare(const ContactLaw& law, double lowest, double highest, double fricti
   REQUIRE(std::system((there + "./driver").c_str()) == 0);
   // Round-off of sums of forty levels, relative to the largest of each kind.
   const double force = law.force(highest), stiffness = law.normal_stiffness(highest);
-  ContactElement element(levels);
+  ContactElement element(springs);
   element.start(0, 0, 0);
   std::ifstream forces(scratch / "forces.txt");
   double worst_force = 0, worst_stiffness = 0;
@@ -116,7 +116,7 @@ TEST_CASE("A C header takes the steps of a contact element") {
 }
 
 TEST_CASE("A C header has a name of C") {
-  const LawLevels levels(ExponentialLaw(10, 1e-7, 0.8), -5e-8, 5e-8);
+  const LawSprings springs(ExponentialLaw(10, 1e-7, 0.8), -5e-8, 5e-8);
   for (const char* name : {"", "2nd", "a-b"})
-    CHECK_THROWS_WITH(c_header(levels, {.name = name}), Catch::Contains("must be a name of C"));
+    CHECK_THROWS_WITH(c_header(springs, {.name = name}), Catch::Contains("must be a name of C"));
 }

@@ -49,7 +49,7 @@ const std::string material = " --contact-modulus 1GPa --poisson 0.3";
 const std::string moves = " --normal-amplitude 1nm --drag-velocity 1mm/s --frequency 20kHz";
 const std::string curve = "contact IN/s.h5 --pressure 1:30MPa:6 --stiffness" + material;
 const std::string oscillation =
-    "oscillate --shape cylinder --points 16 --steps 8 --levels 4 --friction 0.3 "
+    "oscillate --shape cylinder --points 16 --steps 8 --intervals 4 --friction 0.3 "
     "--max-periods 2" +
     material;
 

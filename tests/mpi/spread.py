@@ -144,7 +144,7 @@ def test_refusals() -> None:
     calls: list[Callable[[], Any]] = [
         lambda: salebra.BearingCurve(mine),
         lambda: salebra.after_first_loading(mine, MATERIAL, 1e6, hardness=1e8),
-        lambda: salebra.boundary_element_levels(mine, MATERIAL),
+        lambda: salebra.boundary_element_contact_sets(mine, MATERIAL),
         lambda: salebra.composite_surface(mine, mine),
         lambda: salebra.correlation_map(mine),
         lambda: salebra.crop_surface(mine, 0, 0, 8, 8),

@@ -59,18 +59,18 @@ def test_a_damping_constant_carries_its_assumptions() -> None:
     law = salebra.IndenterLaw(salebra.paraboloid_profile(1e-2), salebra.Material(1e9, poisson=0.3))
     fast = salebra.Drag(normal_amplitude=1e-8, drag_velocity=1e-2, angular_frequency=1e5)
     told = salebra.relaxation_damping(law, fast, indentation=1e-6).assumptions
-    assert told.slip_of_opening_levels.verdict == "unknown"
-    assert told.slip_of_opening_levels.needs == "friction_coefficient"
+    assert told.slip_of_opening_springs.verdict == "unknown"
+    assert told.slip_of_opening_springs.needs == "friction_coefficient"
     assert [motion.friction_coefficient for motion in told.largest] == [0.1, 0.3, 1.0]
     parameters = salebra.ContactParameters(friction_coefficient=0.3)
     result = salebra.relaxation_damping(law, fast, indentation=1e-6, parameters=parameters)
-    slip = result.assumptions.slip_of_opening_levels
+    slip = result.assumptions.slip_of_opening_springs
     # M = μ u_z ω/(g v), g = G*/E* = 2(1-ν)/(2-ν).
     assert slip.value == pytest.approx(0.3 * 1e-8 * 1e5 / (1.4 / 1.7 * 1e-2), rel=1e-12)
     assert slip.verdict == "broken" and slip.value < slip.limit_20_percent < slip.limit_5_percent
-    assert "slip_of_opening_levels broken" in repr(result)
+    assert "slip_of_opening_springs broken" in repr(result)
     assert result.assumptions.validity == "not valid"
-    assert result.assumptions.verdicts()[0].name == "slip_of_opening_levels"
+    assert result.assumptions.verdicts()[0].name == "slip_of_opening_springs"
     assert all("slip" not in one.name for one in result.assumptions.verdicts(slip_followed=True))
     assert result.assumptions == salebra.assumptions_of(law, fast, indentation=1e-6, parameters=parameters)
     regimes = salebra.regime_map(law, 1e-6, 1e-8, 1e5, [1e-9, 1e-2], [1e-8, 1e-3], friction_coefficient=0.3)
@@ -198,7 +198,7 @@ def test_direct_simulation_of_a_paraboloid_meets_equation_12() -> None:
     material = salebra.Material(1e9, poisson=0.3)
     surface = salebra.paraboloid_surface(grid, 10e-3, salebra.off_grid_center(grid))
     motion = salebra.EqualFrequency(normal_amplitude=4e-6, tangential_amplitude=1e-6, phase=math.pi / 2)
-    levels = salebra.boundary_element_levels(surface, material.contact_modulus, boundary="free", tolerance=1e-8)
+    levels = salebra.boundary_element_contact_sets(surface, material.contact_modulus, boundary="free", tolerance=1e-8)
     result = salebra.simulate_cycle(levels, material, motion, 2e-5, steps=24, boundary="free", tolerance=1e-6)
     assert result.converged
     # Steps and cells both leave an error; what the steps leave is stated, below a per cent at 24 of them.
@@ -221,7 +221,7 @@ def test_levels_may_be_a_python_function() -> None:
     def cone(indentation: float) -> tuple[np.ndarray, float]:
         return distance < max(indentation, 0.0), max(indentation, 0.0) ** 2
 
-    levels = salebra.ContactLevels(cone, grid)
+    levels = salebra.ContactSets(cone, grid)
     assert levels(0.25).force == 0.0625
     assert np.array_equal(levels(0.25).contact, distance < 0.25)
 
@@ -231,7 +231,7 @@ def test_levels_may_be_a_python_function() -> None:
     material = salebra.Material(1.0, poisson=0.3)
     motion = salebra.EqualFrequency(normal_amplitude=0.05, tangential_amplitude=0.01, phase=1.0)
     with pytest.raises(LookupError, match="no such level"):
-        salebra.simulate_cycle(salebra.ContactLevels(broken, grid), material, motion, 0.2, steps=4, boundary="free")
+        salebra.simulate_cycle(salebra.ContactSets(broken, grid), material, motion, 0.2, steps=4, boundary="free")
 
 
 def test_a_simulation_goes_on_from_its_checkpoint_to_the_same_bits(tmp_path: Path) -> None:
@@ -239,7 +239,7 @@ def test_a_simulation_goes_on_from_its_checkpoint_to_the_same_bits(tmp_path: Pat
     material = salebra.Material(1e9, poisson=0.3)
     surface = salebra.paraboloid_surface(grid, 10e-3, salebra.off_grid_center(grid))
     motion = salebra.EqualFrequency(normal_amplitude=4e-6, tangential_amplitude=1e-6, phase=1.0)
-    elements = salebra.boundary_element_levels(surface, material.contact_modulus, boundary="free", tolerance=1e-8)
+    elements = salebra.boundary_element_contact_sets(surface, material.contact_modulus, boundary="free", tolerance=1e-8)
     asked: list[float] = []
 
     def level(indentation: float) -> tuple[np.ndarray, float]:
@@ -249,11 +249,11 @@ def test_a_simulation_goes_on_from_its_checkpoint_to_the_same_bits(tmp_path: Pat
         found = elements(indentation)
         return found.contact, found.force
 
-    levels = salebra.ContactLevels(level, grid)
+    levels = salebra.ContactSets(level, grid)
     file = tmp_path / "cycle.h5"
 
     def simulate(
-        of: salebra.ContactLevels = levels,
+        of: salebra.ContactSets = levels,
         steps: int = 16,
         resume: bool = True,
         progress: Callable[[salebra.ProgressReport], object] | bool = False,
@@ -376,7 +376,7 @@ def test_a_contact_as_a_force_element_follows_displacements_and_forces() -> None
 def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
     ratio, load, decay_length, friction = 0.8, 2.0, 1e-7, 0.3
     law = salebra.ExponentialLaw(load, decay_length, ratio)
-    levels = salebra.LawLevels(law, -5e-8, 5e-8, friction_coefficient=friction, levels=128)
+    levels = salebra.LawSprings(law, -5e-8, 5e-8, friction_coefficient=friction, levels=128)
     element = salebra.ContactElement(levels)
     element.start(0.0)
     # First loading under constant normal force: T = μF[1 − exp(−gx/(μl))], g = G*/E*. Levels are a hundredth of it wide.
@@ -395,8 +395,8 @@ def test_a_contact_element_follows_both_directions_and_comes_back() -> None:
     element.restore(before)
     assert element.move_to(0.0, 0.6 * x, 0.8 * x).tangential_force == taken.tangential_force
     assert element.move_to(-1e-5, 0.0).normal_force == 0
-    with pytest.raises(salebra.InvalidInput, match="levels"):
-        salebra.LawLevels(law, 0.0, 1e-8, levels=1)
+    with pytest.raises(salebra.InvalidInput, match="intervals"):
+        salebra.LawSprings(law, 0.0, 1e-8, levels=1)
 
 
 def test_a_sphere_by_force_cell_by_cell_is_mindlins() -> None:
@@ -520,7 +520,7 @@ def test_a_curve_without_stiffness_is_refused(surface: salebra.Surface, material
 
 
 def test_an_element_can_be_copied() -> None:
-    element = salebra.ContactElement(salebra.LawLevels(salebra.ExponentialLaw(1.0, 1e-7, 0.8), -1e-7, 1e-7, friction_coefficient=0.3))
+    element = salebra.ContactElement(salebra.LawSprings(salebra.ExponentialLaw(1.0, 1e-7, 0.8), -1e-7, 1e-7, friction_coefficient=0.3))
     element.start(0.0)
     element.move_to(0.0, 1e-9)
     for copied in (copy.copy(element), copy.deepcopy(element)):

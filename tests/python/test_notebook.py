@@ -42,7 +42,7 @@ def makers() -> dict[str, Callable[[], Any]]:
     free = salebra.paraboloid_surface(GRID, 10e-3, salebra.off_grid_center(GRID))
     prony = salebra.PronySeries.of_body(MATERIAL, [(1e9, 1e-4)])
     slider = salebra.Slider(mass=1.0, spring_stiffness=1e7, velocity=1e-3, support_damping=9.0, falling_slope=10.0)
-    levels = salebra.boundary_element_levels(free, MATERIAL, boundary="free", tolerance=1e-8)
+    levels = salebra.boundary_element_contact_sets(free, MATERIAL, boundary="free", tolerance=1e-8)
     study = salebra.run_study(salebra.parse_study_configuration(STUDY))
     psd = salebra.power_spectrum(surface)
     shells = salebra.roughness_shells(spectrum, 1e4, 1e5, 20)
@@ -56,7 +56,7 @@ def makers() -> dict[str, Callable[[], Any]]:
         "BearingCurve": lambda: salebra.BearingCurve(surface),
         "Check": lambda: salebra.verify_installation()[0],
         "ContactSetAt": lambda: levels(2e-5),
-        "ContactLevels": lambda: levels,
+        "ContactSets": lambda: levels,
         "ContactParameters": lambda: salebra.ContactParameters(friction_coefficient=0.3, hardness=7e9),
         "ContactSpots": lambda: salebra.contact_spots(state),
         "ConvertedPsd": lambda: salebra.converted(salebra.radial_spectrum(psd), surface.grid, "tamaas"),
@@ -290,7 +290,7 @@ def test_a_refusal_has_its_parts(surface: salebra.Surface, tmp_path: Path) -> No
 def test_one_name_for_the_material_and_the_old_one_answered(surface: salebra.Surface) -> None:
     state = salebra.press(surface, salebra.Material(1e9), pressure=1e5)
     assert state == salebra.press(surface, 1e9, pressure=1e5)
-    for function in (salebra.press, salebra.sweep_pressures, salebra.boundary_element_levels):
+    for function in (salebra.press, salebra.sweep_pressures, salebra.boundary_element_contact_sets):
         assert list(inspect.signature(function).parameters)[:2] == ["surface", "material"]
     with pytest.raises(salebra.InvalidInput, match="contact_modulus: -1"):
         salebra.press(surface, -1.0, pressure=1e5)

@@ -149,7 +149,7 @@ TEST_CASE("The memory of a sweep does not grow with its loads", "[scaling]") {
 TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step", "[scaling]") {
   constexpr Index n = 256;
   const Grid2D grid{n, n, 1e-6, 1e-6};
-  const ContactLevels levels = [&](double indentation) {
+  const ContactSets intervals = [&](double indentation) {
     ContactSetAt level{ContactSet(n, n), indentation, true};
     for (Index ix = 0; ix < n; ++ix)
       for (Index iy = 0; iy < n; ++iy)
@@ -163,7 +163,7 @@ TEST_CASE("The memory of a simulated cycle grows by half a byte a cell and step"
                                   .tangential_amplitude = 1e-9,
                                   .phase = std::numbers::pi / 2,
                                   .angular_frequency = 1};
-      simulate_cycle(levels, grid, material, trajectory_of(motion, 1e-8),
+      simulate_cycle(intervals, grid, material, trajectory_of(motion, 1e-8),
                      {.steps = steps, .max_periods = 1, .stick = {.tolerance = 1e-2}});
     });
   };

@@ -97,12 +97,12 @@ TEST_CASE("A study over processes has the bits of one process", "[study][share]"
   SECTION("of parameters that vary, on the curve between loads") {
     StudyConfiguration study = study_of("seeds = [1, 2]");
     study.ensemble.hurst = {0.7, 0.9};
-    study.levels = 0;
+    study.intervals = 0;
     compare(study, bits_of(run_ensembles(study)), 3, 2);
   }
   SECTION("until the mean is precise") {
     StudyConfiguration study = study_of("seed_count = 6");
-    study.levels = 0;
+    study.intervals = 0;
     study.stick = false;
     study.target_precision = 10;
     study.min_realisations = 4;

@@ -32,7 +32,7 @@ TEST_CASE("What needs a surface whole refuses one that is spread over processes"
     const NormalContactState state = press(surface, 1, at_pressure(0.1));
     const std::vector<std::pair<const char*, std::function<void()>>> calls{
         {"require_complete", [&] { surface.require_complete("a test"); }},
-        {"boundary_element_levels", [&] { boundary_element_levels(surface, 1, {}); }},
+        {"boundary_element_contact_sets", [&] { boundary_element_contact_sets(surface, 1, {}); }},
         {"boundary_element_pressures", [&] { boundary_element_pressures(surface, 1, {}); }},
         {"simulate_coupled_cycle", [&] { simulate_coupled_cycle(surface, material, {}, {}, {}); }},
         {"CycleFields", [&] { CycleFields("nowhere/cycle", surface, {}, {}); }},

@@ -107,7 +107,7 @@ TEST_CASE("How far Eq. (16) is off follows from the two columns beside it", "[st
 TEST_CASE("Eight surfaces say how many an interval needs", "[study]") {
   const auto study = [](int seeds) {
     return run_study(parse_study_configuration(
-        study_text(fmt::format("first_seed = 1\nseed_count = {}", seeds), 6) + "levels = 0\n",
+        study_text(fmt::format("first_seed = 1\nseed_count = {}", seeds), 6) + "intervals = 0\n",
         "x.toml"));
   };
   const StudyResult few = study(8), many = study(32);
@@ -318,7 +318,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
           "[study]") {
   StudyConfiguration configuration =
       small_study("[conduction]\nconductivity = [\"50W/mK\", \"400W/mK\"]\nresistivity = 2e-8\n");
-  configuration.levels = 0;
+  configuration.intervals = 0;
   const StudyResult result = run_study(configuration);
   const StudySolution answer = solution_of(result);
   const auto stiffness = result.curve(&ForceSample::normal_stiffness);
@@ -347,7 +347,7 @@ TEST_CASE("Conductances of a study are its stiffness times a constant, and so ar
 TEST_CASE("A study has the flow through the gap of each contact where it is asked for",
           "[study][flow]") {
   StudyConfiguration configuration = small_study();
-  configuration.levels = 0;
+  configuration.intervals = 0;
   CHECK(
       std::isnan(run_study(configuration).flow(&FlowFactors::pressure_flow_factor_x).front().mean));
   const auto keys = StudyParts::keys(configuration);

@@ -165,7 +165,7 @@ TEST_CASE("A study tells what the scans leave open from what differs from place 
                          {level, level, level * std::pow(end / corner, -3.6)}};
   };
   surfaces.seeds = {2, 3, 4, 5, 6, 7, 8, 9};
-  study.levels = 0;
+  study.intervals = 0;
   study.stick = false;
   CHECK_FALSE(study.of_twin());
   surfaces.tables = {table(1), table(1), table(1), table(1), table(1)};

@@ -48,7 +48,7 @@ void load_plastically(OscillationCase& contact, const OperatingPoint& point, dou
 
 /// The methods by which a cycle is simulated, and their resolution.
 struct OscillationRoutes {
-  LevelQuadratureOptions levels;
+  IntervalQuadratureOptions intervals;
   CycleOptions cycle;
   bool frictional = false;  ///< steps again, with the cycle's friction and max_periods
   bool coupled = false;     ///< steps again, with its coupling_constant; needs frictional
@@ -62,7 +62,7 @@ struct OscillationRoutes {
 /// One simulated cycle by each method.
 struct OscillationOutcome {
   OscillationCase run;  ///< the case on the chosen grid
-  LevelQuadratureResult levels;
+  IntervalQuadratureResult intervals;
   std::optional<AdaptiveQuadratureResult> choice;
   std::optional<CycleResult> cycle;  ///< cycle without slip
   std::optional<CycleResult> frictional, coupled;
@@ -73,7 +73,7 @@ struct OscillationOutcome {
   /// Error of work_per_cycle(), J: that of the steps, or of the level quadrature where there are no
   /// steps; plus that of the cells where they were refined.
   double error_estimate() const;
-  /// Names of the parts of this error: "steps" or "levels", and "cells".
+  /// Names of the parts of this error: "steps" or "intervals", and "cells".
   std::vector<std::string> error_contains() const;
   /// ½K u² with the largest stiffness of the sweep and u = u_x or v/ω: the reference for a loss
   /// close to 0.
@@ -96,8 +96,8 @@ struct OscillationOutcome {
 
 /// Computes the level quadrature alone. Throws Interrupted.
 ///
-///     OscillationOutcome outcome = oscillation_by_levels(contact, {});
-OscillationOutcome oscillation_by_levels(OscillationCase run, const OscillationRoutes& routes);
+///     OscillationOutcome outcome = oscillation_by_intervals(contact, {});
+OscillationOutcome oscillation_by_intervals(OscillationCase run, const OscillationRoutes& routes);
 
 /// Wraps the simulation of a cycle to record it: CycleRecorder::run().
 using CycleRunner = std::function<CycleResult(

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 
 namespace salebra {
 
 /// The normal contact of one body on any grid: how a shape given by a formula is refined.
-using LevelsOnGrid = std::function<ContactLevels(const Grid2D& grid)>;
+using ContactSetsOnGrid = std::function<ContactSets(const Grid2D& grid)>;
 
 struct AdaptiveQuadratureOptions {
   double relative_error = 0.01;  ///< of work_per_cycle, in (0, 1)
   Index max_points = 1024;      ///< cells along the longer side of the finest grid
-  int max_levels = 128;
+  int max_intervals = 128;
   /// Direction, tolerances and progress. The search starts from its number of levels, or from half
   /// of the default if that is 0.
-  LevelQuadratureOptions quadrature = {};
+  IntervalQuadratureOptions quadrature = {};
 };
 
 /// One quadrature of the search.
 struct QuadratureTrial {
   Grid2D grid;
-  int levels = 0;
+  int intervals = 0;
   double work_per_cycle = 0;   ///< J
   double stiffness_ratio = 0;  ///< to ν = 0
   double error_estimate = 0;   ///< estimate of this quadrature alone, J
@@ -30,7 +30,7 @@ constexpr void describe(auto&& visit, std::type_identity<QuadratureTrial>) {
   using enum Dimension;
   using S = QuadratureTrial;
   visit(&S::grid, Part{"grid", "points and size"});
-  visit(&S::levels, Quantity{"levels", dimensionless, "contact levels"});
+  visit(&S::intervals, Quantity{"intervals", dimensionless, "contacts in the oscillation"});
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::stiffness_ratio,
         Quantity{"stiffness_ratio", dimensionless, "work_per_cycle over work_by_force"});
@@ -38,9 +38,9 @@ constexpr void describe(auto&& visit, std::type_identity<QuadratureTrial>) {
 }
 
 struct AdaptiveQuadratureResult {
-  LevelQuadratureResult quadrature;  ///< the last one; its error_estimate is the one below
+  IntervalQuadratureResult quadrature;  ///< the last one; its error_estimate is the one below
   Grid2D grid;
-  int levels = 0;
+  int intervals = 0;
   /// Maximum of the last quadrature's own estimate and of the changes by the last halving of the
   /// cells and the last doubling of the levels, J. On a given grid there is no error of the cells
   /// in it.
@@ -56,10 +56,10 @@ struct AdaptiveQuadratureResult {
 /// grows by whole cells, so the error is not smooth in their size: it is not extrapolated, and the
 /// change is taken for the error.
 ///
-///     auto loss = adaptive_level_quadrature(contacts, grid, material, motion, 1e-8);
+///     auto loss = adaptive_interval_quadrature(contacts, grid, material, motion, 1e-8);
 ///
 /// cost  the last quadrature and about as much for those before it
-AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, const Grid2D& grid,
+AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSetsOnGrid& contact_sets, const Grid2D& grid,
                                                    const Material& material,
                                                    const Oscillation& motion,
                                                    double mean_indentation,
@@ -67,7 +67,7 @@ AdaptiveQuadratureResult adaptive_level_quadrature(const LevelsOnGrid& levels, c
 
 /// The same on a grid that cannot be refined, such as that of a measured surface: only the number
 /// of levels is chosen.
-AdaptiveQuadratureResult adaptive_level_quadrature(const ContactLevels& levels, const Grid2D& grid,
+AdaptiveQuadratureResult adaptive_interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
                                                    const Material& material,
                                                    const Oscillation& motion,
                                                    double mean_indentation,

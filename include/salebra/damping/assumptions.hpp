@@ -168,7 +168,7 @@ struct Assumptions {
   /// limits  computed from the springs of the law. (a) M at which the loss with slip differs by 5 %
   ///         from that without; all springs count, because the slip of opening and of closed
   ///         springs partly cancels at some phases. (b) The same for opening springs only.
-  Assumption slip_of_opening_levels;
+  Assumption slip_of_opening_springs;
   /// value   X, m.
   /// limits  (a) u_x at the limit above. (b) X at which slip of the closed springs loses 5 % of the
   ///         relaxation loss over the same path there and back at velocity v, for many normal
@@ -177,7 +177,7 @@ struct Assumptions {
   ///         with r the mean rise of a closed spring's stretch in a normal cycle: πv/ω for v ≪ v_c,
   ///         (μ/g)u_z from v_c on. 0 where X would be shorter than the distance per normal cycle:
   ///         no slow motion at this velocity satisfies the assumption.
-  Assumption slip_of_closed_levels;
+  Assumption slip_of_closed_springs;
   /// value   X/w, with w = 2πv/ω the distance of case (b) per normal cycle; larger is better. For
   ///         other motions the verdict is `holds`, without a value.
   /// limits  computed: a turning point at a random phase costs (1/π)∫θ²k dθ/∫θk dθ · w/X of the
@@ -225,13 +225,13 @@ struct AssumptionWords : Kept {
 constexpr void describe(auto&& visit, std::type_identity<Assumptions>) {
   using enum Dimension;
   using S = Assumptions;
-  visit(&S::slip_of_opening_levels,
-        AssumptionWords{{"slip_of_opening_levels", "slip where the contact opens and closes"},
+  visit(&S::slip_of_opening_springs,
+        AssumptionWords{{"slip_of_opening_springs", "slip where the contact opens and closes"},
                      "no slip where it opens and closes: M above {}",
                      "M = {}",
                      "use the loss with slip, which `friction_coefficient` gives"});
-  visit(&S::slip_of_closed_levels,
-        AssumptionWords{{"slip_of_closed_levels", "slip where it stays closed"},
+  visit(&S::slip_of_closed_springs,
+        AssumptionWords{{"slip_of_closed_springs", "slip where it stays closed"},
                      "no slip where it stays closed: excursion below {}",
                      "{}",
                      "use the loss with slip, which `friction_coefficient` gives",

@@ -23,24 +23,24 @@ double edge_slope(double contact_modulus, double force_curvature);
 /// Eq. (7): distance by which a spring at `level` is released, 2u_x √(1 − (z0/u_z)²) sin φ0.
 /// (x2 − x1 has the other sign; s enters squared.) Valid at any amplitude; 0 where Eq. (9) does not
 /// hold.
-double released_distance(double level, const EqualFrequency& motion);
+double released_distance(double spring_depth, const EqualFrequency& motion);
 
 /// Eq. (13): the same in case (b), 2(v/ω) arccos(z0/u_z). Valid at any amplitude while v is
 /// constant over a normal cycle.
-double released_distance(double level, const Drag& motion);
+double released_distance(double spring_depth, const Drag& motion);
 
 /// Eq. (8): energy ½G*s²Δx of one spring, J.
 double spring_energy(double tangential_modulus, double released_distance, double spring_width);
 
 /// Eq. (9): −|u_z| < z0 < |u_z|, the points that touch during a part of the cycle only; all others
 /// lose nothing.
-bool intermittent_contact(double level, double normal_amplitude);
+bool intermittent_contact(double spring_depth, double normal_amplitude);
 
 /// Eq. (10): W = (G*/c) ∫ s² dz0 over the interval of Eq. (9), both edges of the contact, by
 /// adaptive quadrature; J. Valid while the profile is straight over the sweep, u_z c'/c² ≪ 1, exact
 /// for the cone.
 double work_per_cycle(double tangential_modulus, double edge_slope, double normal_amplitude,
-                      const std::function<double(double level)>& released_distance);
+                      const std::function<double(double spring_depth)>& released_distance);
 
 /// Eq. (11): W = (16/3)(G*/c) u_x²|u_z| sin²φ0, J. Valid as Eq. (10).
 double work_per_cycle_by_slope(double tangential_modulus, double edge_slope,

@@ -11,16 +11,16 @@
 
 namespace salebra {
 
-struct LawLevelsOptions {
+struct LawSpringsOptions {
   /// μ >= 0; infinite: full stick, the case of the paper.
   double friction_coefficient = std::numeric_limits<double>::infinity();
-  int levels = 64;  ///< 8 … 4096; half of them lie in the range of the motion, half below it
+  int intervals = 64;  ///< 8 … 4096; half of them lie in the range of the motion, half below it
 };
 
 /// A contact law as a stack of springs at increasing depth, each with a friction limit, made for
 /// thousands of contacts: it is immutable, and elements and threads share it.
 ///
-///     auto levels = std::make_shared<const LawLevels>(law, 0, 2e-8, LawLevelsOptions{0.3});
+///     auto levels = std::make_shared<const LawSprings>(law, 0, 2e-8, LawSpringsOptions{0.3});
 ///
 /// Between its nodes the force has the law's F and K at both ends: it is a cubic where that is
 /// convex, and otherwise a power of the distance from one end. The spring K_t of a level acts at
@@ -29,7 +29,7 @@ struct LawLevelsOptions {
 /// node is one level; there F falls to 0 along its tangent, where the surfaces separate.
 /// Springs cannot have a negative stiffness: nodes between which K_t falls because of scatter share
 /// their mean.
-class LawLevels {
+class LawSprings {
  public:
   /// lowest, highest   range of δ, m, in which the contact will move at full accuracy. Levels reach
   ///                   down from there to 1e-6 of the highest force, or to the end of the law. A
@@ -38,8 +38,8 @@ class LawLevels {
   /// throws            InvalidInput for options out of range, indentations that the law does not
   ///                   cover, and a K_t that falls by more than scatter: the mean of the nodes
   ///                   differs from one of them by more than a quarter
-  LawLevels(const ContactLaw& law, double lowest, double highest,
-            const LawLevelsOptions& options = {});
+  LawSprings(const ContactLaw& law, double lowest, double highest,
+            const LawSpringsOptions& options = {});
 
   double friction_coefficient() const { return friction_coefficient_; }
   std::size_t size() const { return stiffness_.size(); }
@@ -47,8 +47,8 @@ class LawLevels {
   const std::vector<double>& forces() const { return force_; }       ///< F at the nodes, N
   const std::vector<double>& stiffnesses() const { return slope_; }  ///< K at the nodes, N/m
   /// K_t of each level, N/m: first that below the lowest node, then those between nodes.
-  const std::vector<double>& level_stiffnesses() const { return stiffness_; }
-  const std::vector<double>& level_depths() const { return depth_; }  ///< depth c of each level, m
+  const std::vector<double>& spring_stiffnesses() const { return stiffness_; }
+  const std::vector<double>& spring_depths() const { return depth_; }  ///< depth c of each level, m
 
   struct Normal {
     double force = 0, stiffness = 0, curvature = 0;  ///< F, K, K'
@@ -78,7 +78,7 @@ struct ElementForces {
 /// A contact as an element of a finite element, multibody or particle program, with both tangential
 /// directions. A step is the implicit update
 ///     F_t = Σ_i k_i(δ)(x − a_i),   |k_i(x − a_i)| <= μN_i(δ),   ΣN_i = F,
-/// over the levels i of LawLevels.
+/// over the levels i of LawSprings.
 ///
 ///     ContactElement element(levels);
 ///     ElementForces forces = element.move_to(1e-8, 1e-9, 0);
@@ -97,7 +97,7 @@ struct ElementForces {
 class ContactElement {
  public:
   /// The contact is open at first, at x = y = 0. Throws InvalidInput without levels.
-  explicit ContactElement(std::shared_ptr<const LawLevels> levels);
+  explicit ContactElement(std::shared_ptr<const LawSprings> springs);
 
   /// Puts the body down at (indentation, x, y), with all springs free of stress.
   void start(double indentation, double x, double y);
@@ -111,13 +111,13 @@ class ContactElement {
   const std::vector<double>& state() const { return state_; }
   /// Restores a state(). Throws InvalidInput unless it has this many numbers, all finite.
   void restore(std::span<const double> state);
-  const LawLevels& levels() const { return *levels_; }
+  const LawSprings& springs() const { return *springs_; }
 
  private:
   struct Step;
   void sum(std::size_t from, std::size_t to);
 
-  std::shared_ptr<const LawLevels> levels_;
+  std::shared_ptr<const LawSprings> springs_;
   std::vector<double> state_;
   std::vector<std::array<double, 2>> held_;  // Σk_j a_j of the levels up to each
 };

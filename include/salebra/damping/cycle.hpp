@@ -36,15 +36,15 @@ struct PressureAt {
 
 /// The normal contact as a function of the indentation δ, m. It must be deterministic: it is called
 /// once for each δ.
-using ContactLevels = std::function<ContactSetAt(double indentation)>;
-using PressureLevels = std::function<PressureAt(double indentation)>;
+using ContactSets = std::function<ContactSetAt(double indentation)>;
+using PressureFields = std::function<PressureAt(double indentation)>;
 
 /// Computes the normal contact of a surface by boundary elements; no contact for δ <= 0. The
 /// boundary of `options` must be that of the tangential solves. The function keeps a copy of the
 /// surface.
-ContactLevels boundary_element_levels(Surface surface, double contact_modulus,
+ContactSets boundary_element_contact_sets(Surface surface, double contact_modulus,
                                       const NormalContactOptions& options = {});
-PressureLevels boundary_element_pressures(Surface surface, double contact_modulus,
+PressureFields boundary_element_pressures(Surface surface, double contact_modulus,
                                           const NormalContactOptions& options = {});
 
 /// A motion over t = 0 … 1, closed except for a constant tangential advance.
@@ -271,7 +271,7 @@ inline std::vector<double> column(const CycleResult& cycle, double CycleSample::
 
 /// Simulates a cycle with infinite friction.
 ///
-///     ContactLevels contacts = boundary_element_levels(surface, material.contact_modulus);
+///     ContactSets contacts = boundary_element_contact_sets(surface, material.contact_modulus);
 ///     CycleResult cycle =
 ///         simulate_cycle(contacts, surface.grid, material, trajectory_of(motion, 1e-8));
 ///
@@ -292,7 +292,7 @@ inline std::vector<double> column(const CycleResult& cycle, double CycleSample::
 /// alike.
 /// cost    per step a stick solve, and another where cells leave
 /// memory  that of the stick solves, and half a byte per cell and step
-CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
+CycleResult simulate_cycle(const ContactSets& contact_sets, const Grid2D& grid,
                            const Material& material, const Trajectory& trajectory,
                            const CycleOptions& options = {});
 
@@ -304,7 +304,7 @@ CycleResult simulate_cycle(const ContactLevels& levels, const Grid2D& grid,
 /// InvalidInput where it is not below μF: the contact slides there.
 /// cost  per step a partial-slip solve, and another where cells enter; four to six times that for a
 ///       force
-CycleResult simulate_frictional_cycle(const PressureLevels& levels, const Grid2D& grid,
+CycleResult simulate_frictional_cycle(const PressureFields& contact_sets, const Grid2D& grid,
                                       const Material& material, const Trajectory& trajectory,
                                       const CycleOptions& options = {});
 

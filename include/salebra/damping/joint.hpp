@@ -118,7 +118,7 @@ JointLoss joint_loss(const ContactLaw& law, const OperatingPoint& point, const J
 /// options    with a finite friction_coefficient > 0
 /// converged  every solve converged, and the loss is steady
 /// throws     InvalidInput as above
-JointLoss simulated_joint_loss(const PressureLevels& levels, const Grid2D& grid,
+JointLoss simulated_joint_loss(const PressureFields& contact_sets, const Grid2D& grid,
                                const Material& material, double indentation,
                                const JointMotion& motion, const CycleOptions& options);
 

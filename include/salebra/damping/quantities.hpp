@@ -38,7 +38,7 @@ inline constexpr Quantity angular_frequency{"angular_frequency", Dimension::angu
     phase{"phase", Dimension::angle, "phase between the oscillations"},
     power{"power", Dimension::power, "mean dissipated power"},
     relaxation_share{"relaxation_share", Dimension::dimensionless,
-                     "part of the energy dissipated by levels that open and close"},
+                     "part of the energy dissipated by springs that open and close"},
     relaxation_work{"relaxation_work", Dimension::energy,
                     "energy dissipated in a cycle by contacts that open"},
     slip_share{"slip_share", Dimension::dimensionless,

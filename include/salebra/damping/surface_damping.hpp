@@ -31,8 +31,8 @@ struct EnumNames<SeamCheck> {
 };
 
 /// Whether an oscillation may be divided into this number of intervals: 4, 8, 16 or 32.
-constexpr bool allowed_levels(double levels) {
-  return levels == 4 || levels == 8 || levels == 16 || levels == 32;
+constexpr bool allowed_intervals(double intervals) {
+  return intervals == 4 || intervals == 8 || intervals == 16 || intervals == 32;
 }
 
 struct SurfaceDampingOptions {
@@ -42,10 +42,10 @@ struct SurfaceDampingOptions {
   /// Intervals between the indentations at which the contact is solved: 4, 8, 16 or 32. Half as
   /// many are used on the other grids, and on the first one too where neither an error is stated
   /// nor intervals are chosen.
-  int levels = 4;
+  int intervals = 4;
   /// Doubles the intervals, up to 32, where the last doubling changed W by more than its standard
   /// deviation.
-  bool choose_levels = true;
+  bool choose_intervals = true;
   /// Number of times that the cells are halved (refined(), surface/refine.hpp). With 0 the
   /// discretisation error is unknown, and no error is stated.
   int refinements = 1;
@@ -74,7 +74,7 @@ struct SurfaceDampingOptions {
 struct SurfaceDamping : Loss {
   double stiffness_ratio = unknown;  ///< K_t/((G*/E*)K) at the load
   double window = unknown;           ///< half the range of indentations solved, m; at least u_z
-  int levels = 0;                    ///< intervals of the oscillation
+  int intervals = 0;                    ///< intervals of the oscillation
   Index points = 0;                  ///< along x, of the grid on which the loss was computed
   bool converged =
       false;  ///< every contact converged, the cycle lies within the range of the contact, and
@@ -87,7 +87,7 @@ constexpr void describe(auto&& visit, std::type_identity<SurfaceDamping>) {
   describe(visit, std::type_identity<Loss>{});
   visit(&S::stiffness_ratio, Kept{"stiffness_ratio", "K_t/((G*/E*)K)"});
   visit(&S::window, Kept{"window", "half the range of indentations that were solved", length});
-  visit(&S::levels, Kept{"levels", "intervals between contact levels"});
+  visit(&S::intervals, Kept{"intervals", "intervals between contact levels"});
   visit(&S::points, Kept{"points", "points along x of the grid that work_per_cycle belongs to"});
   visit(&S::converged, Kept{"converged", "false: do not use work_per_cycle"});
 }

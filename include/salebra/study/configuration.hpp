@@ -195,7 +195,7 @@ struct StudyConfiguration {
   /// 4, doubled for a single surface where they do not suffice. With 0 the loss of the boundary
   /// elements, as that of every other model, is computed from their curve between loads, without an
   /// error.
-  std::optional<int> levels = {};
+  std::optional<int> intervals = {};
   double relative_error =
       0;  ///< target for each damping constant, reached by halving the cells; 0: none
   std::optional<SeamCheck> seam = {};  ///< adds the error of continuing a scan periodically
@@ -215,7 +215,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudyConfiguration>) {
       Kept{"compared_models",
            "those that the program's command `compare` runs: all, unless the study file chooses"});
   keep(visit, &S::conduction, &S::flow_factors, &S::adhesion, &S::motion, &S::damping, &S::known,
-       &S::levels, &S::relative_error, &S::seam);
+       &S::intervals, &S::relative_error, &S::seam);
   visit(&S::text, Kept{"text", "the file as it was read"});
 }
 

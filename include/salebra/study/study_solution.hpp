@@ -40,7 +40,7 @@ constexpr void describe(auto&& visit, std::type_identity<StudySolution>) {
   visit(&S::damping_constant, quantity::damping_constant);
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::damping_constant_without_slip, quantity::damping_constant_without_slip);
-  visit(&S::relaxation_share, Kept{"relaxation_share", "parts by levels that open and close"});
+  visit(&S::relaxation_share, Kept{"relaxation_share", "parts by springs that open and close"});
   visit(&S::slip_share, Kept{"slip_share", "parts by slip in permanent contact"});
   visit(&S::thermal_conductance, Quantity{"thermal_conductance", Dimension::thermal_conductance,
                                           "thermal conductance over nominal area"});

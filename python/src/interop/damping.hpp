@@ -59,7 +59,7 @@ inline ContactParameters known(const ContactParameters* parameters) { return par
 /// Warns of a loss that is NaN because friction is known and another input is not.
 void warn_of_unknown(const Motion& motion, const ContactParameters* parameters, bool force_given = false);
 
-/// "slip_of_opening_levels broken, amplitude doubtful", or that none is.
+/// "slip_of_opening_springs broken, amplitude doubtful", or that none is.
 std::string verdicts(const Assumptions& assumptions);
 
 }  // namespace salebra::python

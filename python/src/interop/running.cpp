@@ -52,7 +52,7 @@ bool ProgressBridge::tell(const ProgressReport& report) {
 
 void warn_user(const std::string& text) {
   // Above the extension is the function of _calls.py, above that the user.
-  constexpr int levels = 2;
+  constexpr int intervals = 2;
   if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), levels) != 0) throw nb::python_error();
 }
 

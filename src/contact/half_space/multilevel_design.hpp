@@ -26,12 +26,12 @@ struct MultilevelRung {
   double error = 0;
 };
 
-inline constexpr int max_levels = 6;
+inline constexpr int max_intervals = 6;
 
 // Stencils for cells of dx × dy with dx dy = 1 and E* = 1, the widest first. Each minimises the
 // largest error over the frequencies of a grid of 512² cells: linear least squares with the best C,
 // which is explicit, and weights raised where the error is large: Lawson's algorithm, Rice and Usow
-// (1968). depth <= max_levels. Cost: some milliseconds a level, once for each ratio of sides and
+// (1968). depth <= max_intervals. Cost: some milliseconds a level, once for each ratio of sides and
 // boundary.
 std::vector<MultilevelRung> multilevel_design(double dx_over_dy, Boundary boundary, int depth);
 

@@ -69,7 +69,7 @@ std::optional<MultilevelKernel::Plan> MultilevelKernel::Plan::make(const Grid2D&
                                                                    Boundary boundary) {
   int depth = 0;
   for (Index x = symbol.period_x, y = symbol.period_y;
-       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= min_period && depth < max_levels;
+       x % 2 == 0 && y % 2 == 0 && std::min(x, y) / 2 >= min_period && depth < max_intervals;
        x /= 2, y /= 2)
     ++depth;
   if (depth == 0) return std::nullopt;
@@ -128,12 +128,12 @@ void MultilevelKernel::add_level(Index& nx, Index& ny) {
     shift = {2 * reach - finer_reach, 2 * reach - finer_reach};
   }
   const RowPartition& finer = levels_.empty() ? rows_ : levels_.back().rows;
-  const RowPartition of_level = coarser(finer, nx, shift.x);
-  Level level(of_level, boundary_);
+  const RowPartition of_spring = coarser(finer, nx, shift.x);
+  Level level(of_spring, boundary_);
   level.shift = level.local_shift = shift;
-  level.local_shift.x += finer.begin() - 2 * of_level.begin();
-  level.source = HaloField<float>(of_level.count(), ny);
-  level.image = HaloField<float>(of_level.count(), ny);
+  level.local_shift.x += finer.begin() - 2 * of_spring.begin();
+  level.source = HaloField<float>(of_spring.count(), ny);
+  level.image = HaloField<float>(of_spring.count(), ny);
   levels_.push_back(std::move(level));
 }
 

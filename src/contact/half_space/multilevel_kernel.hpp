@@ -70,8 +70,8 @@ class MultilevelKernel {
 
  private:
   struct Level {
-    Level(const RowPartition& of_level, Boundary boundary)
-        : rows(of_level), halo_rows(detail::halo_rows(of_level, boundary)) {}
+    Level(const RowPartition& of_spring, Boundary boundary)
+        : rows(of_spring), halo_rows(detail::halo_rows(of_spring, boundary)) {}
 
     RowPartition rows;
     RowExchange halo_rows;

@@ -55,8 +55,8 @@ Stretching MaxwellSpring::stretching(double duration) const {
 }
 
 SpringPath::SpringPath(const MaxwellSpring& spring, std::span<const double> time,
-                       std::span<const double> levels)
-    : indentation(levels.begin(), levels.end()) {
+                       std::span<const double> springs)
+    : indentation(springs.begin(), springs.end()) {
   for (std::size_t i = 1; i < time.size(); ++i) {
     duration.push_back(time[i] - time[i - 1]);
     stretching.push_back(spring.stretching(duration.back()));
@@ -136,7 +136,7 @@ ViscoelasticIndentation viscoelastic_indentation(const IndenterLaw& law, const P
   std::vector<double> inner_clearance(samples, 0);
   double inner_edge = 0;
   for (const detail::SpringLayout::Cell& cell : layout.cells) {
-    detail::NormalSpring state(spring, cell.level);
+    detail::NormalSpring state(spring, cell.spring_depth);
     state.start(indentation[0], detail::Branches::Zero(spring.terms()));
     for (std::size_t i = 0; i < samples; ++i) {
       detail::stop_if_asked();

@@ -96,7 +96,7 @@ struct SpringPath {
 struct SpringLayout {
   struct Cell {
     double middle, edge;  // where it stands, and where its level is met: the rim of a flat end
-    double width, level;  // m, g(x)
+    double width, spring_depth;  // m, g(x)
   };
   SpringLayout(const IndenterProfile& profile, double from, double to, int springs);
   std::vector<Cell> cells;
@@ -105,13 +105,13 @@ struct SpringLayout {
 /// The normal state of the spring at one level g(x) of the indentation.
 class NormalSpring {
  public:
-  NormalSpring(const MaxwellSpring& spring, double level)
-      : spring_(spring), level_(level), y_(Branches::Zero(spring.terms())), modes_(y_) {}
+  NormalSpring(const MaxwellSpring& spring, double spring_depth)
+      : spring_(spring), touching_depth_(spring_depth), y_(Branches::Zero(spring.terms())), modes_(y_) {}
 
   /// Starts from anchors w − y_i of the branches: in contact where the indenter is below the
   /// surface that they have without force.
   void start(double indentation, const Branches& anchors) {
-    const double depth = indentation - level_, free = spring_.free_displacement_of_anchors(anchors);
+    const double depth = indentation - touching_depth_, free = spring_.free_displacement_of_anchors(anchors);
     closed_ = depth > free;
     y_ = std::max(depth, free) - anchors;
     if (!closed_) modes_ = spring_.to_modes(y_);
@@ -121,16 +121,16 @@ class NormalSpring {
     return displacement(indentation) - (closed_ ? y_ : spring_.from_modes(modes_));
   }
   double displacement(double indentation) const {
-    return closed_ ? indentation - level_ : spring_.displacement_of_modes(modes_);
+    return closed_ ? indentation - touching_depth_ : spring_.displacement_of_modes(modes_);
   }
   double force(double indentation) const {
-    return closed_ ? spring_.force(indentation - level_, y_) : 0;
+    return closed_ ? spring_.force(indentation - touching_depth_, y_) : 0;
   }
   /// Height of the indenter over the surface without force, < 0 in contact; continuous in the
   /// level.
   double clearance(double indentation) const {
     return closed_ ? -force(indentation) / spring_.unrelaxed_stiffness()
-                   : displacement(indentation) - (indentation - level_);
+                   : displacement(indentation) - (indentation - touching_depth_);
   }
 
   /// Goes through one step of the path; calls on_part(closed, share of the step, work of the force)
@@ -140,7 +140,7 @@ class NormalSpring {
 
  private:
   const MaxwellSpring& spring_;
-  double level_;
+  double touching_depth_;
   bool closed_ = false;
   Branches y_, modes_;
 };
@@ -150,8 +150,8 @@ void NormalSpring::advance(const SpringPath& path, std::size_t step, OnPart&& on
   // Touch and release follow each other; more than these in a step are of rounding.
   constexpr int max_events = 6;
   const double duration = path.duration[step];
-  double depth = path.indentation[step] - level_;
-  const double end = path.indentation[step + 1] - level_;
+  double depth = path.indentation[step] - touching_depth_;
+  const double end = path.indentation[step + 1] - touching_depth_;
   double left = 1;
   for (int event = 0; left > 0; ++event) {
     const double move = end - depth, rest = left * duration;

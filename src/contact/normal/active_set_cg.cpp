@@ -157,7 +157,7 @@ template <class Real>
 ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
   // Σp(g − plane) is offset by an approximate plane against cancellation; the true one is known
   // only after the pass.
-  const double near = run.load_given() ? run.level : run.target.value;
+  const double near = run.load_given() ? run.plane_height : run.target.value;
   const double kept_below = whole || std::isfinite(run.target.bound)
                                 ? std::numeric_limits<double>::infinity()
                                 : near + kept_reach * rms_height_;
@@ -203,13 +203,13 @@ ContactResidual ActiveSetCg<Real>::dense_gap(Run& run, bool exact, bool whole) {
       run.load_given() ? total.misfit + (near - total.least) * total.pressure : total.distance;
   result.residual = total.pressure > 0 ? misfit / (total.pressure * rms_height_) : 0;
   if (run.load_given()) {
-    result.level = total.count > 0 ? total.g / total.count : total.least;
+    result.plane_height = total.count > 0 ? total.g / total.count : total.least;
   } else {
     result.residual += std::max(0.0, near - total.least) / rms_height_;
-    result.level = near;
+    result.plane_height = near;
   }
   // The next tiles want a g that was not kept.
-  if (result.level + widest_margin * rms_height_ > kept_below) return dense_gap(run, exact, true);
+  if (result.plane_height + widest_margin * rms_height_ > kept_below) return dense_gap(run, exact, true);
   return result;
 }
 
@@ -224,8 +224,8 @@ double ActiveSetCg<Real>::estimate_of(const StepSums& step, const Run& run,
   if (!(scale_of_misfit > 0)) return std::numeric_limits<double>::infinity();
   double estimate =
       run.load_given()
-          ? (step.signed_misfit - (step.least - run.level) * step.pressure) / scale_of_misfit
-          : step.misfit / scale_of_misfit + std::max(0.0, run.level - step.least) / rms_height_;
+          ? (step.signed_misfit - (step.least - run.plane_height) * step.pressure) / scale_of_misfit
+          : step.misfit / scale_of_misfit + std::max(0.0, run.plane_height - step.least) / rms_height_;
   if (with_clipped) estimate += step.clipped / carried;
   return estimate;
 }
@@ -262,10 +262,10 @@ bool ActiveSetCg<Real>::iterate(Run& run) {
   run.curvature = curvature.tw;
   const double alpha =
       curvature.tw > 0 && std::isfinite(descent / curvature.tw) ? descent / curvature.tw : 0;
-  if (load_given) run.level -= alpha * curvature.w / run.count;
+  if (load_given) run.plane_height -= alpha * curvature.w / run.count;
 
   const auto step = total_of(over_tiles<StepSums>(
-      [&](Index begin, Index end) { return kernels_.step(a, begin, end, alpha, run.level); }));
+      [&](Index begin, Index end) { return kernels_.step(a, begin, end, alpha, run.plane_height); }));
   ++run.outcome.iterations;
   const auto resting =
       static_cast<double>(std::count(quiet_.begin(), quiet_.end(), 1)) * tile_width;
@@ -302,8 +302,8 @@ void ActiveSetCg<Real>::refresh(Run& run, bool last) {
   const bool whole = last || run.estimate < 2 * run.limits.tolerance || run.interrupted() ||
                      run.outcome.iterations >= run.limits.max_iterations ||
                      (!run.limits.exact && run.refreshes + 1 >= max_inexact_refreshes);
-  const auto [level, residual] = dense_gap(run, exact, whole);
-  run.level = level;
+  const auto [plane_height, residual] = dense_gap(run, exact, whole);
+  run.plane_height = plane_height;
   run.outcome.residual = residual;
   if (on_multilevel_) {
     run.misses = residual > 0.5 * run.at_refresh ? run.misses + 1 : 0;
@@ -330,26 +330,26 @@ ActiveSetOutcome ActiveSetCg<Real>::solve(const ScaledOperatingPoint& target,
   run.threshold = usual_threshold;
   if (run.load_given()) {
     correct_load(target, p);
-    run.level = limits.expected_level.value_or(0);
+    run.plane_height = limits.expected_plane_height.value_or(0);
   } else {
-    run.level = target.value;
+    run.plane_height = target.value;
   }
   multilevel_share_ = limits.multilevel_share;
-  auto [level, residual] =
-      dense_gap(run, false, run.load_given() && !limits.expected_level.has_value());
+  auto [plane_height, residual] =
+      dense_gap(run, false, run.load_given() && !limits.expected_plane_height.has_value());
   // A start that meets the tolerance is iterated once as well. Otherwise, where each of several
   // contacts starts from the one before, their differences would measure the starts. Single
   // precision does not show how far a start is from the solution.
   if (limits.exact && residual < std::max(exact_below, limits.tolerance)) {
     const ContactResidual exact = dense_gap(run, true, true);
-    level = exact.level;
+    plane_height = exact.plane_height;
     residual = exact.residual;
   }
-  run.level = level;
+  run.plane_height = plane_height;
   choose_tiles(run, widest_margin);
   if (on_multilevel_) run.at_refresh = residual;
   go_on(run);
-  if (run.finished || !limits.exact) run.outcome.level = run.level;
+  if (run.finished || !limits.exact) run.outcome.plane_height = run.plane_height;
   return run.outcome;
 }
 

@@ -82,7 +82,7 @@ class ActiveSetCg {
     ActiveSetOutcome outcome = {};
 
     double count = 0;                                       // free cells
-    double level = 0;                                       // λ
+    double plane_height = 0;                                       // λ
     bool has_direction = false;                             // t, w hold a direction and its image
     double curvature = 1;                                   // <t, w>
     double threshold = 0;                                   // see worth_a_change in iterate()

@@ -120,7 +120,7 @@ void ActiveSetCg<Real>::choose_operator() {
 // free cells in them.
 template <class Real>
 void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
-  const double near = run.level + margin * rms_height_, bound = run.target.bound;
+  const double near = run.plane_height + margin * rms_height_, bound = run.target.bound;
   for_rows([&](Index begin, Index end) {
     for (Index k = begin * tiles_per_row_; k < end * tiles_per_row_; ++k) {
       const Index row = k / tiles_per_row_, column = k % tiles_per_row_ * tile_width;
@@ -148,13 +148,13 @@ void ActiveSetCg<Real>::choose_tiles(Run& run, double margin) {
                 std::fill_n(m_ + packed, tile_width, Real(0));
                 // Most tiles hold neither load nor a gap below the plane.
                 if (!(nearest_[static_cast<std::size_t>(tile.row * tiles_per_row_ +
-                                                        tile.column / tile_width)] < run.level)) {
+                                                        tile.column / tile_width)] < run.plane_height)) {
                   quiet_[static_cast<std::size_t>(k)] = 1;
                   continue;
                 }
                 for (Index i = 0; i < width; ++i) {
                   const double p = p_[packed + i], g = g_[packed + i];
-                  if (!(p >= bound ? g > run.level : p > 0 || g < run.level)) continue;
+                  if (!(p >= bound ? g > run.plane_height : p > 0 || g < run.plane_height)) continue;
                   m_[packed + i] = Real(1);
                   sums.count += 1;
                   sums.g += g;
@@ -199,9 +199,9 @@ template <class Real>
 void ActiveSetCg<Real>::begin_set(Run& run, const std::vector<SetSums>& parts) {
   const SetSums total = total_of(parts);
   run.count = total.count;
-  if (run.load_given() && run.count > 0) run.level = total.g / run.count;
+  if (run.load_given() && run.count > 0) run.plane_height = total.g / run.count;
   const auto a = arrays(run.target.bound);
-  for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.level); });
+  for_tiles([&](Index begin, Index end) { kernels_.residual(a, begin, end, run.plane_height); });
 }
 
 // Fills the halo of the residual, so that the stencil sees the periodic images and the rows of
@@ -242,14 +242,14 @@ void ActiveSetCg<Real>::change_set(Run& run, bool truncate, double pressure) {
   const auto a = arrays(run.target.bound);
   if (!truncate) {
     begin_set(run, over_tiles<SetSums>([&](Index begin, Index end) {
-                return kernels_.change_set(a, begin, end, run.level);
+                return kernels_.change_set(a, begin, end, run.plane_height);
               }));
     return;
   }
   const LoadCorrection correction =
       run.load_given() ? correction_over_tiles(run, pressure) : LoadCorrection{};
   for_tiles([&](Index begin, Index end) {
-    kernels_.truncate(a, begin, end, run.level,
+    kernels_.truncate(a, begin, end, run.plane_height,
                       {correction.scale, correction.shift, correction.full_from});
   });
   // The last direction and its image stay as they are: CG goes on without a restart.

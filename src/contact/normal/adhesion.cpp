@@ -333,13 +333,13 @@ class AdhesiveSolve {
       inner_point = at_pressure(load);
     } else {
       // The heights are raised and count from first touch on.
-      const double level = periodic_ ? sums.highest - highest_ - mean - point_.value
+      const double depth = periodic_ ? sums.highest - highest_ - mean - point_.value
                                      : point_.value + sums.highest - highest_;
-      if (!(level > 0)) {
-        float_above(level, sums.highest);
+      if (!(depth > 0)) {
+        float_above(depth, sums.highest);
         return true;
       }
-      inner_point = at_indentation(level);
+      inner_point = at_indentation(depth);
     }
     NormalContactOptions inner = options_.contact;
     inner.tolerance = tolerance;
@@ -379,10 +379,10 @@ class AdhesiveSolve {
   }
 
   // Nothing touches: the highest of the raised heights is −level off the plane.
-  void float_above(double level, double highest_raised) {
+  void float_above(double depth, double highest_raised) {
     const Index nx = raised_.heights.rows(), ny = raised_.heights.cols();
     state_.contact_pressure = Field::Zero(nx, ny);
-    state_.gap = highest_raised - level - raised_.heights;
+    state_.gap = highest_raised - depth - raised_.heights;
     state_.contact_area_fraction = 0;
     state_.residual = 0;
     state_.termination = Termination::converged;

@@ -58,10 +58,10 @@ ContactResidual contact_residual(const Grid2D& grid, const RowPartition& rows,
   ContactResidual result;
   result.residual = total.pressure > 0 ? misfit / (total.pressure * rms_height) : 0;
   if (target.load_given()) {
-    result.level = total.free_count > 0 ? total.free_gap / total.free_count : total.min_gap;
+    result.plane_height = total.free_count > 0 ? total.free_gap / total.free_count : total.min_gap;
   } else {
     result.residual += std::max(0.0, plane - total.min_gap) / rms_height;
-    result.level = target.value;
+    result.plane_height = target.value;
   }
   return result;
 }

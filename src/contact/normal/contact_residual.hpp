@@ -73,12 +73,12 @@ struct ActiveSetLimits {
   MultilevelShare multilevel_share = {};
   // About where the contact plane will be, where it is not prescribed; it saves work and changes no
   // result.
-  std::optional<double> expected_level = {};
+  std::optional<double> expected_plane_height = {};
 };
 
 struct ActiveSetOutcome {
   double residual = std::numeric_limits<double>::infinity();  // e_c, over all cells
-  double level = 0;
+  double plane_height = 0;
   int iterations = 0;
   int fft_count = 0;
   int exact_fft_count = 0;   // of them in double precision, where the inner loop is not
@@ -94,7 +94,7 @@ struct ActiveSetOutcome {
 
 // Measures over all cells where the contact plane is, and how far p and g are from complementary.
 struct ContactResidual {
-  double level = 0;     // mean g of the cells with 0 < p < bound, or the level prescribed
+  double plane_height = 0;     // mean g of the cells with 0 < p < bound, or the level prescribed
   double residual = 0;  // e_c
 };
 

@@ -77,8 +77,8 @@ class Descent {
     Field direction = Field::Zero(p_.rows(), p_.cols()), z, old_image;
     double curvature = 0, best_gain = 0;
     for (int k = 0; k < most; ++k) {
-      const double level = target_.load_given() ? sum(mask * g_) / count : target_.value;
-      const Field r = mask * (g_ - level);
+      const double plane_height = target_.load_given() ? sum(mask * g_) / count : target_.value;
+      const Field r = mask * (g_ - plane_height);
       inverse_.apply(rows_, mask, r, boundary_, z);
       if (target_.load_given()) z -= mask * (sum(z) / count);
       const double beta = k > 0 ? -sum(z * old_image) / curvature : 0;
@@ -254,7 +254,7 @@ void gradient_projection(const ProjectionProblem& problem, const ActiveSetLimits
       now = contact_residual(grid, rows, problem.target, problem.rms_height, p, g);
     }
     outcome.residual = now.residual;
-    outcome.level = now.level;
+    outcome.plane_height = now.plane_height;
     outcome.termination = interrupted                       ? Termination::interrupted
                           : now.residual < limits.tolerance ? Termination::converged
                           : stalled                         ? Termination::stalled

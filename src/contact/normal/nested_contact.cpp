@@ -125,7 +125,7 @@ class RowStretch {
     const double zero = from.grid.heights.zero;
     for (Index j = 0; j < coarse_; ++j) {
       p[j] = static_cast<float>(from.pressure(row, j));
-      u[j] = static_cast<float>(from.gap(row, j) + (heights[j] - zero) - from.level);
+      u[j] = static_cast<float>(from.gap(row, j) + (heights[j] - zero) - from.plane_height);
     }
     for (const Index j : {Index(-1), coarse_, coarse_ + 1}) {
       p[j] = p[into(j, coarse_, boundary_)];

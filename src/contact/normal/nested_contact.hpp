@@ -28,7 +28,7 @@ std::vector<MultigridLevel> multigrid_levels(const Grid2D& grid, const RowPartit
 struct CoarseSolution {
   const MultigridLevel& grid;
   const Field &pressure, &gap;
-  double level;
+  double plane_height;
 };
 void prolong(const CoarseSolution& coarse, const MultigridLevel& fine, Boundary boundary,
              double step, double* pressure);

@@ -223,7 +223,7 @@ class NestedSolve {
                              target.load_given() ? target.value : 0.0);
     Field pressure = uninitialised_field(level.rows.count(), level.grid.ny);
     const double step = prediction / cell_compliance(level.grid, 1);
-    detail::prolong({levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.level},
+    detail::prolong({levels_[k + 1], solution_.pressure, solution_.gap, solution_.outcome.plane_height},
                     level, options.boundary, step, pressure.data());
     return pressure;
   }
@@ -233,7 +233,7 @@ class NestedSolve {
     ActiveSetLimits limits{
         k == 0 ? options.tolerance : std::max(coarse_tolerance, options.tolerance),
         options.max_iterations, k == 0};
-    if (k + 1 < levels_.size()) limits.expected_level = solution_.outcome.level;
+    if (k + 1 < levels_.size()) limits.expected_plane_height = solution_.outcome.plane_height;
     if (options.on_progress)
       limits.keep_going = [&options, k](int iteration, double residual) {
         const double decades = std::log10(std::clamp(residual, options.tolerance, 1.0));
@@ -261,7 +261,7 @@ class NestedSolve {
     solution_.pressure = Field::Zero(nx, ny);
     solution_.gap =
         Field::NullaryExpr(nx, ny, [&](Index i, Index j) { return -problem_.heights[i * ny + j]; });
-    solution_.outcome.level = 0;
+    solution_.outcome.plane_height = 0;
   }
 
   const Problem problem_;
@@ -292,7 +292,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
                // A saturated cell sinks in: what is below the plane there is plastic flow, not a
                // gap.
                const bool flows = pressure >= target.bound;
-               gap = flows ? 0 : gap - outcome.level;
+               gap = flows ? 0 : gap - outcome.plane_height;
                pressure = flows ? hardness : pressure * scaled.pressure_unit;
                sums.gap += gap;
              }
@@ -311,7 +311,7 @@ NormalContactState state_of(Solution&& solution, const ScaledOperatingPoint& tar
   state.mean_pressure = total.pressure / points * scaled.pressure_unit;
   state.force = state.mean_pressure * surface.grid.area();
   state.mean_gap = total.gap / points;
-  state.indentation = outcome.level;
+  state.indentation = outcome.plane_height;
   state.contact_area_fraction = total.contact / points;
   state.elastic_energy = 0.5 * total.work * scaled.pressure_unit * surface.grid.cell_area();
   state.residual = outcome.residual;

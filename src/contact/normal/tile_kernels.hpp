@@ -98,7 +98,7 @@ struct GapRow {
 template <class Real>
 struct TileKernels {
   // r = m(g − level)
-  void (*residual)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level);
+  void (*residual)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height);
   // z = m(S r)
   PreconditionSums (*precondition)(const TileArrays<Real>&, std::ptrdiff_t begin,
                                    std::ptrdiff_t end);
@@ -110,13 +110,13 @@ struct TileKernels {
                               const Real* row);
   // p −= alpha t, g −= alpha w, r = m(g − level)
   StepSums (*step)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double alpha,
-                   double level);
+                   double plane_height);
   // Frees held cells whose gap has the wrong sign, holds free cells whose pressure left its bounds.
   SetSums (*change_set)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,
-                        double level);
+                        double plane_height);
   // Does so, and p becomes min(scale·max(p, 0) + shift, bound), or the bound where it is full_from
   // or more, z the change of p.
-  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
+  void (*truncate)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height,
                    const Truncation& correction);
   // z into the row
   void (*spread_change)(const TileArrays<Real>&, std::ptrdiff_t begin, std::ptrdiff_t end,

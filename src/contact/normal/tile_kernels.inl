@@ -110,21 +110,21 @@ SALEBRA_INLINE void rest(const TileArrays<Real>& a, const Place& index, Width wi
 
 // Whether a cell without load is below the plane.
 template <class Width>
-SALEBRA_INLINE bool any_below(const double* g, double level, Width width) {
+SALEBRA_INLINE bool any_below(const double* g, double plane_height, Width width) {
   int below = 0;
-  for (Size i = 0; i < width; ++i) below |= g[i] < level;
+  for (Size i = 0; i < width; ++i) below |= g[i] < plane_height;
   return below != 0;
 }
 
 template <class Real>
-void residual(const TileArrays<Real>& a, Size begin, Size end, double level) {
+void residual(const TileArrays<Real>& a, Size begin, Size end, double plane_height) {
   for_tiles<Reads::residual>(
       a, begin, end,
       [&](const Place& index, auto width) {
         const double* g = a.g + index.packed;
         const Real* m = a.m + index.packed;
         Real* r = a.r + index.with_halo;
-        for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - level);
+        for (Size i = 0; i < width; ++i) r[i] = m[i] * static_cast<Real>(g[i] - plane_height);
       },
       [&](const Place& index, auto width) {
         for (Size i = 0; i < width; ++i) a.r[index.with_halo + i] = 0;
@@ -215,7 +215,7 @@ CurvatureSums take_image(const TileArrays<Real>& a, Size begin, Size end, const 
 }
 
 template <class Real>
-StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, double level) {
+StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, double plane_height) {
   Lanes outside, wrong, clipped, pressure, misfit, signed_misfit, saturated, least;
   for (int lane = 0; lane < tile_width; ++lane) least.value[lane] = __builtin_inf();
   const double bound = a.bound;
@@ -230,7 +230,7 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
           const double y = g[i] - alpha * static_cast<double>(w[i]);
           p[i] = x;
           g[i] = y;
-          const double free = static_cast<double>(m[i]), apart = y - level;
+          const double free = static_cast<double>(m[i]), apart = y - plane_height;
           r[i] = static_cast<Real>(free * apart);
           const double above = x < 0 ? 0 : x;
           const double held_in = above < bound ? above : bound;
@@ -257,7 +257,7 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
         for (Size i = 0; i < width; ++i) {
           const double y = g[i] - alpha * static_cast<double>(w[i]);
           g[i] = y;
-          const double apart = y - level, closed = apart < 0 ? -apart : 0;
+          const double apart = y - plane_height, closed = apart < 0 ? -apart : 0;
           wrong.value[i] += closed * closed;
           least.value[i] = y < least.value[i] ? y : least.value[i];
         }
@@ -269,22 +269,22 @@ StepSums step(const TileArrays<Real>& a, Size begin, Size end, double alpha, dou
 
 // 1 for a cell that is free from now on, else 0; in numbers, because mixed tests of float and
 // double do not vectorise.
-SALEBRA_INLINE double freed(double free, double p, double g, double level, double bound) {
+SALEBRA_INLINE double freed(double free, double p, double g, double plane_height, double bound) {
   const double above = p < 0 ? 0.0 : 1.0, stays = p > bound ? 0.0 : above;
-  const double open = g > level ? 1.0 : 0.0, closed = g < level ? 1.0 : 0.0;
+  const double open = g > plane_height ? 1.0 : 0.0, closed = g < plane_height ? 1.0 : 0.0;
   const double enters = p > 0 ? open : closed;
   return free * stays + (1 - free) * enters;
 }
 
 template <class Real>
-SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level) {
+SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double plane_height) {
   Lanes count, sum;
   const double bound = a.bound;
   const auto change = [&](const Place& index, auto width) {
     Real* m = a.m + index.packed;
     const double *p = a.p + index.packed, *g = a.g + index.packed;
     for (Size i = 0; i < width; ++i) {
-      const double free = freed(static_cast<double>(m[i]), p[i], g[i], level, bound);
+      const double free = freed(static_cast<double>(m[i]), p[i], g[i], plane_height, bound);
       m[i] = static_cast<Real>(free);
       count.value[i] += free;
       sum.value[i] += free * g[i];
@@ -292,7 +292,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
     rest(a, index, width);
   };
   for_tiles<Reads::packed>(a, begin, end, change, [&](const Place& index, auto width) {
-    if (!any_below(a.g + index.packed, level, width)) return;
+    if (!any_below(a.g + index.packed, plane_height, width)) return;
     a.quiet[index.packed / tile_width] = 0;
     change(index, width);
   });
@@ -300,7 +300,7 @@ SetSums change_set(const TileArrays<Real>& a, Size begin, Size end, double level
 }
 
 template <class Real>
-void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
+void truncate(const TileArrays<Real>& a, Size begin, Size end, double plane_height,
               const Truncation& correction) {
   const double scale = correction.scale, shift = correction.shift, full_from = correction.full_from;
   const double bound = a.bound;
@@ -312,7 +312,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
       const double above = (p[i] < 0 ? 0 : p[i] * scale) + shift;
       const double within = above < bound ? above : bound;
       const double kept = p[i] < full_from ? within : bound;
-      const double free = freed(static_cast<double>(m[i]), p[i], g[i], level, bound);
+      const double free = freed(static_cast<double>(m[i]), p[i], g[i], plane_height, bound);
       // A held cell that the correction of the load took off its bound is free again.
       const double loaded = kept > 0 ? 1.0 : 0.0, inside = kept < bound ? loaded : 0.0;
       m[i] = static_cast<Real>(inside > free ? inside : free);
@@ -321,7 +321,7 @@ void truncate(const TileArrays<Real>& a, Size begin, Size end, double level,
     }
   };
   for_tiles<Reads::packed>(a, begin, end, cut, [&](const Place& index, auto width) {
-    if (shift == 0 && !any_below(a.g + index.packed, level, width)) return;
+    if (shift == 0 && !any_below(a.g + index.packed, plane_height, width)) return;
     a.quiet[index.packed / tile_width] = 0;
     cut(index, width);
   });

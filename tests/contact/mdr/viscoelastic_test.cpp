@@ -158,8 +158,8 @@ TEST_CASE(
       double load_within = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < found.spring_position.size(); k += 3) {
         const double x = found.spring_position[k], load = found.spring_load[k];
-        const double level = profile->image(x), gap = found.spring_displacement[k] - (at - level);
-        CAPTURE(end, x, level, at);
+        const double spring_depth = profile->image(x), gap = found.spring_displacement[k] - (at - spring_depth);
+        CAPTURE(end, x, spring_depth, at);
         CHECK(load <= load_within);
         load_within = load;
         CHECK(load >= 0);
@@ -172,7 +172,7 @@ TEST_CASE(
         const auto surface = [&](const double* state, double t) {
           double sum = 0;
           for (int i = 0; i < 3; ++i) sum += ratios[i] / unrelaxed * state[i];
-          return std::max(indentation(t) - level, sum);
+          return std::max(indentation(t) - spring_depth, sum);
         };
         constexpr int fine = 40000;
         const double h = end / fine;

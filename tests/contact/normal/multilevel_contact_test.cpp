@@ -37,7 +37,7 @@ Solved solve(const Surface& surface, Boundary boundary, const ScaledOperatingPoi
       here.pressure = Field::Constant(grid.nx, grid.ny, target.load_given() ? target.value : 0.01);
     } else {
       here.pressure = Field(grid.nx, grid.ny);
-      prolong({levels[1], coarse.pressure, coarse.gap, coarse.outcome.level}, levels[0], boundary,
+      prolong({levels[1], coarse.pressure, coarse.gap, coarse.outcome.plane_height}, levels[0], boundary,
               0.6 / cell_compliance(grid, 1), here.pressure.data());
     }
     ActiveSetLimits limits{k == 0 ? tolerance : 1e-3, 1000, k == 0};
@@ -182,7 +182,7 @@ TEST_CASE(
     ActiveSetLimits limits;
     limits.tolerance = 1e-8;
     limits.multilevel_share = share;
-    limits.expected_level = expected;
+    limits.expected_plane_height = expected;
     found.outcome = ActiveSetCg<float>(surface.grid, 1, Boundary::periodic, heights, rms)
                         .solve(target, limits, found.pressure.data(), found.gap.data());
     return found;
@@ -198,7 +198,7 @@ TEST_CASE(
     exact -= surface.heights - heights.zero;
     // Both are the same numbers by the same transform, but for what it reads of rows without load.
     CHECK((plain.gap - exact).abs().maxCoeff() < 1e-13 * rms);
-    const double level = plain.outcome.level;
+    const double level = plain.outcome.plane_height;
     for (const double off : {0.0, 0.05, -1.0, 2.0}) {
       const Solved found = solved(level + off * rms, share);
       CAPTURE(share, off);

@@ -39,10 +39,10 @@ void for_active_cells(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrd
 }
 
 template <class Real>
-void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level) {
+void residual(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height) {
   for_cells(a, begin, end, [&](const Cell& c) {
     a.r[c.with_halo] =
-        a.quiet[c.tile] ? Real(0) : a.m[c.packed] * static_cast<Real>(a.g[c.packed] - level);
+        a.quiet[c.tile] ? Real(0) : a.m[c.packed] * static_cast<Real>(a.g[c.packed] - plane_height);
   });
 }
 
@@ -97,7 +97,7 @@ CurvatureSums take_image(const TileArrays<Real>& a, std::ptrdiff_t begin, std::p
 
 template <class Real>
 StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double alpha,
-              double level) {
+              double plane_height) {
   StepSums sums;
   sums.least = std::numeric_limits<double>::infinity();
   for_cells(a, begin, end, [&](const Cell& c) {
@@ -105,23 +105,23 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
     const double m = a.m[c.packed];
     p -= alpha * double(a.t[c.packed]);
     g -= alpha * double(a.w[c.packed]);
-    if (!a.quiet[c.tile]) a.r[c.with_halo] = static_cast<Real>(m * (g - level));
+    if (!a.quiet[c.tile]) a.r[c.with_halo] = static_cast<Real>(m * (g - plane_height));
     const double clipped = std::clamp(p, 0.0, a.bound), beyond = p - clipped;
     const bool saturated = clipped >= a.bound;
     sums.outside += beyond * beyond;
     sums.clipped += std::abs(beyond);
     // A held cell is wrong where its gap asks for a change: below the plane without load, above it
     // at the bound.
-    const double wrong = saturated ? std::max(g - level, 0.0) : std::max(level - g, 0.0);
+    const double wrong = saturated ? std::max(g - plane_height, 0.0) : std::max(plane_height - g, 0.0);
     sums.wrong += (1 - m) * wrong * wrong;
     if (saturated) {
       sums.saturated += 1;
-      sums.misfit += a.bound * std::max(g - level, 0.0);
-      sums.signed_misfit += a.bound * std::max(g - level, 0.0);
+      sums.misfit += a.bound * std::max(g - plane_height, 0.0);
+      sums.signed_misfit += a.bound * std::max(g - plane_height, 0.0);
     } else {
       sums.pressure += clipped;
-      sums.misfit += clipped * std::abs(g - level);
-      sums.signed_misfit += clipped * (g - level);
+      sums.misfit += clipped * std::abs(g - plane_height);
+      sums.signed_misfit += clipped * (g - plane_height);
       sums.least = std::min(sums.least, g);
     }
   });
@@ -130,16 +130,16 @@ StepSums step(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t en
 
 // A free cell stays free while its pressure is within its bounds; a held one becomes free where its
 // gap has the wrong sign.
-inline bool becomes_free(bool free, double p, double g, double level, double bound) {
+inline bool becomes_free(bool free, double p, double g, double plane_height, double bound) {
   if (free) return p >= 0 && p <= bound;
-  return p > 0 ? g > level : g < level;
+  return p > 0 ? g > plane_height : g < plane_height;
 }
 
 // Whether any cell of a tile lies below the plane: a quiet tile wakes then.
 template <class Real>
-bool any_below(const TileArrays<Real>& a, std::ptrdiff_t k, double level) {
+bool any_below(const TileArrays<Real>& a, std::ptrdiff_t k, double plane_height) {
   bool below = false;
-  for_cells(a, k, k + 1, [&](const Cell& c) { below = below || a.g[c.packed] < level; });
+  for_cells(a, k, k + 1, [&](const Cell& c) { below = below || a.g[c.packed] < plane_height; });
   return below;
 }
 
@@ -156,14 +156,14 @@ void rest(const TileArrays<Real>& a, std::ptrdiff_t k) {
 
 template <class Real>
 SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end,
-                   double level) {
+                   double plane_height) {
   SetSums sums;
   for (std::ptrdiff_t k = begin; k < end; ++k) {
-    if (a.quiet[k] && !any_below(a, k, level)) continue;
+    if (a.quiet[k] && !any_below(a, k, plane_height)) continue;
     a.quiet[k] = 0;
     for_cells(a, k, k + 1, [&](const Cell& c) {
       const bool free =
-          becomes_free(a.m[c.packed] != 0, a.p[c.packed], a.g[c.packed], level, a.bound);
+          becomes_free(a.m[c.packed] != 0, a.p[c.packed], a.g[c.packed], plane_height, a.bound);
       a.m[c.packed] = free;
       sums.count += free;
       sums.g += free ? a.g[c.packed] : 0;
@@ -174,18 +174,18 @@ SetSums change_set(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff
 }
 
 template <class Real>
-void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double level,
+void truncate(const TileArrays<Real>& a, std::ptrdiff_t begin, std::ptrdiff_t end, double plane_height,
               const Truncation& correction) {
   const double scale = correction.scale, shift = correction.shift, full_from = correction.full_from;
   for (std::ptrdiff_t k = begin; k < end; ++k) {
-    if (a.quiet[k] && shift == 0 && !any_below(a, k, level)) continue;
+    if (a.quiet[k] && shift == 0 && !any_below(a, k, plane_height)) continue;
     a.quiet[k] = 0;
     for_cells(a, k, k + 1, [&](const Cell& c) {
       double& p = a.p[c.packed];
       const double corrected =
           p >= full_from ? a.bound : std::min(scale * std::max(p, 0.0) + shift, a.bound);
       const bool inside = corrected > 0 && corrected < a.bound;
-      a.m[c.packed] = inside || becomes_free(a.m[c.packed] != 0, p, a.g[c.packed], level, a.bound);
+      a.m[c.packed] = inside || becomes_free(a.m[c.packed] != 0, p, a.g[c.packed], plane_height, a.bound);
       a.z[c.packed] = static_cast<Real>(corrected - p);
       p = corrected;
     });

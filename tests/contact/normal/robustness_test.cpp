@@ -162,7 +162,7 @@ TEST_CASE("Where conjugate gradients stall, gradient projection finds the same c
   CHECK(outcome.iterations > reference.iterations);
   CHECK(((stalled.p > 0) == (usual.p > 0)).all());
   CHECK((stalled.p - usual.p).abs().maxCoeff() < 1e-5 * usual.p.maxCoeff());
-  CHECK(outcome.level == Approx(reference.level).epsilon(1e-7));
+  CHECK(outcome.plane_height == Approx(reference.plane_height).epsilon(1e-7));
 }
 
 TEST_CASE("Gradient projection solves a contact on its own, from any start", "[normal]") {
@@ -173,7 +173,7 @@ TEST_CASE("Gradient projection solves a contact on its own, from any start", "[n
   const auto reference = usual.solve<double>();
   REQUIRE(reference.converged());
   if (!load_given) {
-    projected.target = {ControlQuantity::indentation, reference.level, bound};
+    projected.target = {ControlQuantity::indentation, reference.plane_height, bound};
     projected.p.setZero();
   }
   auto compliance = normal_compliance<double>(projected.surface.grid, 1, Boundary::periodic);

@@ -166,7 +166,7 @@ bool equal(const GapSums& a, const GapSums& b) {
 template <class Real>
 void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
   const TileKernels<Real> plain = reference::table<Real>();
-  const double level = 0.375, infinity = std::numeric_limits<double>::infinity();
+  const double plane_height = 0.375, infinity = std::numeric_limits<double>::infinity();
   // call(kernels, tiles) with the fast and with the plain kernels, from the same tiles.
   const auto both = [&](const char* kernel, const auto& call) {
     INFO(kernel);
@@ -176,8 +176,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
     CHECK(one == other);
   };
   both("residual", [&](auto& f, auto& a, auto& s, auto& b) {
-    f.residual(a.arrays(), 0, a.count(), level);
-    s.residual(b.arrays(), 0, b.count(), level);
+    f.residual(a.arrays(), 0, a.count(), plane_height);
+    s.residual(b.arrays(), 0, b.count(), plane_height);
     return true;
   });
   both("precondition", [&](auto& f, auto& a, auto& s, auto& b) {
@@ -196,12 +196,12 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
                  s.take_image(b.arrays(), begin, end, b.row.data()));
   });
   both("step", [&](auto& f, auto& a, auto& s, auto& b) {
-    return equal(f.step(a.arrays(), 0, a.count(), 0.625, level),
-                 s.step(b.arrays(), 0, b.count(), 0.625, level));
+    return equal(f.step(a.arrays(), 0, a.count(), 0.625, plane_height),
+                 s.step(b.arrays(), 0, b.count(), 0.625, plane_height));
   });
   both("change_set", [&](auto& f, auto& a, auto& s, auto& b) {
-    return equal(f.change_set(a.arrays(), 0, a.count(), level),
-                 s.change_set(b.arrays(), 0, b.count(), level));
+    return equal(f.change_set(a.arrays(), 0, a.count(), plane_height),
+                 s.change_set(b.arrays(), 0, b.count(), plane_height));
   });
   // Scaled only, shifted, and scaled with the cells left alone that are at their bound, or beyond
   // half of it.
@@ -212,8 +212,8 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
        {Correction{1.25, 0, std::numeric_limits<double>::infinity()},
         Correction{1.25, 0.125, std::numeric_limits<double>::infinity()}, Correction{0.75, 0, 0.5}})
     both("truncate", [&](auto& f, auto& a, auto& s, auto& b) {
-      f.truncate(a.arrays(), 0, a.count(), level, {by.scale, by.shift, by.full_from * a.bound});
-      s.truncate(b.arrays(), 0, b.count(), level, {by.scale, by.shift, by.full_from * b.bound});
+      f.truncate(a.arrays(), 0, a.count(), plane_height, {by.scale, by.shift, by.full_from * a.bound});
+      s.truncate(b.arrays(), 0, b.count(), plane_height, {by.scale, by.shift, by.full_from * b.bound});
       return true;
     });
   both("spread_change", [&](auto& f, auto& a, auto& s, auto& b) {
@@ -232,10 +232,10 @@ void compare(const TileKernels<Real>& fast, std::uint32_t seed, double bound) {
   std::array<unsigned char, tiles_per_row> some{};
   some[0] = some[tiles_per_row - 1] = 1;
   for (const unsigned char* in_use : std::array<const unsigned char*, 2>{nullptr, some.data()})
-    for (const double kept_below : {infinity, level + 0.5}) {
+    for (const double kept_below : {infinity, plane_height + 0.5}) {
       const auto row_of = [&](auto& fields, const std::vector<double>& heights, double* nearest) {
         return GapRow{heights.data(), 0.5,   fields.p.data(), in_use,          ny,
-                      bound,          level, kept_below,      fields.g.data(), nearest};
+                      bound,          plane_height, kept_below,      fields.g.data(), nearest};
       };
       both("gap", [&](auto& f, auto& a, auto& s, auto& b) {
         const std::vector<double> heights = a.g;

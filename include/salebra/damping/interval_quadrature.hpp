@@ -6,22 +6,22 @@
 
 namespace salebra {
 
-struct LevelQuadratureOptions {
-  int levels = 0;        ///< contacts; 0: 16 for equal frequencies, 32 for drag; otherwise >= 4
+struct IntervalQuadratureOptions {
+  int intervals = 0;        ///< contacts; 0: 16 for equal frequencies, 32 for drag; otherwise >= 4
   double direction = 0;  ///< angle of the tangential motion against x, rad
   StickOptions stick = {.tolerance = 1e-5};
   Progress on_progress = {};
 };
 
 /// The loss of a cycle from a few contact sets.
-struct LevelQuadratureResult {
+struct IntervalQuadratureResult {
   /// W with K_t = ρ(δ)(G*/E*)F'(δ), J: F' comes from F and K of the contacts, and ρ from
   /// K_t/((G*/E*)K) of each. Both stiffnesses of a contact use the same cells, so the resolution of
   /// the contact's edge cancels in ρ.
   double work_per_cycle = 0;
   double error_estimate =
       0;  ///< error of work_per_cycle, J: scatter of ρ, and F' against the given K of the contacts
-  double work_by_levels = 0;        ///< W by parts from the given K_t of the contacts, J
+  double work_by_intervals = 0;        ///< W by parts from the given K_t of the contacts, J
   double work_by_force = 0;         ///< W with K_t = (G*/E*)F', from normal contacts alone, J
   double small_amplitude_work = 0;  ///< Eq. (12) or (15) with F'' of the same fit, J
   double force = 0;                 ///< F at the mean indentation, N
@@ -36,13 +36,13 @@ struct LevelQuadratureResult {
   bool converged() const { return termination == Termination::converged; }
 };
 
-constexpr void describe(auto&& visit, std::type_identity<LevelQuadratureResult>) {
+constexpr void describe(auto&& visit, std::type_identity<IntervalQuadratureResult>) {
   using enum Dimension;
-  using S = LevelQuadratureResult;
+  using S = IntervalQuadratureResult;
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::error_estimate, quantity::error_estimate);
-  visit(&S::work_by_levels,
-        Kept{"work_by_levels", "the same from the tangential stiffness of the levels as they are",
+  visit(&S::work_by_intervals,
+        Kept{"work_by_intervals", "the same from the tangential stiffness of the levels as they are",
              energy});
   visit(&S::work_by_force,
         Quantity{"work_by_force", energy, "energy dissipated in a cycle by K_t = (G*/E*)K"});
@@ -63,9 +63,9 @@ constexpr void describe(auto&& visit, std::type_identity<LevelQuadratureResult>)
 struct OscillationLoss {
   double work_per_cycle = 0;        ///< by steps, or by level quadrature if there are no steps, J
   double error_estimate = 0;        ///< J
-  double work_by_levels = 0;        ///< LevelQuadratureResult::work_per_cycle, J
-  double work_by_levels_error = 0;  ///< J
-  double work_by_whole_cells = 0;   ///< LevelQuadratureResult::work_by_levels, J
+  double work_by_intervals = 0;        ///< IntervalQuadratureResult::work_per_cycle, J
+  double work_by_intervals_error = 0;  ///< J
+  double work_by_whole_cells = 0;   ///< IntervalQuadratureResult::work_by_intervals, J
   std::optional<double> small_amplitude_work = {}, ratio = {};  ///< Eq. (12) or (15), J; W over it
   double work_by_force = 0;                                     ///< with K_t = (G*/E*)K, J
   std::optional<double> ratio_finite = {};
@@ -73,7 +73,7 @@ struct OscillationLoss {
   double indentation = 0;                      ///< mean, m
   double force = 0;                            ///< at the mean indentation, N
   std::optional<double> force_curvature = {};  ///< N/m²
-  std::size_t levels = 0;
+  std::size_t intervals = 0;
 };
 
 constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
@@ -81,13 +81,13 @@ constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
   using S = OscillationLoss;
   visit(&S::work_per_cycle, quantity::work_per_cycle);
   visit(&S::error_estimate, quantity::error_estimate);
-  visit(&S::work_by_levels,
-        Quantity{"work_by_levels", energy, "energy dissipated in a cycle, from contact levels"});
-  visit(&S::work_by_levels_error, Quantity{"work_by_levels_error", energy,
-                                           "estimated error of the energy from contact levels"});
+  visit(&S::work_by_intervals,
+        Quantity{"work_by_intervals", energy, "energy dissipated in a cycle, by intervals"});
+  visit(&S::work_by_intervals_error, Quantity{"work_by_intervals_error", energy,
+                                           "estimated error of the energy by intervals"});
   visit(&S::work_by_whole_cells,
         Quantity{"work_by_whole_cells", energy,
-                 "energy dissipated in a cycle, from contact levels of whole cells"});
+                 "energy dissipated in a cycle, by intervals of whole cells"});
   visit(&S::small_amplitude_work, quantity::small_amplitude_work);
   visit(&S::ratio,
         Quantity{"ratio", dimensionless, "energy dissipated in a cycle over small_amplitude_work"});
@@ -100,7 +100,7 @@ constexpr void describe(auto&& visit, std::type_identity<OscillationLoss>) {
   visit(&S::indentation, quantity::indentation);
   visit(&S::force, quantity::force);
   visit(&S::force_curvature, quantity::force_curvature);
-  visit(&S::levels, Quantity{"levels", dimensionless, "contact levels"});
+  visit(&S::intervals, Quantity{"intervals", dimensionless, "contacts in the oscillation"});
 }
 
 /// The same by the exponential law with a decay length.
@@ -135,13 +135,13 @@ constexpr void describe(auto&& visit, std::type_identity<ExponentialLoss>) {
 /// on Gauss–Legendre nodes of θ, δ(θ) = δ0 + u_z cosθ, with a normal contact, a stick and a punch
 /// solve at each.
 ///
-///     ContactLevels contacts = boundary_element_levels(surface, material.contact_modulus);
-///     auto loss = level_quadrature(contacts, surface.grid, material, Drag{1e-9, 1e-6, 1e5}, 1e-8);
+///     ContactSets contacts = boundary_element_contact_sets(surface, material.contact_modulus);
+///     auto loss = interval_quadrature(contacts, surface.grid, material, Drag{1e-9, 1e-6, 1e5}, 1e-8);
 ///
 /// cost  levels + 2 normal contacts, and for all but one of them a stick and a punch solve
-LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D& grid,
+IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
                                        const Material& material, const Oscillation& motion,
                                        double mean_indentation,
-                                       const LevelQuadratureOptions& options = {});
+                                       const IntervalQuadratureOptions& options = {});
 
 }  // namespace salebra

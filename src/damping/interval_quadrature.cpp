@@ -8,7 +8,7 @@
 #include <salebra/contact/normal/punch.hpp>
 #include <salebra/contact/tangential/stick.hpp>
 #include <salebra/damping/closed_form.hpp>
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 #include <vector>
 
 #include "phase_quadrature.hpp"
@@ -112,8 +112,8 @@ double scatter_of_loss(const Oscillation& motion, const std::vector<Node>& nodes
 }
 
 void validate(const Oscillation& motion, double mean_indentation,
-              const LevelQuadratureOptions& options) {
-  require(options.levels == 0 || options.levels >= 4, "levels", options.levels,
+              const IntervalQuadratureOptions& options) {
+  require(options.intervals == 0 || options.intervals >= 4, "intervals", options.intervals,
           "must be >= 4, or 0 for the default of the motion");
   require(std::isfinite(mean_indentation), "indentation", mean_indentation, "must be finite");
   require_positive(normal_amplitude(motion), "normal_amplitude");
@@ -131,14 +131,14 @@ struct LevelValues {
 // The problem, and the contacts that are solved for it.
 class LevelSolver {
  public:
-  LevelSolver(const ContactLevels& levels, const Grid2D& grid, const Material& material,
-              const LevelQuadratureOptions& options, LevelQuadratureResult& result)
-      : levels_(levels), grid_(grid), material_(material), options_(options), result_(result) {}
+  LevelSolver(const ContactSets& contact_sets, const Grid2D& grid, const Material& material,
+              const IntervalQuadratureOptions& options, IntervalQuadratureResult& result)
+      : intervals_(intervals), grid_(grid), material_(material), options_(options), result_(result) {}
 
   LevelValues at(double indentation, bool with_stiffness) {
     LevelValues values;
     values.sample.indentation = indentation;
-    const ContactSetAt level = levels_(indentation);
+    const ContactSetAt level = intervals_(indentation);
     values.sample.force = level.force;
     values.sample.pressure = level.force / grid_.area();
     values.sample.contact_area_fraction =
@@ -176,11 +176,11 @@ class LevelSolver {
     result_.fft_count += stick.fft_count + punch.fft_count;
   }
 
-  const ContactLevels& levels_;
+  const ContactSets& intervals_;
   const Grid2D& grid_;
   const Material& material_;
-  const LevelQuadratureOptions& options_;
-  LevelQuadratureResult& result_;
+  const IntervalQuadratureOptions& options_;
+  IntervalQuadratureResult& result_;
 };
 
 // Levels from the greatest indentation to the least, the nodes between the two ends.
@@ -193,32 +193,32 @@ struct SolvedLevels {
 // What the levels say of W. In a drag the stiffness at the least of them counts too.
 class LossOfLevels {
  public:
-  LossOfLevels(const SolvedLevels& levels, const Oscillation& motion, double modulus_ratio)
-      : levels_(levels),
+  LossOfLevels(const SolvedLevels& intervals, const Oscillation& motion, double modulus_ratio)
+      : intervals_(intervals),
         motion_(motion),
         drag_(std::holds_alternative<Drag>(motion)),
         amplitude_(normal_amplitude(motion)),
         modulus_ratio_(modulus_ratio) {
     // F and K = F' are known together. F feels the cells that enter one by one less than K does.
     normal_.slope_weight = 0.1;
-    for (std::size_t k = 0; k < levels.values.size(); ++k) {
-      const auto& [sample, ratio] = levels.values[k];
-      normal_.theta.push_back(levels.theta[k]);
+    for (std::size_t k = 0; k < intervals.values.size(); ++k) {
+      const auto& [sample, ratio] = intervals.values[k];
+      normal_.theta.push_back(intervals.theta[k]);
       normal_.values.push_back(sample.force);
       if (!std::isfinite(sample.normal_stiffness)) continue;
-      normal_.slope_theta.push_back(levels.theta[k]);
+      normal_.slope_theta.push_back(intervals.theta[k]);
       normal_.slopes.push_back(sample.normal_stiffness * amplitude_);
       if (!std::isfinite(ratio)) continue;
-      ratios_.theta.push_back(levels.theta[k]);
+      ratios_.theta.push_back(intervals.theta[k]);
       ratios_.values.push_back(ratio);
     }
     // Eighth degree: what follows the indentation faster is noise of the cells.
-    highest_degree_ = std::min(static_cast<int>(levels.nodes.size()) / 2, 8);
+    highest_degree_ = std::min(static_cast<int>(intervals.nodes.size()) / 2, 8);
     force_ = best_fit(normal_, highest_degree_);
   }
 
-  void fill(LevelQuadratureResult& result) const {
-    result.work_by_levels = of_levels(&ForceSample::tangential_stiffness, 1);
+  void fill(IntervalQuadratureResult& result) const {
+    result.work_by_intervals = of_levels(&ForceSample::tangential_stiffness, 1);
     result.work_by_force = by_force(force_);
     result.force = force_(pi / 2);
     // The loss is an integral and forgives a fit that follows the cells; a second derivative at a
@@ -243,11 +243,11 @@ class LossOfLevels {
   double of_levels(double ForceSample::*stiffness, double factor) const {
     const auto at = [&](const LevelValues& level) { return factor * (level.sample.*stiffness); };
     return loss(
-        motion_, levels_.nodes, [&](std::size_t k) { return at(levels_.values[k + 1]); },
-        drag_ ? at(levels_.values.back()) : 0);
+        motion_, intervals_.nodes, [&](std::size_t k) { return at(intervals_.values[k + 1]); },
+        drag_ ? at(intervals_.values.back()) : 0);
   }
 
-  void add_ratio(LevelQuadratureResult& result) const {
+  void add_ratio(IntervalQuadratureResult& result) const {
     // Four parameters at most: ρ varies slowly, and what varies fast is noise of the cells.
     const Series ratio = best_fit(ratios_, std::min(3, static_cast<int>(ratios_.theta.size()) / 4));
     Eigen::VectorXd gradient(ratio.coefficients.size());
@@ -269,18 +269,18 @@ class LossOfLevels {
     // K of whole cells scatters about F'. Its sum may agree by chance; the scatter tells by how
     // much it could differ.
     const auto deviation = [&](std::size_t at) {
-      return modulus_ratio_ * (levels_.values[at].sample.normal_stiffness -
-                               force_.slope(levels_.theta[at]) / amplitude_);
+      return modulus_ratio_ * (intervals_.values[at].sample.normal_stiffness -
+                               force_.slope(intervals_.theta[at]) / amplitude_);
     };
     std::vector<double> deviations;
-    for (std::size_t k = 0; k < levels_.nodes.size(); ++k) deviations.push_back(deviation(k + 1));
-    const double cells = scatter_of_loss(motion_, levels_.nodes, deviations,
-                                         drag_ ? deviation(levels_.nodes.size() + 1) : 0);
+    for (std::size_t k = 0; k < intervals_.nodes.size(); ++k) deviations.push_back(deviation(k + 1));
+    const double cells = scatter_of_loss(motion_, intervals_.nodes, deviations,
+                                         drag_ ? deviation(intervals_.nodes.size() + 1) : 0);
     return std::max({std::abs(by_stiffness - work_by_force),
                      std::abs(by_force(fit(normal_, degree + 1)) - work_by_force), 2 * cells});
   }
 
-  const SolvedLevels& levels_;
+  const SolvedLevels& intervals_;
   const Oscillation& motion_;
   const bool drag_;
   const double amplitude_, modulus_ratio_;
@@ -291,17 +291,17 @@ class LossOfLevels {
 
 }  // namespace
 
-LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D& grid,
+IntervalQuadratureResult interval_quadrature(const ContactSets& contact_sets, const Grid2D& grid,
                                        const Material& material, const Oscillation& motion,
                                        double mean_indentation,
-                                       const LevelQuadratureOptions& options) {
+                                       const IntervalQuadratureOptions& options) {
   grid.validate();
   validate(motion, mean_indentation, options);
   const bool drag = std::holds_alternative<Drag>(motion);
-  const int count = options.levels > 0 ? options.levels : (drag ? 32 : 16);
-  LevelQuadratureResult result;
+  const int count = options.intervals > 0 ? options.intervals : (drag ? 32 : 16);
+  IntervalQuadratureResult result;
   result.termination = Termination::converged;
-  LevelSolver solver(levels, grid, material, options, result);
+  LevelSolver solver(intervals, grid, material, options, result);
   SolvedLevels solved{gauss_nodes(count), {}, {}};
   const auto solve = [&](double theta, bool with_stiffness) {
     solved.theta.push_back(theta);
@@ -312,7 +312,7 @@ LevelQuadratureResult level_quadrature(const ContactLevels& levels, const Grid2D
   for (const Node& node : solved.nodes) {
     const auto done = static_cast<int>(solved.theta.size());
     if (options.on_progress &&
-        !options.on_progress({"levels", static_cast<double>(done) / (count + 2), done, 0})) {
+        !options.on_progress({"intervals", static_cast<double>(done) / (count + 2), done, 0})) {
       result.termination = Termination::interrupted;
       return result;
     }

@@ -119,9 +119,9 @@ inline StiffnessRatio ratio_on(const ForceCurve& curve, std::size_t load, double
 }
 
 /// The contacts of one load on one grid.
-class Levels {
+class SurfaceContacts {
  public:
-  Levels(const Surface& surface, double contact_modulus, const NormalContactOptions& options)
+  SurfaceContacts(const Surface& surface, double contact_modulus, const NormalContactOptions& options)
       : surface_(surface), contact_modulus_(contact_modulus), options_(options) {
     // Where a periodic contact is full the indentation has no meaning.
     limit_ = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loss of one spring of a contact with friction.
-#include "level_loss.hpp"
+#include "spring_loss.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ constexpr int steps = 360;  // the loss is then good to 1e-4
 
 }  // namespace
 
-SlidingLevels::SlidingLevels(double swing, double speed) : rise_(swing * mean_rise(speed / swing)) {
+SlidingSprings::SlidingSprings(double swing, double speed) : rise_(swing * mean_rise(speed / swing)) {
   // The stretch above the least one follows the limit down, and sticks where the limit runs away: r
   // + x in two cycles after a first. Later ones are greater by the way, and decide no minimum.
   constexpr std::size_t phases = 240;
@@ -39,19 +39,19 @@ SlidingLevels::SlidingLevels(double swing, double speed) : rise_(swing * mean_ri
   }
 }
 
-double SlidingLevels::loss_over_distance(double min_stretch, double excursion) const {
+double SlidingSprings::loss_over_distance(double min_stretch, double excursion) const {
   const double mean = min_stretch + rise_;
   return std::max(0.0,
                   mean * (excursion - 2 * mean) + (2 * min_stretch + 4.0 / 3 * rise_) * back_);
 }
 
-double SlidingLevels::deepest(double excursion) const {
+double SlidingSprings::deepest(double excursion) const {
   const double linear = excursion - 4 * rise_ + 2 * back_;
   const double rest = rise_ * (excursion - 2 * rise_ + 4.0 / 3 * back_);
   return (linear + std::sqrt(linear * linear + 8 * std::max(0.0, rest))) / 4;
 }
 
-LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion)
+LossOfSpring::LossOfSpring(const Oscillation& motion, double stretch, double excursion)
     : motion_(motion),
       amplitude_(normal_amplitude(motion)),
       stretch_(stretch),
@@ -79,29 +79,29 @@ LevelLoss::LevelLoss(const Oscillation& motion, double stretch, double excursion
   }
 }
 
-double LevelLoss::displacement(double angle) const {
+double LossOfSpring::displacement(double angle) const {
   if (const auto* drag = std::get_if<Drag>(&motion_))
     return drag->drag_velocity / drag->angular_frequency * angle;
   const auto& equal = std::get<EqualFrequency>(motion_);
   return equal.tangential_amplitude * std::cos(angle + equal.phase);
 }
 
-double LevelLoss::operator()(double level) const {
-  if (level >= amplitude_) return 0;
-  if (level > -amplitude_) {
-    const double half = std::acos(level / amplitude_), loss = followed(level, half, 1);
+double LossOfSpring::operator()(double spring_depth) const {
+  if (spring_depth >= amplitude_) return 0;
+  if (spring_depth > -amplitude_) {
+    const double half = std::acos(spring_depth / amplitude_), loss = followed(spring_depth, half, 1);
     // A turning point while it is closed leaves it, in slow motion, a third of its loss.
     return closed_ ? loss * (1 - closed_->turning_share(excursion_) * half / pi) : loss;
   }
-  if (!closed_) return followed(level, pi, 2);
-  return closed_->loss_over_distance(stretch_ * (-amplitude_ - level), excursion_) * distance_ / excursion_;
+  if (!closed_) return followed(spring_depth, pi, 2);
+  return closed_->loss_over_distance(stretch_ * (-amplitude_ - spring_depth), excursion_) * distance_ / excursion_;
 }
 
 // ∮s dx of a spring that touches from −half to half, in the last of the periods: exact for straight
 // steps. What is stored at both ends is the same.
-double LevelLoss::followed(double level, double half, int periods) const {
+double LossOfSpring::followed(double spring_depth, double half, int periods) const {
   const auto limit_at = [&](double angle) {
-    return std::max(0.0, stretch_ * (amplitude_ * std::cos(angle) - level));
+    return std::max(0.0, stretch_ * (amplitude_ * std::cos(angle) - spring_depth));
   };
   double work = 0, stretch = 0;
   for (int period = 0; period < periods; ++period) {

@@ -7,7 +7,7 @@
 #include <salebra/contact/normal/punch.hpp>
 #include <salebra/damping/closed_form.hpp>
 #include <salebra/damping/dissipation.hpp>
-#include <salebra/damping/level_quadrature.hpp>
+#include <salebra/damping/interval_quadrature.hpp>
 #include <salebra/generators/random_phase.hpp>
 #include <salebra/generators/shapes.hpp>
 
@@ -27,16 +27,16 @@ const Grid2D grid{48, 48, 1e-3, 1e-3};
 constexpr double mean_indentation = 0.3e-6,
                  amplitude = 0.1e-6;  // contact radii from 0.24 to 0.35 mm
 
-ContactLevels free_levels(Surface surface) {
-  return boundary_element_levels(std::move(surface), contact_modulus,
+ContactSets free_levels(Surface surface) {
+  return boundary_element_contact_sets(std::move(surface), contact_modulus,
                                  {.tolerance = 1e-9, .boundary = Boundary::free});
 }
-ContactLevels paraboloid() {
+ContactSets paraboloid() {
   return free_levels(paraboloid_surface(grid, radius, off_grid_center(grid)));
 }
 
-LevelQuadratureOptions free_boundary() {
-  LevelQuadratureOptions options;
+IntervalQuadratureOptions free_boundary() {
+  IntervalQuadratureOptions options;
   options.stick.boundary = Boundary::free;
   return options;
 }
@@ -49,27 +49,27 @@ TEST_CASE("Levels of a paraboloid give its exact loss at finite amplitude", "[le
   const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
   for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 2e-7, 0.8}),
                                     Oscillation(Drag{amplitude, 1e-3, 2e3})}) {
-    const LevelQuadratureResult levels =
-        level_quadrature(paraboloid(), grid, material, motion, mean_indentation, free_boundary());
+    const IntervalQuadratureResult intervals =
+        interval_quadrature(paraboloid(), grid, material, motion, mean_indentation, free_boundary());
     const DampingResult exact = relaxation_damping(law, at_indentation(mean_indentation), motion);
-    REQUIRE(levels.converged());
+    REQUIRE(intervals.converged());
     // 23 to 34 cells across the contact: half a per cent measured in case (a), one in case (b),
     // which weighs the edge of the sweep.
-    CHECK(levels.work_by_force == Approx(exact.work_per_cycle).epsilon(0.012));
-    CHECK(levels.work_per_cycle == Approx(exact.work_per_cycle).epsilon(0.012));
-    CHECK(levels.work_by_levels == Approx(exact.work_per_cycle).epsilon(0.012));
-    CHECK(levels.error_estimate < 0.02 * exact.work_per_cycle);
-    CHECK(levels.force_curvature == Approx(exact.force_curvature).epsilon(0.05));
-    CHECK(levels.force == Approx(exact.force).epsilon(1e-3));
-    CHECK(levels.small_amplitude_work == Approx(std::visit(
+    CHECK(intervals.work_by_force == Approx(exact.work_per_cycle).epsilon(0.012));
+    CHECK(intervals.work_per_cycle == Approx(exact.work_per_cycle).epsilon(0.012));
+    CHECK(intervals.work_by_intervals == Approx(exact.work_per_cycle).epsilon(0.012));
+    CHECK(intervals.error_estimate < 0.02 * exact.work_per_cycle);
+    CHECK(intervals.force_curvature == Approx(exact.force_curvature).epsilon(0.05));
+    CHECK(intervals.force == Approx(exact.force).epsilon(1e-3));
+    CHECK(intervals.small_amplitude_work == Approx(std::visit(
                                              [&](const auto& m) {
                                                return closed_form::work_per_cycle(
-                                                   material.modulus_ratio(), levels.force_curvature,
+                                                   material.modulus_ratio(), intervals.force_curvature,
                                                    m);
                                              },
                                              motion)));
     if (poisson == 0)  // the kernels coincide
-      CHECK(levels.work_per_cycle == Approx(levels.work_by_force).epsilon(1e-8));
+      CHECK(intervals.work_per_cycle == Approx(intervals.work_by_force).epsilon(1e-8));
   }
 }
 
@@ -83,16 +83,16 @@ TEST_CASE("The levels' stated error holds wherever the cells lie under the conta
   for (int place = 0; place < 12; ++place) {
     const PlanePoint center{0.5e-3 + place / 12.0 * cells.dx(),
                             0.5e-3 + (place * 5 % 12) / 12.0 * cells.dy()};
-    const ContactLevels levels = free_levels(paraboloid_surface(cells, radius, center));
+    const ContactSets intervals = free_levels(paraboloid_surface(cells, radius, center));
     const auto run = [&](double poisson) {
-      return level_quadrature(levels, cells, Material::of_contact_modulus(contact_modulus, poisson),
+      return interval_quadrature(intervals, cells, Material::of_contact_modulus(contact_modulus, poisson),
                               motion, mean_indentation, free_boundary());
     };
     const Material material = Material::of_contact_modulus(contact_modulus, 0);
     const PowerLaw law(law_coefficient, 1.5, material.modulus_ratio());
     const double exact =
         relaxation_damping(law, at_indentation(mean_indentation), motion).work_per_cycle;
-    const LevelQuadratureResult result = run(0), anisotropic = run(0.5);
+    const IntervalQuadratureResult result = run(0), anisotropic = run(0.5);
     CHECK(std::abs(result.work_per_cycle - exact) <= result.error_estimate);
     stated += result.error_estimate / exact / 12;
     // At ν = 0 the ratio of K_t to K is the same at all levels; where it scatters, that adds to the
@@ -108,9 +108,9 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   const double poisson = 0.4;
   const Material material = Material::of_contact_modulus(contact_modulus, poisson);
   // Hertz: the ellipses of all levels are similar.
-  const ContactLevels levels =
+  const ContactSets intervals =
       free_levels(elliptic_paraboloid_surface(grid, 0.4, 0.04, off_grid_center(grid)));
-  const ContactSet widest = levels(mean_indentation + amplitude).contact;
+  const ContactSet widest = intervals(mean_indentation + amplitude).contact;
   double mean_x = 0, mean_y = 0, square_x = 0, square_y = 0;
   for (Index ix = 0; ix < grid.nx; ++ix)
     for (Index iy = 0; iy < grid.ny; ++iy)
@@ -144,11 +144,11 @@ TEST_CASE("Along and across an elongated contact the loss differs as Mindlin's e
   };
   const Oscillation motion = EqualFrequency{amplitude, 2e-7, pi / 2};
   for (const double direction : {0.0, pi / 2}) {
-    LevelQuadratureOptions options = free_boundary();
-    options.levels = 8;
+    IntervalQuadratureOptions options = free_boundary();
+    options.intervals = 8;
     options.direction = direction;
-    const LevelQuadratureResult result =
-        level_quadrature(levels, grid, material, motion, mean_indentation, options);
+    const IntervalQuadratureResult result =
+        interval_quadrature(intervals, grid, material, motion, mean_indentation, options);
     const double along = direction == 0 ? compliance(1, axes) : compliance(axes, 1);
     const double expected = normal(1, axes) / along / material.modulus_ratio();
     CHECK(std::abs(expected - 1) > 0.05);
@@ -171,10 +171,10 @@ TEST_CASE("A contact that lies askew loses along its own axes as it does along t
         surface.heights(ix, iy) =
             -std::pow(c * x + s * y, 2) / 0.8 - std::pow(c * y - s * x, 2) / 0.08;
       }
-    LevelQuadratureOptions options = free_boundary();
-    options.levels = 8;
+    IntervalQuadratureOptions options = free_boundary();
+    options.intervals = 8;
     options.direction = direction;
-    return level_quadrature(free_levels(surface), grid, material,
+    return interval_quadrature(free_levels(surface), grid, material,
                             EqualFrequency{amplitude, 2e-7, pi / 2}, mean_indentation, options)
         .stiffness_ratio;
   };
@@ -186,7 +186,7 @@ TEST_CASE("A contact that lies askew loses along its own axes as it does along t
 TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
   const Grid2D cells{36, 30, 1.2e-3, 1e-3};
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
-  const ContactLevels caps = [&](double indentation) {
+  const ContactSets caps = [&](double indentation) {
     ContactSetAt level{.contact = ContactSet::Constant(cells.nx, cells.ny, false)};
     for (Index ix = 0; ix < cells.nx; ++ix)
       for (Index iy = 0; iy < cells.ny; ++iy) {
@@ -198,10 +198,10 @@ TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
     return level;
   };
   const Oscillation motion = EqualFrequency{0.5, 2e-7, 1.0};
-  LevelQuadratureOptions options;
-  options.levels = 32;
+  IntervalQuadratureOptions options;
+  options.intervals = 32;
   const double by_levels =
-      level_quadrature(caps, cells, material, motion, 0.5, options).work_by_levels;
+      interval_quadrature(caps, cells, material, motion, 0.5, options).work_by_intervals;
   CycleOptions steps{.steps = 64};
   const double by_steps =
       simulate_cycle(caps, cells, material, trajectory_of(motion, 0.5), steps).work_per_cycle;
@@ -212,19 +212,19 @@ TEST_CASE("Levels and steps agree on a contact of several pieces", "[levels]") {
 TEST_CASE("A level that fails makes the quadrature fail, and bad input is named", "[levels]") {
   const Material material = Material::of_contact_modulus(contact_modulus, 0.3);
   const Oscillation motion = EqualFrequency{amplitude, 2e-7, pi / 2};
-  LevelQuadratureOptions options = free_boundary();
-  options.levels = 4;
+  IntervalQuadratureOptions options = free_boundary();
+  options.intervals = 4;
   options.stick.max_iterations = 2;
-  CHECK_FALSE(level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options)
+  CHECK_FALSE(interval_quadrature(paraboloid(), grid, material, motion, mean_indentation, options)
                   .converged());
   options.stick.max_iterations = free_boundary().stick.max_iterations;
-  const ContactLevels doubtful = [&](double indentation) {
+  const ContactSets doubtful = [&](double indentation) {
     ContactSetAt level = paraboloid()(indentation);
     level.converged = indentation < mean_indentation;
     return level;
   };
-  const LevelQuadratureResult partly =
-      level_quadrature(doubtful, grid, material, motion, mean_indentation, options);
+  const IntervalQuadratureResult partly =
+      interval_quadrature(doubtful, grid, material, motion, mean_indentation, options);
   CHECK_FALSE(partly.converged());
   CHECK(partly.curve.samples[1].converged);
   CHECK_FALSE(partly.curve.samples[4].converged);
@@ -234,8 +234,8 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   int rescued = 0;
   for (int iterations = 3; iterations <= 12; ++iterations) {
     options.stick.max_iterations = iterations;
-    const LevelQuadratureResult result =
-        level_quadrature(paraboloid(), grid, without_ratio, motion, mean_indentation, options);
+    const IntervalQuadratureResult result =
+        interval_quadrature(paraboloid(), grid, without_ratio, motion, mean_indentation, options);
     bool punches = true, sticks = true;
     for (std::size_t k = 1; k + 1 < result.curve.samples.size(); ++k) {
       const ContactSet contact = paraboloid()(result.curve.samples[k].indentation).contact;
@@ -258,13 +258,13 @@ TEST_CASE("A level that fails makes the quadrature fail, and bad input is named"
   CHECK(rescued > 0);
   options = free_boundary();
   options.on_progress = [](const ProgressReport& report) { return report.step < 3; };
-  CHECK(level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options)
+  CHECK(interval_quadrature(paraboloid(), grid, material, motion, mean_indentation, options)
             .termination == Termination::interrupted);
-  options.levels = 3;
+  options.intervals = 3;
   CHECK_THROWS_WITH(
-      level_quadrature(paraboloid(), grid, material, motion, mean_indentation, options),
+      interval_quadrature(paraboloid(), grid, material, motion, mean_indentation, options),
       Catch::StartsWith("levels: 3"));
-  CHECK_THROWS_WITH(level_quadrature(paraboloid(), grid, material, EqualFrequency{0, 1, 1},
+  CHECK_THROWS_WITH(interval_quadrature(paraboloid(), grid, material, EqualFrequency{0, 1, 1},
                                      mean_indentation, free_boundary()),
                     Catch::StartsWith("normal_amplitude: 0"));
 }
@@ -283,18 +283,18 @@ TEST_CASE("Both routes meet on the paper's shapes, and the exact law on the para
       Shape{pyramids_surface(cells, 2, 2, 0.1, off_grid), Boundary::free, 0.012, 0.004},
       Shape{sinusoid_surface(cells, 0.01, 4, 1, off_grid), Boundary::periodic, 0.0045, 0.0015});
   const Material material = Material::of_contact_modulus(1.0, 0.3);
-  const ContactLevels levels =
-      boundary_element_levels(surface, 1.0, {.tolerance = 1e-9, .boundary = boundary});
+  const ContactSets intervals =
+      boundary_element_contact_sets(surface, 1.0, {.tolerance = 1e-9, .boundary = boundary});
   for (const Oscillation& motion :
        {Oscillation(EqualFrequency{sweep, 0.01, pi / 4}), Oscillation(Drag{sweep, 0.01, 1.0})}) {
-    LevelQuadratureOptions options;
+    IntervalQuadratureOptions options;
     options.stick.boundary = boundary;
-    const LevelQuadratureResult by_levels =
-        level_quadrature(levels, cells, material, motion, depth, options);
+    const IntervalQuadratureResult by_levels =
+        interval_quadrature(intervals, cells, material, motion, depth, options);
     CycleOptions steps{.steps = 32};
     steps.stick.boundary = boundary;
     const CycleResult by_steps =
-        simulate_cycle(levels, cells, material, trajectory_of(motion, depth), steps);
+        simulate_cycle(intervals, cells, material, trajectory_of(motion, depth), steps);
     REQUIRE(by_levels.converged());
     REQUIRE(by_steps.converged());
     // h²/24 = 0.16 % of the steps and a per cent of the cells: 24 across the contact of a pyramid,
@@ -325,16 +325,16 @@ TEST_CASE("On rough surfaces levels and steps agree within a per cent", "[levels
   const NormalContactState mean =
       press(surface, contact_modulus, at_pressure(0.05 * 0.1 * contact_modulus));
   const double rms_height = std::sqrt(surface.heights.square().mean());
-  const ContactLevels levels =
-      boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});
+  const ContactSets intervals =
+      boundary_element_contact_sets(surface, contact_modulus, {.tolerance = 1e-9});
   for (const Oscillation& motion : {Oscillation(EqualFrequency{0.2 * rms_height, 1e-7, pi / 4}),
                                     Oscillation(Drag{0.2 * rms_height, 1e-3, 1e4})}) {
-    const LevelQuadratureResult by_levels =
-        level_quadrature(levels, cells, material, motion, mean.indentation);
+    const IntervalQuadratureResult by_levels =
+        interval_quadrature(intervals, cells, material, motion, mean.indentation);
     CycleOptions steps;
     steps.steps = 32;
     const CycleResult by_steps =
-        simulate_cycle(levels, cells, material, trajectory_of(motion, mean.indentation), steps);
+        simulate_cycle(intervals, cells, material, trajectory_of(motion, mean.indentation), steps);
     REQUIRE(by_levels.converged());
     REQUIRE(by_steps.converged());
     // Measured at 128² and 256² over loads: 0.02 to 0.8 %, of which 0.16 % are the 32 steps'.
@@ -363,17 +363,17 @@ TEST_CASE("The theorem with K_t of the contact sets is the work of the steps on 
   const NormalContactState mean =
       press(surface, contact_modulus, at_pressure(0.02 * 0.1 * contact_modulus));
   const double amplitude = 0.05 * std::sqrt(surface.heights.square().mean());
-  const ContactLevels levels =
-      boundary_element_levels(surface, contact_modulus, {.tolerance = 1e-9});
+  const ContactSets intervals =
+      boundary_element_contact_sets(surface, contact_modulus, {.tolerance = 1e-9});
   for (const Oscillation& motion : {Oscillation(EqualFrequency{amplitude, 1e-7, pi / 4}),
                                     Oscillation(Drag{amplitude, 1e-3, 1e4})}) {
-    const LevelQuadratureResult by_levels =
-        level_quadrature(levels, cells, material, motion, mean.indentation, {.levels = 64});
+    const IntervalQuadratureResult by_levels =
+        interval_quadrature(intervals, cells, material, motion, mean.indentation, {.intervals = 64});
     CycleOptions steps;
     steps.steps = 128;
     const CycleResult by_steps =
-        simulate_cycle(levels, cells, material, trajectory_of(motion, mean.indentation), steps);
+        simulate_cycle(intervals, cells, material, trajectory_of(motion, mean.indentation), steps);
     REQUIRE(by_steps.converged());
-    CHECK(by_levels.work_by_levels == Approx(by_steps.work_per_cycle).epsilon(0.01));
+    CHECK(by_levels.work_by_intervals == Approx(by_steps.work_per_cycle).epsilon(0.01));
   }
 }

@@ -15,11 +15,11 @@ namespace salebra::detail {
 /// faster than it is drawn. The mean over φ is
 ///     W = (e + ⟨r⟩) X − 2(e + ⟨r⟩)² + (2e + 4/3 ⟨r⟩)⟨b⟩,
 /// to first order in the way of a cycle over X, exact at e = 0 in slow motion, where ⟨b⟩ = ⟨r⟩/2.
-class SlidingLevels {
+class SlidingSprings {
  public:
   /// swing  (μ/g)u_z, m
   /// speed  v/ω, m
-  SlidingLevels(double swing, double speed);
+  SlidingSprings(double swing, double speed);
 
   /// 1 − W/(⟨r⟩X) at e = 0: the part that turning points take where levels begin to stay closed;
   /// of a level that touches from −θ to θ, θ/π times it.
@@ -39,14 +39,14 @@ class SlidingLevels {
 ///     W = −∫K_t w' dζ,
 /// since w is 0 at the greatest indentation and at the deepest level that slips, and continuous
 /// where levels begin to stay closed.
-class LevelLoss {
+class LossOfSpring {
  public:
   /// stretch    μ/g
   /// excursion  between the turning points of a drag, m
-  LevelLoss(const Oscillation& motion, double stretch, double excursion);
+  LossOfSpring(const Oscillation& motion, double stretch, double excursion);
 
   /// level: ζ − δ0.
-  double operator()(double level) const;
+  double operator()(double spring_depth) const;
   /// How far below the least indentation levels slip.
   double depth() const { return depth_; }
   /// Largest |w'| of the levels that stay closed.
@@ -54,12 +54,12 @@ class LevelLoss {
 
  private:
   double displacement(double angle) const;
-  double followed(double level, double half, int periods) const;
+  double followed(double spring_depth, double half, int periods) const;
 
   Oscillation motion_;
   double amplitude_, stretch_, excursion_;
   double distance_ = 0;                            // of a drag in a normal cycle, m
-  std::optional<SlidingLevels> closed_ = {};  // of a drag
+  std::optional<SlidingSprings> closed_ = {};  // of a drag
   double depth_ = 0, steepest_ = 0;
 };
 

@@ -8,15 +8,15 @@
 
 namespace salebra::python {
 
-/// ContactLevels as a Python object, and the grid that they belong to.
-struct BoundLevels {
-  ContactLevels levels;
+/// ContactSets as a Python object, and the grid that they belong to.
+struct BoundContactSets {
+  ContactSets contact_sets;
   Grid2D grid;
   std::string identity;  ///< what decides them, as a setting of a checkpoint
 };
 
 /// A Python function of the indentation that returns a contact set and a force.
-struct LevelFunction {
+struct ContactSetFunction {
   nanobind::object function;
 };
 
@@ -25,9 +25,9 @@ struct LevelFunction {
 namespace nanobind::detail {
 
 template <>
-struct type_caster<salebra::python::LevelFunction> {
+struct type_caster<salebra::python::ContactSetFunction> {
   NB_TYPE_CASTER(
-      salebra::python::LevelFunction,
+      salebra::python::ContactSetFunction,
       const_name("collections.abc.Callable[[float], tuple[numpy.typing.ArrayLike, float]]"))
   bool from_python(handle source, uint32_t, cleanup_list*) noexcept {
     if (!PyCallable_Check(source.ptr())) return false;
